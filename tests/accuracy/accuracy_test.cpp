@@ -76,7 +76,7 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
   CHECK(names == std::vector<std::string>{"10,000", "30,000", "100,000", "200,000", "300,000", "1,000,000",
                                           "recall 0.9", "recall 0.99", "recall 0.999"});
   CHECK(still[0].reference.keys == std::vector<std::string>{"trace.rays=10000000"});
-  CHECK(drive[0].reference.keys == std::vector<std::string>{"trace.rays=2000000"});  // the user's are the most
+  CHECK(drive[0].reference.keys == std::vector<std::string>{"trace.rays=2000000"});  // the largest number is the user's
   CHECK(drive[0].settings.back().keys == std::vector<std::string>{"trace.reuse=false"});
   CHECK(still[1].reference.keys == std::vector<std::string>{"trace.max_depth=3"});
   CHECK(still[1].settings.size() == 3);

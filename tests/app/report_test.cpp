@@ -1,4 +1,4 @@
-// The closing words of a run, from made-up results.
+// The closing report of a run, from invented results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>
 #include "output/run_advice.hpp"
@@ -36,7 +36,7 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
 TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {
   SampleRun sample;
   const Results results{totals_of(sample.frames()), {}, {}};
-  Run run = sample.run();  // diffraction is off, and by default nobody asks for it
+  Run run = sample.run();  // diffraction is off, which is not reported by default
   const auto report = [&] { return app::report(run, results, true); };
   CHECK(contains(report(), "\nfeatures   reflection\n"));
   sample.config.trace.diffraction = true;

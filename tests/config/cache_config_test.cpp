@@ -1,5 +1,5 @@
-// The ray cache, reception spheres and waypoints in config files: what is read, what is refused and where.
-// Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
+// The ray cache, reception spheres and waypoints in config files: accepted and refused values, and the places of
+// errors. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 #include "config/texts.hpp"
 
@@ -70,7 +70,7 @@ TEST_CASE("every kind, key, lock, purge, scope and hit point is available") {
         "purge = \"position\"", "purge = \"precision\"", "scope = \"static\"", "scope = \"all\"", "hit_point = \"own\"",
         "hit_point = \"cached\"", "statistics = true", "buffer_size = 1000003"})
     CHECK(of(open + "cache." + line) == "no error");
-  // Without effect, and said so by the doc: no error.
+  // These keys have no effect, as their doc says, but are no error.
   CHECK(of(open + "cache.key = \"exact\"\ncache.purge = \"precision\"\ncache.division = 7\n"
                   "cache.hit_point = \"cached\"") == "no error");
   CHECK(of(open + "cache.scope = \"all\"\ncache.hit_point = \"cached\"") == "no error");

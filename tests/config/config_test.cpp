@@ -1,5 +1,5 @@
-// Config files: what is accepted, what each kind of mistake answers, and that --set behaves as the file does.
-// The texts are written here by hand; positions are counted in them, not computed by the parser.
+// Config files: accepted values, the message of each kind of mistake, and that --set behaves as the file does. The
+// texts are written here by hand; positions are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,8 @@ TEST_CASE("a minimal config keeps every default") {
   CHECK(c.radio.frequency_hz == d.radio.frequency_hz);
   CHECK(c.trace.rays == d.trace.rays);
   CHECK(c.trace.max_depth == d.trace.max_depth);
-  CHECK(c.output.directory == (std::filesystem::current_path() / "out").string());  // as -o is, not beside the file
+  // Relative to the current folder, like -o, and not to the file.
+  CHECK(c.output.directory == (std::filesystem::current_path() / "out").string());
   REQUIRE(c.transmitters.size() == 1);
   REQUIRE(c.receivers.size() == 1);
   CHECK(c.receivers[0].name == "r");
@@ -207,7 +208,7 @@ TEST_CASE("diffraction, transmission and scattering are refused beside what foll
   check_contains(with(sphere + "trace.diffraction = true\n"), "a.toml:3:21: trace.reception = \"sphere\" receives");
   check_contains(error_of(scene + sphere + ends, {"trace.diffraction=true"}),
                  "--set trace.diffraction=true: trace.reception = \"sphere\" receives");
-  // Each contradiction is told.
+  // Every contradiction is reported.
   const std::string both = with("trace.reception = \"sphere\"\n" + all);
   for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"})
     check_contains(both, key + " = true: set it to false");

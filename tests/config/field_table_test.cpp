@@ -1,5 +1,5 @@
-// The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints.
-// It assumes nothing of the parser's insides: texts go in, Configs and texts come out.
+// The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints. It does
+// not use the parser's internals: texts go in, Configs and texts come out.
 #include "config/field_table.hpp"
 #include <doctest/doctest.h>
 #include <random>

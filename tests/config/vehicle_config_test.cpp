@@ -1,5 +1,5 @@
-// The tables of moving worlds: what is read, what is refused and where, and that a resolved config reads back.
-// Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
+// The tables of moving worlds: accepted and refused values, the places of errors, and that a resolved config reads
+// back. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -119,7 +119,7 @@ TEST_CASE("a guarded file is there once, where nothing in between depends on a c
   };
   CHECK(count("text of a") == 1);
   CHECK(count("text of b") == 1);
-  CHECK(count("text of c") == 2);  // the first may not be seen
+  CHECK(count("text of c") == 2);  // the first one may not be visible
 }
 
 TEST_CASE("a source with one of its kernels keeps its lines, and what is no kernel") {

@@ -1,4 +1,4 @@
-// Fields of vector maps by their names, and what they mean.
+// Fields of vector maps by their names, and their meaning.
 #include "map_files.hpp"
 
 using namespace wavetracer;

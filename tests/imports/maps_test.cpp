@@ -114,7 +114,7 @@ TEST_CASE("fields, layers and coordinate systems: what is missing is said with w
   check_contains(guessed.summary.warnings[0], "--height (metres) or --levels (storeys): h_m, floors, name");
   CHECK(guessed.summary.guessed.at("neither height nor levels given: default height used") == 4);
   check_contains(refusal(folder.write("no.map", "nothing"), none), "no.map: cannot be read as a map:");
-  // A drawing in metres of nowhere, and degrees that nobody calls so.
+  // One is a drawing in metres without a place, the other has degrees that are not declared.
   const auto csv = [&](const char* name, const char* wkt) {
     const fs::path file = folder.write(name, fmt::format("WKT,h_m\n\"{}\",8\n", wkt));
     const fs::path packed = file.string() + ".gpkg";
@@ -194,7 +194,7 @@ TEST_CASE("a GeoTIFF of hills: the ground misses no post by more than its error,
     }
   CHECK(inside > 200000);
   CHECK(worst_post_m <= 0.3 + 0.01);  // and vertices on the grid of 1/1024 m, on slopes
-  CHECK(worst_between_m <= 0.5);      // between posts, where the raster says nothing
+  CHECK(worst_between_m <= 0.5);      // between posts, where the raster has no value
   // The house of 12.5 m: its floor is 1 m below the lowest ground along its outline.
   double lowest_m = 1e9;
   const Projection there(middle);

@@ -1,4 +1,4 @@
-// OpenStreetMap texts against areas, volumes and heights that one can write down. Nodes are rounded to 11 mm.
+// OpenStreetMap texts compared with areas, volumes and heights that are known. Nodes are rounded to 11 mm.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -172,7 +172,7 @@ TEST_CASE("the ground reaches below the network of --net and the traffic, with a
   options.traffic.add({-2000, 0});
   options.traffic.add({0, 1500});
   CHECK(ground_of(options) == std::array{-2010.0, -30.0, 310.0, 1510.0});
-  // A network without edges, as SUMO writes it; none; and what cannot be.
+  // The network has no edges, as SUMO writes it; none; or an impossible extent.
   options = {};
   for (const char* nothing : {"10000000000.00,10000000000.00,-10000000000.00,-10000000000.00", ""}) {
     options.net = net(nothing);

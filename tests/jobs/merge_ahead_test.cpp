@@ -52,7 +52,7 @@ TEST_CASE("a merge that follows shards as they finish writes what one at the end
   const SampleRun sample = with_waypoints();
   const std::vector<std::string> expected = without(sample);
   REQUIRE(cut_units.count() == 5);
-  // Up to how many units it looks, so that the last parts are of the merge.
+  // It looks at this many units, so that the merge itself handles the last parts.
   for (const uint64_t looked : {0, 2, 5}) {
     CAPTURE(looked);
     const TemporaryFolder folder;

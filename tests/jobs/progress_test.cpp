@@ -1,4 +1,4 @@
-// Elapsed time, rate and time left, against what a clock and a division say.
+// Elapsed time, rate and time left, compared with a clock and a division.
 #include "jobs/progress.hpp"
 #include <doctest/doctest.h>
 #include <fcntl.h>

@@ -20,7 +20,7 @@ inline SampleRun with_waypoints() {
   return sample;
 }
 
-// The manifest says of all files that they are as they were written: damage that no hash tells of.
+// Rewrites the manifest so that all files match it: the damage cannot be found by hash.
 inline void note_as_written(const std::filesystem::path& manifest) {
   std::string text;
   for (Shard shard : read_manifest(manifest)) {

@@ -122,7 +122,7 @@ TEST_CASE("a folder in use by another job is refused, and free again when its pr
   leave_file(folder, dead_process("job"));
   check_not_in_use(folder.path(), this_process("other", 0));
   leave_file(folder, dead_process(""));
-  { const Presence next(folder.path(), this_process("", 0)); }  // which takes away what dead ones have left
+  { const Presence next(folder.path(), this_process("", 0)); }  // it removes the files of dead processes
   CHECK(fs::is_empty(folder.path()));
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("a task is taken by one process; one that died is followed by one othe
   b.look();
   CHECK(a.take("x"));
   CHECK_FALSE(a.take("x"));
-  CHECK_FALSE(b.take("x"));  // though it has not looked since
+  CHECK_FALSE(b.take("x"));  // although it has not looked since
   b.look();
   CHECK(b.state("x") == ClaimState::taken);
   CHECK(b.state("y") == ClaimState::free);
@@ -178,7 +178,7 @@ TEST_CASE("a task is taken by one process; one that died is followed by one othe
   CHECK(a.state("z") == ClaimState::free);
   Claims again(folder.path(), dead);
   again.look();
-  CHECK(again.take("z"));  // the second to die over it
+  CHECK(again.take("z"));  // the second process to die over it
   a.look();
   CHECK(a.state("z") == ClaimState::failed);
   CHECK_FALSE(a.take("z"));

@@ -69,7 +69,7 @@ def skipped_frames_that_matter():
             warm = client.ask(frame(3 * turn, 10 * turn + 1, moved))["links"]
             expect(warm != alone, "a warm frame differs from a cold one here")
             client.ask(frame(3 * turn, 10 * turn + 2, POSES, cold=True))
-            # The second is skipped, if the third comes in time.
+            # The second is skipped if the third comes in time.
             client.send(lines_of(frame(1000, 10 * turn + 3, POSES), frame(1001, 10 * turn + 4, moved, cold=True),
                                  frame(1002, 10 * turn + 5, moved)))
             answers = [client.receive()]

@@ -1,5 +1,5 @@
 // Recordings of CARLA as text, by the format of its sources (CarlaRecorderQuery.cpp of 0.9.15): centimetres, y to the
-// right, boxes anywhere; what is passed over, and what is wrong.
+// right, boxes anywhere; skipped lines, and errors.
 #include "motion/carla.hpp"
 
 #include "motion_files.hpp"
