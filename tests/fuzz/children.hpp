@@ -1,6 +1,6 @@
-// The children of LimitedChild, in which the HDF5 library may fault: that is no finding, and none may take long.
-// They must stay as they are, a process for each input: what faults depends on what the memory holds, so only a copy of
-// this process meets what this process would.
+// The children of LimitedChild, in which the HDF5 library may crash: that is no finding, and no child may take long.
+// Each input must have its own process: whether the library crashes depends on the content of memory, so only a copy of
+// this process behaves as this process would.
 #pragma once
 #include <pthread.h>
 #include <sys/time.h>
@@ -19,7 +19,7 @@ inline void end_quietly_and_soon() {
   setitimer(ITIMER_VIRTUAL, &limit, nullptr);
 }
 
-// Once, before the first input.
+// It is called once, before the first input.
 inline int tame_children() { return pthread_atfork(nullptr, nullptr, end_quietly_and_soon); }
 
 }  // namespace wavetracer::fuzz

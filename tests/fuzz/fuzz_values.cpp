@@ -66,7 +66,7 @@ herr_t add_dataset(hid_t root, const char* name, const H5O_info_t* info, void* o
   return 0;
 }
 
-// paths.h5 of the sample, which stays: SavedRun is told of it, though nothing is read from it.
+// paths.h5 of the sample, which is never changed: SavedRun gets its path, though nothing is read from it.
 class Sample {
  public:
   Sample() : folder_("/dev/shm/wavetracer-fuzz-sample-" + std::to_string(getpid())) {

@@ -168,7 +168,7 @@ def as_command(cluster, config, folder, expected):
 
 
 SBATCH = r"""#!/bin/sh
-# Slurm as far as a job array needs it: runs the tasks one after the other, and jobs only after those they depend on.
+# A stand-in for Slurm: it runs the tasks of a job array one after the other, and jobs only after those they depend on.
 echo "$*" >> sbatch.log
 script=$(mktemp ./job.XXXXXX)
 cat > "$script"

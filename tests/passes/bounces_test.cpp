@@ -1,5 +1,5 @@
 // bounces: the same sequences, quarters, ages, ends and counts as the loop of trace, scan and interact, in a moving
-// world, for any number of interactions; and an overflow that is told.
+// world, for any number of interactions; and an overflow that is reported.
 #include "passes/bounces.hpp"
 
 #include <map>

@@ -1,5 +1,6 @@
 // The thesis' tables on the device (cache.kind = "thesis", "thesis-chained") against its listings on the host, one
-// operation at a time: they answer, refuse and err alike. Then the faults that tell them from ours.
+// operation at a time: they give the same answers, refusals and errors. Then come the faults that distinguish them from
+// ours.
 #include <doctest/doctest.h>
 
 #include <unordered_map>
@@ -46,7 +47,7 @@ std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   return rays;
 }
 
-// Near where the ray starts, so that by precision some answer.
+// The hit is near the start of the ray, so that some answer by precision.
 Hit near_hit(uint32_t i) { return {0.1f * static_cast<float>(i % 7), 0, i}; }
 
 thesis::Point point(const Float3& p) { return {p[0], p[1], p[2]}; }
@@ -115,7 +116,7 @@ TEST_CASE("thesis: the open table answers as listing C.3, by position and by pre
       others += !(listing_key(config, rays[*expected]) == key);
     }
     CHECK(answered > 20);
-    CHECK(refused > 20);  // slots whose write lock nobody opens
+    CHECK(refused > 20);  // slots whose write lock is never opened
     CHECK(others > 5);    // the fault: answers of other keys
   }
 }

@@ -1,5 +1,5 @@
 // A table of the ray cache with the kernels of probe_cache.cl, for tests and bench_cache.
-// Keys are numbers; what is stored under one follows from it, so that kernels see for themselves whether it is right.
+// Keys are numbers; the value stored under a key follows from it, so that kernels can check it themselves.
 #pragma once
 #include <array>
 #include <string>
@@ -59,7 +59,7 @@ class CacheProbe {
 
   struct Outcome {
     uint32_t puts, finds, hits, wrong;
-    std::vector<uint32_t> slots;  // a key: what a put of it returned, or WT_NONE
+    std::vector<uint32_t> slots;  // for each key: result of its put, or WT_NONE
     double seconds;               // time of the kernel, by the device's clock
   };
   Outcome mixed(uint64_t operations, uint32_t universe) {
@@ -91,7 +91,7 @@ class CacheProbe {
     run("remove_slots", slots.size(), context_.buffer(slots, "removed slots"), static_cast<uint32_t>(slots.size()));
   }
 
-  // One labelled ray, by itself: the hit's primitive that it is given, and what it is answered (WT_NONE: nothing).
+  // Puts or finds one labelled ray by itself: the primitive of its hit goes in or comes out (WT_NONE: nothing).
   uint32_t put(const Ray& ray, uint32_t left, uint32_t now, uint32_t primitive) {
     auto slot = no_slots(1);
     const RayQueue queue = labelled(ray, left);
@@ -106,7 +106,7 @@ class CacheProbe {
     return primitive.read_one(0);
   }
 
-  // Entries of before this frame are stale.
+  // Entries written before this frame become stale.
   void set_since(uint32_t since) {
     for (wt_cache_region& region : table.regions) region.since = since;
     table.device_regions.write(table.regions);

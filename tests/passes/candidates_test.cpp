@@ -1,5 +1,5 @@
-// candidates: the rejection by boxes never loses what the image method in double accepts, and loses most of the rest.
-// Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
+// candidates: the rejection by boxes never rejects a pair that the image method in double accepts, and rejects most
+// others. Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
 #include "passes/candidates.hpp"
 
 #include <doctest/doctest.h>
@@ -133,7 +133,7 @@ TEST_CASE("what listeners see is no candidate, nor is a longer sequence than ask
   for (const glm::dvec3& p : receivers) rx.push_back({.position_m = p});
   for (uint32_t t = 0; t < 2; ++t)
     for (uint32_t r = 0; r < 25; ++r) links.push_back({t, r});
-  // Ends 2 and 3 are receivers 4 and 1; the trie holds what they see beside what the transmitters do.
+  // Ends 2 and 3 are receivers 4 and 1; the trie contains what they see and what the transmitters see.
   const RadioEnds ends = make_radio_ends(context(), tx, rx, links, {4, 1});
   using Found = std::set<std::pair<Sequence, uint32_t>>;
   const auto listed = [&](uint32_t origins, uint32_t max_reflections) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr uint32_t untouched = 77;
 
-// One word in `period` lives; period 1: all, 0: none.
+// One word of `period` is live; period 1: all, 0: none.
 void check_compact(Compact& compact, Scan& scan, uint32_t block, size_t first, uint32_t count, uint32_t period) {
   Random random(count + period);
   const uint32_t blocks = (count + block - 1) / block;

@@ -176,7 +176,7 @@ TEST_CASE("cube cells: every bin is used, ends and what lies outside are kept in
       const uint32_t bin = device::wt_cube_cell(component, bins);
       used.insert(bin);
       const double place = (double{component} + 1) / 2 * bins;
-      CHECK(std::abs(place - bin - 0.5) <= 0.5 + 1e-4);  // in its bin, but for rounding at the borders
+      CHECK(std::abs(place - bin - 0.5) <= 0.5 + 1e-4);  // in its bin, except for rounding at the borders
     }
     CHECK(used.size() == bins);
     CHECK(*used.rbegin() == bins - 1);

@@ -1,4 +1,4 @@
-// Labelled ray queues and made-up hits for the tests of passes that follow rays.
+// Makes labelled ray queues and invented hits for the tests of passes that follow rays.
 // A label is what label_rays and interact write: sample and transmitter.
 #pragma once
 #include <vector>

@@ -1,5 +1,5 @@
-// Launches of one, two and three dimensions: every ray is taken exactly once, and hits are the same whatever the shape.
-// Groups of a curve's launch hold rays that follow each other, which is what the thesis maps buffers for.
+// Launches of one, two and three dimensions: every ray is taken exactly once, and hits are the same for every shape.
+// Groups of a curve's launch contain consecutive rays, which is the purpose of the thesis' mapped buffers.
 #include "passes/launch_shape.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,6 @@
 // occlusion: a surface blocks a leg that crosses it, if the ends lie on opposite sides of its plane and are not on it.
-// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has what touches.
+// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has the cases of touching
+// surfaces.
 #include "passes/occlusion.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +19,7 @@ bool sees(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3&
   return Exact(reference::scene_of_quads(quads), {a}, {b}, {}, 1).visible() == 1;
 }
 
-// Is there a path with these reflections, and no leg of it obstructed?
+// Tells whether there is a path with these reflections without an obstructed leg.
 bool reflects(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b,
               const std::vector<uint32_t>& surfaces) {
   const Sequence wanted{0, surfaces};

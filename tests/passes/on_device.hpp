@@ -32,9 +32,9 @@ struct Hit {
   bool operator==(const Hit&) const = default;
 };
 
-// Kernels are compiled once for all tests of a program. Never destroyed: at exit the driver may be gone before us. It
-// opens devices that the program refuses, so that kernels which need neither double precision nor 64-bit atomics, such
-// as the sorts, are tested there as well; others do not compile there, and their tests fail.
+// Kernels are compiled once for all tests of a program. It is never destroyed: at exit the driver may be gone already.
+// It opens devices that the program refuses, so that kernels which need neither double precision nor 64-bit atomics,
+// such as the sorts, are tested there as well; others do not compile there, and their tests fail.
 inline gpu::Context& context() {
   static gpu::Context& shared = []() -> gpu::Context& {
     auto* const opened = new gpu::Context("", {.fp64 = false, .int64_atomics = false});

@@ -1,5 +1,5 @@
 // refine: ends counted, rare samples marked and cells split, against plain code; and cells that four finer ones tile.
-// Ends are made up; no ray is traced.
+// Ends are invented; no ray is traced.
 #include "passes/refine.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// sequences: the trie is a set, whatever the size of its table: against std::set, small and full tables, exchanges.
-// Sequences are made up; no ray is traced.
+// sequences: the trie is a set for every size of its table: compared with std::set, small and full tables, exchanges.
+// Sequences are invented; no ray is traced.
 #include "passes/sequences.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ std::vector<Sequence> random_sequences(size_t count, uint32_t seed) {
   for (Sequence& s : out) {
     s.transmitter = random.below(made_transmitters);
     s.surfaces.resize(random.below(made_depth + 1));
-    // Squared: some surfaces are met far more often than others, as in a scene.
+    // Squaring makes some surfaces much more frequent than others, as in a scene.
     for (uint32_t& surface : s.surfaces) surface = static_cast<uint32_t>(std::pow(random(), 2) * surface_count);
   }
   return out;
@@ -134,7 +134,7 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
       if (!perpendicular(s.surfaces[k], s.surfaces[k + 1])) continue;
       Sequence swapped = s;
       std::swap(swapped.surfaces[k], swapped.surfaces[k + 1]);
-      // A surface does not follow itself: no ray does that.
+      // A surface never follows itself.
       if (std::adjacent_find(swapped.surfaces.begin(), swapped.surfaces.end()) != swapped.surfaces.end()) continue;
       expected.push_back(swapped);
     }

@@ -1,5 +1,5 @@
-// Solved paths that a test writes down itself, and what their legs pass by brute force: double, every triangle.
-// Row i goes from transmitter i to receiver i.
+// Solved paths that a test writes itself, and the surfaces that their legs pass, by brute force: double, every
+// triangle. Row i goes from transmitter i to receiver i.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ inline std::vector<Crossing> crossings(const Scene& scene, const glm::dvec3& fro
   return out;
 }
 
-// The row with what its legs pass.
+// Returns the row with the surfaces that its legs pass.
 inline PathRow with_crossings(const Scene& scene, const PathRow& row) {
   PathRow out = row;
   out.steps.clear();

@@ -1,5 +1,5 @@
-// The ray cache as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 to C.3), for tests of its faults.
-// Transcribed as it is, 32-bit int and 64-bit long; sums and products wrap as they did on the GPU.
+// The ray cache as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 to C.3), for tests of its faults. It
+// is transcribed without changes, with 32-bit int and 64-bit long; sums and products wrap as they did on the GPU.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// top_level: the tree that the device builds over instances, against plain code on what it holds, and against the
-// host's tree by the hits of rays.
+// top_level: the tree that the device builds over instances; plain code checks its content, and hits of rays compare it
+// with the host's tree.
 #include "passes/top_level.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ struct Span {
   glm::dvec3 lower, upper;
 };
 
-// The top level as it stands in DeviceScene::moving, walked from its root.
+// Walks the top level in DeviceScene::moving from its root.
 class Walk {
  public:
   Walk(const Traffic& traffic, const DeviceScene& scene) : traffic_(traffic), moving_(scene.moving.read()) {
@@ -30,7 +30,7 @@ class Walk {
   size_t deepest = 0;                 // inner nodes on the longest way down
   double half_areas = 0;              // sum over the boxes of inner nodes except the root
   double worst_gap_m = 0;             // largest distance of an instance's corner outside of a box above it
-  double most_slack_m = 0;            // by which the box of a leaf is larger than it need be
+  double most_slack_m = 0;            // largest excess of a leaf's box
 
  private:
   // Record number `index` of an array that begins at float4 number `first`.
@@ -41,7 +41,7 @@ class Walk {
     return record;
   }
 
-  // Returns what the node's corners span.
+  // Returns the span of the node's corners.
   Span visit(size_t node, size_t depth) {
     deepest = std::max(deepest, depth);
     const wt_centred_node n = at<wt_centred_node>(sizeof(wt_moving_head) / 16, node);

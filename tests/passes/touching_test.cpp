@@ -49,7 +49,7 @@ struct TouchingWorld {
     if (!scene.wedges.empty()) wedges.emplace(context(), scene, std::vector<Scene>{}, std::vector<Instance>{}, true);
   }
 
-  // Returns what the path passes by occlusion, all or nothing, and by transmissions, which must agree.
+  // Returns the surfaces that the path passes by occlusion (all or nothing) and by transmissions, which must agree.
   bool free(const PathRow& row) {
     const StepTables steps{wedges ? &wedges->list().wedges : nullptr, nullptr};
     Counters counters(context());

@@ -36,7 +36,7 @@ std::vector<uint32_t> through(const std::vector<Quad>& quads, const glm::dvec3& 
 
 uint32_t passed(uint32_t surface) { return WT_STEP_TRANSMISSION | surface; }
 
-// Steps as they are, points to a nanometre.
+// Compares steps exactly, points to a nanometre.
 void check_row(const PathRow& row, const PathRow& expected) {
   REQUIRE_FALSE(row.blocked);
   REQUIRE(row.steps == expected.steps);
@@ -91,7 +91,7 @@ TEST_CASE("what random paths among random quads pass, in order, is what brute fo
     passing += count;
     allowed += fits && count > 0;
   }
-  CHECK(passing > 150);  // the test would say nothing otherwise
+  CHECK(passing > 150);  // otherwise the test would prove nothing
   CHECK(allowed > 20);
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a shared border is passed once") {
 TEST_CASE("an end on a wall, and the surfaces that a leg is reflected by, are not passed") {
   for (const double off : {0.0, 5e-5, -5e-5}) CHECK(through({wall(0)}, {-3, 0, 0}, {off, 0.1, 0.2}).empty());
   CHECK(through({wall(0)}, {-3, 0, 0}, {2e-4, 0.1, 0.2}).size() == 1);
-  // A reflection that a rounded point puts behind its surface; a wedge of that number hides nothing of its own.
+  // A reflection lies behind its surface because of rounding; a wedge of that number hides nothing of its own.
   const glm::dvec3 from{-3, -1, 0}, to{-3, 1, 0}, behind{0.01, 0, 0};
   CHECK(pass({wall(0)}, {from, to, {0}, {behind}}).steps == std::vector{0u});
   CHECK(pass({wall(0)}, {from, to, {WT_STEP_DIFFRACTION}, {behind}}).steps ==

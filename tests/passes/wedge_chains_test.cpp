@@ -169,7 +169,7 @@ TEST_CASE("a chain whose way leaves an edge is none") {
   }
 }
 
-// A house on the ground, its walls and roof closed; wedges 0 to 3 below, then by what reference::box_wedges says.
+// Makes a house on the ground, its walls and roof closed; wedges 0 to 3 below, then those of reference::box_wedges.
 Scene house_of(const glm::dvec3& low, const glm::dvec3& high) {
   Scene scene = reference::scene_of_quads(reference::box_walls(low, high));
   scene.wedges = reference::box_wedges(low, high);

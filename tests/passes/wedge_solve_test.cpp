@@ -1,5 +1,5 @@
 // wedge_solve: points on one edge and on two against closed forms and the reference's bisection, whose lengths are
-// minimal; edges' ends, reflections, and what is no path.
+// minimal; edges' ends, reflections, and cases without a path.
 #include "passes/wedge_solve.hpp"
 #include "passes/wedges.hpp"
 
@@ -222,7 +222,7 @@ TEST_CASE("reflections before and after: the edge is met where the images' strai
     if (at) CHECK(glm::distance(row.points[0], a + (edge - a) * (a.z / (a.z - 4))) < 1e-12);
     if (b.z < 0) CHECK(glm::distance(row.points.back(), b + (edge - b) * (b.z / (b.z - 4))) < 1e-12);
   }
-  // A row has room for so many interactions and no more.
+  // A row has room for this number of interactions and no more.
   CHECK(solve(scene, {tx}, {rx}, questions, 3).size() == 4);
 }
 

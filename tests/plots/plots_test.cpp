@@ -93,7 +93,7 @@ double power_db(const Paths& paths, size_t row) {
 }
 
 // A grid "g" of 3 x 2 behind a receiver of its own; transmitter 0 reaches cells 0 to 3, transmitter 1 cells 3 and 4,
-// and nobody cell 5. Powers are 10^-(tx + cell + 8).
+// and none reaches cell 5. Powers are 10^-(tx + cell + 8).
 Written grid_run() {
   SampleRun sample;
   sample.config.text =

@@ -66,7 +66,7 @@ root, added = system({}, pocl=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/site/pyopencl/.libs/libpocl-0.so"]
 assert added["OCL_ICD_VENDORS"].startswith(f"{root}/cache/wavetracer/")
 assert stat.S_IMODE(os.stat(added["OCL_ICD_VENDORS"]).st_mode) == 0o700
-# A driver that is there but not listed comes to those that are; PoCL comes beside a GPU's driver.
+# A driver that exists but is not listed is added to those that are; PoCL is added beside a GPU's driver.
 root, added = system(POCL, nvidia=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/lib/libnvidia-opencl.so.1", "libpocl.so.2.10.0"]
 root, added = system({"intel.icd": "libigdrcl.so\n"}, nvidia=True, pocl=True)

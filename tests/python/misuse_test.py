@@ -139,7 +139,7 @@ def check_forks():
         _shared.close()
 
     assert in_child(child) == 0
-    # While another thread has its turn, and by the end of the interpreter.
+    # Another thread uses it, until the interpreter ends.
     begun, go_on = threading.Event(), threading.Event()
 
     class Slow:

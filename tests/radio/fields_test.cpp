@@ -311,7 +311,7 @@ TEST_CASE("ends are where the state has them, turned as it says, to the last bit
   CHECK(paths.delay_s == expected.delay_s);
   CHECK(paths.gain_db == expected.gain_db);
   CHECK(paths.aoa_phi_rad == expected.aoa_phi_rad);
-  // 6, -2 and -4 m of leg, sqrt(56) m long: the ends come nearer by these parts of their speeds.
+  // 6, -2 and -4 m are the leg's components, sqrt(56) m its length: the ends approach by these parts of their speeds.
   CHECK(paths.doppler_hz[0] == test::near((30 * 6 - 20 * 2) / std::sqrt(56) / still.wavelength_m(), 1e-13));
 }
 

@@ -1,5 +1,5 @@
-// Coefficients against the reference path lists: their sequences of surfaces, solved here and compared as matrices.
-// The lists come from a float32 program: its points are off by millimetres, which turns a leg of a few centimetres by
+// Coefficients against the reference path lists: their sequences of surfaces, solved here and compared as matrices. The
+// lists come from a float32 program: its points have errors of millimetres, which turns a leg of a few centimetres by
 // degrees, and it evaluates fields at those directions. So fields are compared at its own points as well as at ours.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

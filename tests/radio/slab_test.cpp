@@ -22,7 +22,7 @@ bool finite(const SlabCoefficients& s) {
   return true;
 }
 
-// P.2040-3 as printed: good where nothing cancels or overflows.
+// P.2040-3 as printed is accurate where nothing cancels or overflows.
 SlabCoefficients textbook(Complex eta, double theta, double thickness_m) {
   const Complex root = std::sqrt(eta - std::pow(std::sin(theta), 2)), j{0, 1};
   const Complex te = (std::cos(theta) - root) / (std::cos(theta) + root);

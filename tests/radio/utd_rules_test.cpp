@@ -1,5 +1,5 @@
-// Wedge diffraction where it has to follow rules: reciprocity, limits, finite values, hints, faces that let waves pass.
-// Random geometry from fixed seeds.
+// Rules of wedge diffraction: reciprocity, limits, finite values, hints, faces that let waves pass. The geometry is
+// random, from fixed seeds.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -86,7 +86,7 @@ TEST_CASE("the numbering of faces does not matter") {
     const WedgeFrame other{{0, 0, -1}, corner.inward(1), corner.normal(1), exterior};
     const Diffraction e = diffract(other, {glass_face(), concrete_face()}, k_in, edge_direction(out, beta0), 3,
                                    wavelength_m, corner.transmits);
-    // The edge turned round turns all four vectors of the bases round, and the matrix stays.
+    // Reversing the edge reverses all four vectors of the bases, and the matrix stays the same.
     for (size_t j = 0; j < 2; ++j) {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
       CHECK(glm::length(d.to[j] + e.to[j]) < 1e-14);
@@ -107,7 +107,7 @@ TEST_CASE("two faces in one plane diffract nothing; nor does a conducting corner
           const Corner corner{pi / whole, {perfect_conductor, perfect_conductor}, wavelength_m};
           CHECK(size(between(corner, in * pi / whole, out * pi / whole, beta0, 5).coefficient) < 1e-12);
         }
-        // As the angle between the faces closes, what they diffract falls with it.
+        // If the angle between the faces goes to zero, so does their diffraction.
         const auto off_by = [&](double angle) {
           const double exterior = pi + angle;
           const Corner corner{exterior, {concrete_face(), concrete_face()}, wavelength_m};

@@ -1,5 +1,6 @@
 // The slow, obvious oracle: every sequence of surfaces and wedges is tried, every leg is tested against every triangle,
-// in double. Shares no code with the ray tracer; meant for scenes of up to about 60 surfaces and 3 interactions.
+// in double. It shares no code with the ray tracer, and is meant for scenes of up to about 60 surfaces and 3
+// interactions.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -17,7 +18,7 @@ struct Limits {
   bool diffraction = false;
   uint32_t max_diffractions = 1;            // a path, 1 or 2; two follow each other, with no reflection between them
   bool free_edges = true;                   // wedges of one face diffract
-  double wavelength_m = 299792458 / 5.9e9;  // corners diffract where that is not faint (wedge_points.hpp)
+  double wavelength_m = 299792458 / 5.9e9;  // corners diffract unless that is too weak (wedge_points.hpp)
 };
 
 // All paths of reflections, transmissions and diffractions at Scene::wedges within the limits, by the image method and

@@ -125,7 +125,7 @@ std::string kind_of(const Paths& paths, size_t i) {
   return names.empty() ? "specular" : names;
 }
 
-// Adds up what an Agreement says.
+// Sums for an Agreement.
 struct Tally {
   size_t reference = 0, extra = 0;
   double power_all = 0, power_found = 0, power_extra = 0;

@@ -39,11 +39,11 @@ struct Agreement {
 
 struct Comparison : Agreement {
   size_t duplicates = 0;  // ours that repeat another: delay to 1e-13 s, vertices to 1e-4 m
-  // Those of either side, by the interactions besides reflection that their paths contain: "specular" (none),
-  // "transmission", "diffraction", "transmission + diffraction", ...
+  // Agreement of the paths of both sides, by their interactions besides reflection: "specular" (none), "transmission",
+  // "diffraction", "transmission + diffraction", ...
   std::map<std::string, Agreement> kinds;
   std::vector<size_t> missing;      // paths of the list that are not matched, as rows of Case::paths
-  std::vector<size_t> extra_paths;  // ours that are not
+  std::vector<size_t> extra_paths;  // our paths that are not matched
 };
 
 // paths: one frame, vertices in file coordinates. Each is matched once, the nearest first.

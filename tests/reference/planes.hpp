@@ -1,5 +1,5 @@
-// Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind.
-// Assumes exact planes: a surface's normal has unit length and its triangles lie in its plane.
+// Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind. Planes
+// must be exact: a surface's normal has unit length and its triangles lie in its plane.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ bool inside_surface(const Scene& scene, uint32_t index, const glm::dvec3& point)
 // Returns the point where the line from a to b meets the plane, if that is strictly between them.
 std::optional<glm::dvec3> crossing(const Surface& surface, const glm::dvec3& a, const glm::dvec3& b);
 
-// A surface that a leg passes, and where.
+// A surface that a leg passes, and the place.
 struct Passage {
   double distance_m = 0;  // from the start of the leg
   uint32_t surface = 0;
@@ -31,8 +31,8 @@ struct Passage {
 // The point where a leg begins or ends.
 struct Stop {
   glm::dvec3 point{0};
-  bool antenna = true;            // else an interaction
-  std::vector<uint32_t> on = {};  // the surfaces that it is on: of a reflection one, of a wedge two
+  bool antenna = true;            // false for an interaction
+  std::vector<uint32_t> on = {};  // the surfaces that it is on: one for a reflection, two for a wedge
   glm::dvec3 front{0};            // for an interaction on surfaces: a unit vector from them towards the leg
 };
 

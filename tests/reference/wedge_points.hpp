@@ -22,8 +22,8 @@ bool in_free_sector(const Wedge& wedge, const glm::dvec3& point, const glm::dvec
 // Less than half a turn of free space; such edges are in no path over two.
 bool is_corner(const Wedge& wedge);
 
-// Does a corner wider than a right angle, or a bend of less than a milliradian, diffracts less than a hundredth of
-// any wave that ends at it, from a to b: where all boundaries are so far away, in angles about the edge.
+// Tells whether a corner wider than a right angle, or a bend of less than a milliradian, diffracts less than a
+// hundredth of any wave that ends at it, from a to b: all boundaries are far away, in angles about the edge.
 bool is_faint(const Wedge& wedge, const glm::dvec3& a, const glm::dvec3& b, double wavelength_m);
 
 }  // namespace wavetracer::reference

@@ -32,7 +32,7 @@ struct Written {
   Written() { file = write_outputs(folder.path() / "run", sample.run(), sample.frames())[0]; }
 };
 
-// The refusal of the file, or an empty text where it is read whole.
+// Returns the refusal of the file, or an empty text if it is read completely.
 std::string refusal(const fs::path& file) {
   try {
     const SavedRun run(file);

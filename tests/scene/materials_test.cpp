@@ -1,4 +1,4 @@
-// Radio materials: the table, and who wins among alias, configuration, file and table.
+// Radio materials: the table, and the precedence of alias, configuration, file and table.
 // Values of the table are spot-checked against ITU-R P.2040-3 and P.2040-4, Table 3.
 #include <doctest/doctest.h>
 
@@ -185,7 +185,7 @@ TEST_CASE("the configuration overrides table and file, field by field") {
   CHECK(m.a == 3.91);
   CHECK(m.c == 0.03);
   CHECK(m.d == 0.16);
-  // The file's own definition: its thickness yields to the configuration's, of its ITU type and of its own name.
+  // The file's own definition: the configuration's thickness overrides it, for its ITU type and its own name.
   RawMaterial facade = named("mat-facade");
   facade.itu_type = "concrete";
   facade.thickness_m = 0.3;
