@@ -1,4 +1,5 @@
-// The streets of a generated city against its buildings and its traffic, which know nothing of them.
+// Compares the streets of a generated city with its buildings and its traffic, which are generated without these
+// streets.
 #include "scene/streets.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// The rows of a ray cache's entries: against the counts of the frame, which other code keeps, and trees whose shape is
-// known. The scene is a street with a car.
+// Tests the rows of a ray cache's entries: against the counts of the frame, which other code keeps, and on trees whose
+// shape is known. The scene is a street with a car.
 #include <algorithm>
 #include <cmath>
 #include <map>

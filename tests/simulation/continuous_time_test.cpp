@@ -1,4 +1,5 @@
-// trace.discover_every_s: frames of a millisecond between launches of rays, against frames that all launch them.
+// Tests trace.discover_every_s: compares frames every millisecond, some of which launch no rays, with frames that all
+// launch them.
 #include <map>
 
 #include "simulation/drive.hpp"

@@ -18,8 +18,8 @@ namespace wavetracer::test {
 constexpr uint32_t no_row = 0xFFFFFFFFu;
 constexpr double carrier_hz = 5.9e9;
 
-// Returns for row i of `paths` its row in `among`: one transmitter, receiver and depth, delays to 1e-12 of themselves,
-// and points to a micrometre; no_row if there is none.
+// Returns for each row of `paths` its row in `among`: with the same transmitter, receiver and depth, delays equal to
+// 1e-12 of themselves, and points to a micrometre; no_row if there is none.
 inline std::vector<uint32_t> counterparts(const Paths& paths, const Paths& among) {
   std::vector<uint32_t> out(paths.size(), no_row);
   const auto link = [](const Paths& p, size_t i) { return std::pair{p.tx[i], p.rx[i]}; };

@@ -1,5 +1,5 @@
-// Doppler shifts of a drive against central differences of the delays of the same paths, a tenth of a millisecond
-// earlier and later: antennas on vehicles, vehicles as mirrors, straight on and in a turn.
+// Compares Doppler shifts of a drive with central differences of the delays of the same paths, a tenth of a millisecond
+// earlier and later: antennas on vehicles, vehicles as mirrors, on straight ways and in a turn.
 #include <map>
 
 #include "simulation/drive.hpp"

@@ -52,7 +52,8 @@ TEST_CASE("a few warm frames in a row spread evenly over the directions that the
   std::ranges::sort(phases);
   uint64_t widest = phases.front() + 100 - phases.back();
   for (size_t i = 1; i < phases.size(); ++i) widest = std::max(widest, phases[i] - phases[i - 1]);
-  // The sum is 100, where 10 is even; three-gap theorem: the widest of golden steps is below 1.7 of it.
+  // The sum is 100, and 10 would be uniform; by the three-gap theorem the widest gap of golden steps is below 1.7 times
+  // that.
   CHECK(widest <= 17);
 }
 

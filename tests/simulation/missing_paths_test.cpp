@@ -1,4 +1,5 @@
-// Why a link has no path: what its direct line meets, against walls that the tests place, and what is proposed.
+// Tests the reason why a link has no path: what its direct line meets, with walls that the tests place, and what the
+// message proposes.
 #include "simulation/missing_paths.hpp"
 
 #include "scene/load.hpp"

@@ -1,5 +1,5 @@
-// Warnings about who stands or drives where nobody would: each by name, counted where they are many, none where all is
-// well. A house of 12 triangles on a ground of 200 m, and rooms.
+// Tests warnings about ends and vehicles at impossible places: each is named, many are counted, and there is none where
+// everything is right. The scene is a house of 12 triangles on a ground of 200 m, and rooms.
 #include "simulation/place_warnings.hpp"
 
 #include "scene/load.hpp"

@@ -1,5 +1,5 @@
-// The quarters of a launch that found a path, and the estimate of paths that none has found.
-// The oracle of the first is a launch of the rays of a quarter alone.
+// Tests the quarters of a launch that found a path, and the estimate of paths that none has found.
+// The reference of the first is a launch of the rays of a quarter alone.
 #include "radio/links.hpp"
 #include "simulation/drive.hpp"
 #include "simulation/frame.hpp"

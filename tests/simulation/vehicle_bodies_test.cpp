@@ -1,5 +1,5 @@
-// Bodies as files have them: materials and nodes of a GLB that trimesh wrote (files/make_car.py), nodes of built-in
-// bodies, antennas at them, and vehicles that are parked.
+// Tests bodies from files: materials and nodes of a GLB that trimesh wrote (files/make_car.py), nodes of built-in
+// bodies, antennas at them, and parked vehicles.
 #include <map>
 
 #include "folders.hpp"

@@ -1,5 +1,5 @@
-// Experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
-// Numbers are chosen so that verdicts can be said by hand.
+// Tests experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
+// Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <cstdlib>

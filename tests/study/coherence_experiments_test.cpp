@@ -1,5 +1,5 @@
-// coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
-// Numbers of the paragraphs are chosen so that they can be said by hand.
+// Tests coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
+// The numbers are chosen so that the paragraphs are known by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include "contains.hpp"

@@ -1,5 +1,5 @@
-// Frames made by hand, whose coherence can be said in advance, and what the printed formulas say of them.
-// Printed: equations 6.3 and 6.4 of the thesis, over outputs in which every list holds hits only.
+// Tests frames made by hand, whose coherence is known, and what the printed formulas give for them. Printed: equations
+// 6.3 and 6.4 of the thesis, over outputs in which every list holds hits only.
 #include "study/coherence.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>

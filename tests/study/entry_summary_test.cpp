@@ -1,4 +1,4 @@
-// Entries of a table whose groups can be counted by hand, and hits that a random generator spreads.
+// Tests entries of a table whose groups can be counted by hand, and hits that a random generator spreads.
 #include "study/entry_summary.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
@@ -68,7 +68,7 @@ TEST_CASE("buckets that take longer, and tables that cannot say") {
   CHECK(writes_longer_in_buckets(with(300, 200)) == true);
   CHECK(writes_longer_in_buckets(with(200, 300)) == false);
   CHECK_FALSE(reads_longer_in_buckets(with(0, 0)).has_value());    // no clock
-  CHECK_FALSE(reads_longer_in_buckets(with(300, 0)).has_value());  // nothing below answered
+  CHECK_FALSE(reads_longer_in_buckets(with(300, 0)).has_value());  // no entry further down answered
   CHECK_FALSE(reads_longer_in_buckets(summary_of({})).has_value());
 }
 

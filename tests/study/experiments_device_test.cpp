@@ -1,4 +1,4 @@
-// `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Small ranges only.
+// Tests `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Ranges are small.
 // Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

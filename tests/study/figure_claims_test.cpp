@@ -1,5 +1,5 @@
-// Claims of single figures of caches, each with rows that make it true and rows that make it false.
-// Numbers are chosen so that verdicts can be said by hand.
+// Tests claims of single figures of caches, each with rows that make it true and rows that make it false.
+// Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>
 #include <cmath>
 #include "study/cache_claims.hpp"

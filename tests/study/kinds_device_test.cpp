@@ -1,5 +1,6 @@
-// Every experiment, and every kind of configuration: a figure without holes, or a message that names the experiment or
-// the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
+// Tests every experiment with every kind of configuration: each gives a figure without gaps, or a message that names
+// the experiment or the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is only tested for
+// what it refuses.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sstream>

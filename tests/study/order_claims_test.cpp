@@ -1,5 +1,5 @@
-// The paragraphs against rows whose gains are known in advance.
-// Factors are chosen so that what is reached, and in which order, can be said by hand.
+// Tests the paragraphs on rows whose gains are known in advance.
+// Factors are chosen so that the results and their order are known by hand.
 #include "study/order_claims.hpp"
 #include <doctest/doctest.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
+// Tests experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
 // Expected values are written out or computed another way.
 #include <doctest/doctest.h>
 #include <algorithm>

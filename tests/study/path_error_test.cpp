@@ -1,4 +1,4 @@
-// Frames of paths made by hand, whose errors can be said in advance.
+// Tests frames of paths made by hand, whose errors are known in advance.
 // Lengths are chosen in nanoseconds of light, so that delays are round.
 #include "study/path_error.hpp"
 #include <doctest/doctest.h>

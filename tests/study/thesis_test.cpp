@@ -1,5 +1,5 @@
-// The thesis' page without a device: its figures, its picture, its HTML.
-// Tags are balanced by a small stack of their names; void elements and gnuplot's self-closing ones close themselves.
+// Tests the thesis' page without a device: its figures, its picture, its HTML.
+// Tags are balanced with a small stack of their names; void elements and gnuplot's self-closing ones close themselves.
 #include "study/thesis.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>

@@ -9,7 +9,7 @@ from browser import By, Page
 
 page = Page(sys.argv[1], "coverage", dark=False)
 loaded_s = (page.js("return wavetracer.ready_ms")) / 1000
-# Until the picture is there: reading a pixel waits for it. Chromium draws with the processor here.
+# Waits until the picture is drawn: reading a pixel waits for it. Chromium draws with the processor here.
 drawn = page.js("""
 const times = [], gl = wavetracer.renderer.getContext();
 for (let i = 0; i < 9; ++i) {

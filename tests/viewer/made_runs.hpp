@@ -1,5 +1,5 @@
-// Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths that have their places in it.
-// Gains, delays and angles are functions of the geometry, so that what the page says can be computed again.
+// Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths with their places in it. Gains,
+// delays and angles are functions of the geometry, so that the numbers on the page can be computed again.
 #pragma once
 #include <filesystem>
 #include <string>

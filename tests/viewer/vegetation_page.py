@@ -32,7 +32,7 @@ far = page.pixels(*project([-26, -7, 0]), 3)
 page.check("show_vegetation", False)
 assert np.array_equal(far, page.pixels(*project([-26, -7, 0]), 3))  # beside it nothing changes
 
-# Paths are to be seen as well as without it, in front of it and in it, whether or not houses hide them.
+# The paths in front of the vegetation and in it must be as visible as without it, whether or not houses hide them.
 for hidden in (True, False):
     page.check("show_hidden", hidden)
     drawn = [np.abs(looks(v, True, f"vegetation_{v}") - looks(v, False)).max(axis=2) > 20 for v in (True, False)]
