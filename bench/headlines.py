@@ -1,7 +1,7 @@
-"""The first page of RESULTS.md: the figures that most readers come for, and three plots.
+"""Writes the first page of RESULTS.md: the figures that most readers look for, and three plots.
 
-What a figure says stands here; its number, peer, error, device and date are those of the newest line in bench/results.
-A line that is gone is left out of the page, so the page never holds a number that no benchmark has printed.
+The text of a figure is in this file; its number, peer, error, device and date are those of the newest line in
+bench/results. If there is no such line, the figure is left out, so every number on the page was printed by a benchmark.
 """
 import re
 import statistics

@@ -1,4 +1,5 @@
-"""What the paths of many links amount to, in arrays with one entry per pair of a transmitter and a receiver."""
+"""Gains, delays and spreads of many links from their paths, in arrays with one entry per pair of a transmitter and a
+receiver."""
 import numpy as np
 
 WINDOW_DB = 25.0  # weaker paths than this below the strongest of a link do not count for spreads: TR 38.901, 7.5, step 6

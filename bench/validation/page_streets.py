@@ -149,7 +149,7 @@ def within(result, name):
 
 
 def traffic_effect(result):
-    """How far vehicles move the medians of hidden links between vehicles, at each carrier."""
+    """The change of the medians of blocked links between vehicles that other vehicles cause, at each carrier."""
     hidden = [row for row in result["classes"] if row["kind"] == "vehicle" and row["state"] == "nlos"]
     return [busy["loss"][0]["median_db"] - bare["loss"][0]["median_db"] for busy in hidden if busy["variant"] == "traffic"
             for bare in hidden if bare["variant"] == "with" and

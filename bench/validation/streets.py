@@ -139,7 +139,7 @@ def open_places(random, candidates=400, half_m=250.0, see_m=80.0):
 
 
 def heights_over(corners, at):
-    """Where the vertical line through a place meets triangles, shape (triangles, 3, 3)."""
+    """Heights at which the vertical line through a place meets triangles, shape (triangles, 3, 3)."""
     a, b, c = (corners[:, i] for i in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     with np.errstate(divide="ignore", invalid="ignore"):

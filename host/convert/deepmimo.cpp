@@ -20,7 +20,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr uint32_t tx_set = 0, rx_set = 1;  // the scenario's sets: all transmitters, all receivers
-constexpr size_t default_paths = 25;        // number of paths that dm.load() takes of a link by default
+constexpr size_t default_paths = 25;        // number of paths of each link that dm.load() loads by default
 constexpr uint32_t most_digits = 15;        // digits of an interaction code that a double holds exactly
 
 struct Sizes {

@@ -34,7 +34,7 @@ def _warn(message: str) -> None:
 
 
 def _slants_deg(patterns: list[Any], directions: tuple[tuple[float, float], ...]) -> set[tuple[int, ...]]:
-    """By how much each pattern's field is turned from theta to phi, in each of these directions (theta, phi)."""
+    """The angle by which each pattern's field is turned from theta to phi, in each of these directions (theta, phi)."""
     import mitsuba as mi
 
     out = set()

@@ -3,13 +3,14 @@
 
 usage: house.py SOURCE format|names|sizes|types|kernels|english
 
-format  every source is what clang-format makes of it with .clang-format
-names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
+format  every source is formatted by clang-format with .clang-format
+names   tests are called NAME_test.cpp, in a folder with the name of the folder of host/ that they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
-types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
+types   no two types of one namespace have the same name: the linker would merge their functions and keep either
 kernels every kernel has a row in bench/kernel_costs.cpp, which gives its minimal work; sorts have bench_sort
-english no comment begins with a bare "Of", "What", "Who", "Whether" and the like: it has a subject and a verb
+english no comment or docstring begins with a bare "Of", "What", "Who", "Whether" and the like: it has a subject and a verb
 """
+import ast
 import pathlib
 import re
 import shutil
@@ -36,7 +37,7 @@ def misformatted(root):
     program = shutil.which("clang-format-14") or shutil.which("clang-format")
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout if program else ""
     if "version 14." not in version:
-        print("clang-format 14 is not there: other versions format otherwise")
+        print("clang-format 14 is not installed: other versions format differently")
         sys.exit(SKIPPED)
     files = [str(path) for path in sources(root)]
     done = subprocess.run([program, "--dry-run", "--ferror-limit=1", *files], capture_output=True, text=True)
@@ -164,6 +165,13 @@ def comments(lines, mark):
             yield number, behind[1][:1].upper() + behind[1][1:]
 
 
+def docstrings(text):
+    """(number of the first line, text) of every docstring of a Python source."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            yield node.body[0].lineno, " ".join(ast.get_docstring(node).split())
+
+
 def bare_comments(root):
     paths = [path for folder in ENGLISH_FOLDERS for path in sorted((root / folder).rglob("*"))
              if path.suffix in ENGLISH_SUFFIXES and path.is_file()]
@@ -173,7 +181,9 @@ def bare_comments(root):
         if name.startswith(NOT_YET_ENGLISH) or "/corpus/" in name:
             continue
         mark = "//" if path.suffix in SUFFIXES | {".js"} else "#"
-        for number, text in comments(path.read_text(errors="replace").splitlines(), mark):
+        text = path.read_text(errors="replace")
+        found = [*comments(text.splitlines(), mark), *(docstrings(text) if path.suffix == ".py" else [])]
+        for number, text in found:
             bare = re.match(BARE, text) or re.search(BARE_SENTENCE, text)
             if bare:
                 faults.append(f"{name}:{number}: the comment has a bare \"{bare[0]}\": say who does what: {text[:60]}")

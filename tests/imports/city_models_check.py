@@ -174,7 +174,8 @@ def check_place(meshes, reference):
 
 
 def in_degrees(source, latitude_first):
-    """Of EPSG:4979, whose order is latitude first; there are files of either order. cjio rounds away their scale."""
+    """Writes the model in degrees of EPSG:4979, whose order is latitude first; there are files of either order. Not
+    done with cjio, which rounds away their scale."""
     city = json.loads(source.read_text())
     to_degrees = pyproj.Transformer.from_crs("EPSG:25832", "EPSG:4326", always_xy=True)
     scale, translate = (np.array(city["transform"][key]) for key in ("scale", "translate"))

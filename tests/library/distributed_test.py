@@ -147,7 +147,7 @@ def mistakes(client, folder):
 
 
 def given_up(client, config, folder, expected):
-    """What is cancelled leaves no process, and the next call computes it."""
+    """A cancelled drive leaves no process, and the next call computes it."""
     forever = written(folder.with_suffix(".sh"), "#!/bin/sh\nexec sleep 1000\n", executable=True)
     job = wd.Job(str(config), str(folder), 2, program=(str(forever),))
     futures, whole = wd.submit(job, client=client)

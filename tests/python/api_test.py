@@ -87,7 +87,8 @@ def check_frame(simulation, frame):
 
 
 def check_missed(folder, frames):
-    """What was missed is what the files say; of frames alone, as they do not add up by a plain sum."""
+    """The estimates of missed paths are those in the files; those of summary.json are compared for a single frame only,
+    since estimates of frames are not simply added."""
     with open(folder + "/links.csv") as file:
         written = [float(row["missed_power_share"]) for row in csv.DictReader(file)]
     assert np.array_equal(written, np.concatenate([frame["link_missed_power_share"] for frame in frames]), equal_nan=True)
@@ -167,7 +168,7 @@ def check_run(run, frames):
 
 
 def check_open(folder, run):
-    """What cannot be opened, and what is no complete run."""
+    """Files that cannot be opened, and folders without a complete run, give errors."""
     raises(3, "no such file", wavetracer.open, folder / "nowhere")
     work = folder.parent / "python_bad"
     shutil.rmtree(work, ignore_errors=True)

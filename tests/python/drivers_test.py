@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Which OpenCL drivers the package offers, on made-up systems, with made-up packages of PyPI: nothing is loaded.
+"""Tests the OpenCL drivers that the package offers, on made-up systems, with made-up packages of PyPI: nothing is
+loaded.
 
 Usage: drivers_test.py. Exits with 77 without numpy.
 """
@@ -23,7 +24,8 @@ work = pathlib.Path(tempfile.mkdtemp(prefix="wavetracer-drivers-"))
 
 
 def system(listed, nvidia=False, pocl=False, zig=False, tools=(), **variables):
-    """What the package adds to the environment of a system with these drivers listed, packages installed and tools."""
+    """Returns the variables that the package adds to the environment of a system with these drivers listed, packages
+    installed and tools."""
     root = pathlib.Path(tempfile.mkdtemp(dir=work))
     for folder in ("vendors", "lib", "site", "bin", "cache"):
         (root / folder).mkdir()

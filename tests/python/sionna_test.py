@@ -99,7 +99,7 @@ def raises(part, scene):
 
 
 def check_scenes():
-    """What is carried over beside antennas, and what cannot be."""
+    """Tests the properties beside antennas that are carried over, and those that cannot be."""
     antenna = {"pattern": "iso", "polarization": "V"}
     scene = canyon(antenna, antenna)
     building = next(iter(scene.objects.values()))
