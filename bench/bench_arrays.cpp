@@ -1,6 +1,6 @@
-// bench_arrays: what the elements of arrays add to a frame whose links have one antenna at each end: responses at 1 and
-// at 64 subcarriers, and beams. "ratio" is the time of the frame of one antenna over that of the frame with arrays;
-// "error" the rms error of plane wavefronts against spherical ones, which are exact.
+// bench_arrays measures the time that array elements add to a frame whose links have one antenna at each end: responses
+// at 1 and at 64 subcarriers, and beams. "ratio" is the time of the frame of one antenna over that of the frame with
+// arrays; "error" is the rms error of plane wavefronts against spherical ones, which are exact.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@ void respond(Config& config, uint32_t subcarriers) {
   config.response.subcarriers = subcarriers;
 }
 
-// A panel of 8 x 8 elements at transmitters and one of 4 x 2 at receivers.
+// Adds a panel of 8 x 8 elements at transmitters and one of 4 x 2 at receivers.
 void add_panels(Config& config) {
   config.arrays.resize(2);
   config.arrays[0].name = "64";

@@ -1,8 +1,9 @@
-// bench_cache: the ray cache's tables beside the thesis' as printed, in right answers a second; mixed operations on
-// them; where the time of a cached depth goes; and how evenly the hashes spread the rays of a scene.
-// Assumes a quiet machine. Times are those of the kernels by the device's clock. "error" counts what is wrong: answers
-// that are not what was stored under their key, or outcomes that no order of mixed operations has; of spreads it is the
-// share of keys that overflow.
+// bench_cache compares the ray cache's tables with the thesis' as printed, in right answers per second; it also
+// measures mixed operations on them, the stages of a cached depth, and how evenly the hashes spread the rays of a
+// scene.
+// The machine must be quiet. Times are those of the kernels by the device's clock. "error" counts wrong results:
+// answers other than what was stored under their key, or outcomes that no order of mixed operations has; for spreads it
+// is the share of keys that overflow.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,9 +24,9 @@ namespace {
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
   std::vector<std::string> cases{"rates", "mixed", "stages", "spreads"};
-  uint32_t runs = 7, questions = 0, rays = 1000000;  // questions, operations 0: what suits the device
+  uint32_t runs = 7, questions = 0, rays = 1000000;  // questions, operations: 0 means a number that suits the device
   uint64_t operations = 0;
-  std::vector<uint32_t> sizes_mb;  // empty: likewise
+  std::vector<uint32_t> sizes_mb;  // empty means the same
 };
 
 struct TableCase {
@@ -46,8 +47,8 @@ const std::vector<TableCase> tables{table_case("concurrent", "concurrent"), tabl
                                     table_case("open, mutex", "open", "mutex"),
                                     table_case("open, readers", "open", "readers")};
 
-// Keys at random, and as rays ask: those of a cell of directions are next to each other in a launch and want one entry.
-// After readers_number reads the thesis' slot answers nobody, until it is written again.
+// Keys are random, or as rays ask: rays of one cell of directions are next to each other in a launch and need one
+// entry. After readers_number reads the thesis' slot answers no more, until it is written again.
 const Traffic spread_keys{"keys at random", true, 1, no_wear}, other_keys{"keys never put", false, 1, no_wear};
 const std::vector<Traffic> traffics{spread_keys,
                                     other_keys,
@@ -109,7 +110,8 @@ class Bench {
     hashes(questions, sizes.size() > 1 ? sizes[1] : sizes[0]);
   }
 
-  // One table under one traffic. done: what became of the operations that count. thesis: its table under the same.
+  // Prints one table under one kind of traffic. done: name of the operations that count. thesis: its table under the
+  // same traffic.
   void line(const std::string& name, const RatedTable& table, const Rate& rate, const char* done,
             const GatherRates& gathers, const std::optional<Rate>& thesis) const {
     Result r = result(name, rate.right * 1e-9, "G right/s");
@@ -156,7 +158,7 @@ class Bench {
     }
   }
 
-  // What the hash costs and how many keys find a place by it, on the concurrent table.
+  // Measures the cost of the hash, and how many keys find a place by it in the concurrent table.
   void hashes(Questions& questions, uint32_t mb) {
     for (uint32_t method = 1; method <= 3; ++method) {
       OurTable table(context_, table_case("", "concurrent", "readers", method).config, uint64_t{mb} << 20);
@@ -170,7 +172,7 @@ class Bench {
     }
   }
 
-  // Three finds to a put, an eighth of them of 64 keys, in one launch; see large_cache_test.cpp.
+  // One launch has three finds per put, an eighth of them with 64 keys; see large_cache_test.cpp.
   void mixed() {
     const uint64_t operations = options_.operations   ? options_.operations
                                 : context_.info().cpu ? 2'000'000
@@ -212,7 +214,7 @@ class Bench {
     };
     for (const TableCase& c : tables) {
       const std::vector<StageTimes> times = stage_times(context_, rays, c.config, options_.runs);
-      const bool first = c.name == tables.front().name;  // depth by depth; keys and hashes are those of all
+      const bool first = c.name == tables.front().name;  // per depth; keys and hashes are those of all depths
       StageTimes all;
       for (size_t k = 0; k < times.size(); ++k) {
         const StageTimes& t = times[k];

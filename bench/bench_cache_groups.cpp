@@ -1,6 +1,6 @@
-// bench_cache_groups: grouping the rays of a depth by their key (cache.innerframe) by an election in a table, against
-// the least that grouping by a sort would take: the sort of as many 64-bit keys with the rays' numbers, alone. Beside
-// both, the tracing of the rays that follow others, which is what grouping saves.
+// bench_cache_groups measures grouping the rays of a depth by their key (cache.innerframe) through an election in a
+// table, and compares it with a lower bound of grouping by a sort: the sort of as many 64-bit keys with the rays'
+// numbers, alone. It also prints the time of tracing the rays that follow others, which grouping saves.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ struct Options {
   uint32_t rays = 0, runs = 9;
 };
 
-// Seconds of one depth, medians; all of its rays are missed.
+// Seconds of one depth, medians; all of its rays miss the table.
 struct GroupTimes {
   size_t rays = 0, groups = 0;
   double elect = 0, share = 0, sort = 0, trace = 0;
@@ -33,7 +33,7 @@ double median_seconds(gpu::Context& context, uint32_t runs, const Pass& pass) {
   std::vector<double> seconds;
   for (uint32_t run = 0; run <= runs; ++run) {
     const double once = pass();
-    if (run > 0) seconds.push_back(once);  // the first warms up
+    if (run > 0) seconds.push_back(once);  // the first run warms up
   }
   context.finish();
   return median(seconds);
@@ -47,7 +47,7 @@ double device_time(gpu::Context& context, const Pass& pass) {
   return device_seconds(context);
 }
 
-// Keys as a sort by hash would have them.
+// Returns keys as a sort by hash would have them.
 std::vector<uint64_t> sort_keys(const Segment& segment, const CacheTable& table) {
   std::vector<uint64_t> keys;
   for (size_t i = 0; i < segment.rays.size(); ++i) {
@@ -133,7 +133,7 @@ void run(Options& options, const std::string& command) {
     const double saved = 1 - static_cast<double>(all.groups) / static_cast<double>(all.rays);
     const std::string detail = fmt::format("{} groups of {} rays", all.groups, all.rays);
     print_row(device, name + "election", all, all.elect, "sort of as many keys, alone", all.sort, detail, command);
-    if (all.groups == all.rays) continue;  // nobody follows
+    if (all.groups == all.rays) continue;  // no ray follows another one
     print_row(device, name + "election and hits handed on", all, all.elect + all.share,
               "tracing those that follow, in order", saved * all.trace, detail, command);
   }

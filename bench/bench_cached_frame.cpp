@@ -1,6 +1,6 @@
-// bench_cached_frame: frames of a moving world with ray caches, against frames without: seconds, where they go, and
-// what is lost. Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses
-// sequences, but in the case that says so. "error" is the lost power against uncached frames of the same rays.
+// bench_cached_frame compares frames of a moving world with and without ray caches: seconds, their stages, and losses.
+// The scene is Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses
+// sequences, except in the case that says so. "error" is the lost power against uncached frames of the same rays.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -42,7 +42,7 @@ struct Measured {
   double frame_s = 0;
   StageSeconds stages;  // medians
   study::PathError error;
-  double hit_share = 0, hit_share_late = 0;  // of all segments, and of those after the first
+  double hit_share = 0, hit_share_late = 0;  // for all segments, and for those after the first
   uint64_t used = 0, dropped = 0;
 };
 
@@ -124,8 +124,8 @@ std::vector<Setting> settings(const Options& options, uint64_t rays) {
   return all;
 }
 
-// All frames once to warm up, then once more: a drive that begins anew meets the table as it left it. Where the
-// transmitter stands that is the steady state; where it rides, position keys have changed.
+// Runs all frames once to warm up, then once more: a drive that starts again meets the table that it left. If the
+// transmitter stands, that is the steady state; if it rides, position keys have changed.
 Measured measure(Config config, const Options& options, const std::vector<Paths>* reference, std::vector<Paths>* keep) {
   Simulation simulation(config, options.device);
   for (uint32_t frame = 0; frame < options.frames; ++frame) simulation.run_frame(frame);

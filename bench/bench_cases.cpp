@@ -1,6 +1,6 @@
-// bench_cases: twenty cases that nothing was tuned on one by one. What launches lose in each, what "auto" keeps of its
-// promise, and whether `missed` holds the truth. Truth: all paths that any launch of a case found; "error" is the share
-// of them that is lost.
+// bench_cases measures twenty cases that nothing was tuned on individually: the losses of launches in each, how well
+// "auto" keeps its promise, and whether the intervals of `missed` contain the truth. The truth is all paths that any
+// launch of a case found; "error" is the share of them that is lost.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ struct Options {
   size_t frames = 3;
 };
 
-// A setting of a case, and the frame that it gave.
+// A setting of a case, and its frame.
 struct Launch {
   std::string setting;
   FrameResult result;
@@ -85,7 +85,7 @@ class Bench {
 
   Config with_rays(Config config, uint64_t rays) const {
     config.trace.directions = Directions::named(options_.directions);
-    config.trace.rays = rays > 0 ? std::optional(rays) : std::nullopt;  // 0: "auto"
+    config.trace.rays = rays > 0 ? std::optional(rays) : std::nullopt;  // 0 means "auto"
     config.trace.recall = options_.recall;
     return config;
   }
@@ -100,7 +100,7 @@ class Bench {
     return launch;
   }
 
-  // The last frame of a drive that ends where the case stands.
+  // Returns the last frame of a drive that ends where the case stands.
   Launch driven(const StudyCase& study, const std::string& setting, uint64_t rays) const {
     Simulation simulation(with_rays(driving(study, drive_frames), rays), options_.device);
     Launch launch{setting, {}, 0};
@@ -112,7 +112,7 @@ class Bench {
   void judge(const std::string& name, const Launch& launch, const KnownPaths& known) {
     const KnownPaths::Lost lost = known.lost(launch.result.paths);
     const Missed missed = estimate_missed(launch.result.missed);
-    // The estimate of the power is a share of what was found.
+    // The estimate of the power is a share of the power that was found.
     const double found = known.power() - lost.power, share = found > 0 ? lost.power / found : 0;
     const double lost_share =
         known.size() > 0 ? static_cast<double>(lost.paths) / static_cast<double>(known.size()) : 0;
@@ -160,8 +160,8 @@ class Bench {
         "",
         {},
         record.mean_path_share(),
-        fmt::format("{} of {} cases at recall {} or more; paths in their interval {:.0f}%, power {:.0f}%; where "
-                    "something is lost ({} cases) its power is within a factor of three {:.0f}%; {:.3g} s, "
+        fmt::format("{} of {} cases at recall {} or more; paths in their interval {:.0f}%, power {:.0f}%; "
+                    "where something is lost ({} cases) its power is within a factor of three {:.0f}%; {:.3g} s, "
                     "{:.3g} segments",
                     record.kept(), record.cases(), options_.recall, 100 * record.paths_held(),
                     100 * record.power_held(), record.losing(), 100 * record.power_near(), record.seconds(),

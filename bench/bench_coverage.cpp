@@ -1,6 +1,6 @@
-// bench_coverage: receivers a second of coverage maps, reflections to depth 3, with the stages that take the time.
-// Assumes a quiet machine. "error" is the share of receivers whose power is off by more than 0.1 dB, or that hear
-// nothing although ten times the rays lead paths to them.
+// bench_coverage measures receivers per second of coverage maps, with reflections to depth 3, and the longest stages.
+// The machine must be quiet. "error" is the share of receivers whose power is wrong by more than 0.1 dB, or that have
+// no path although ten times the rays find paths to them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,7 @@ struct Options {
   bool quick = false;
 };
 
-// A square around the transmitter, with a receiver in the middle of every cell.
+// Makes a square around the transmitter, with a receiver in the middle of every cell.
 Config config_of(const Place& place, const Options& options, uint64_t rays) {
   Config config = config_of(place, 1, 0);
   config.trace.rays = rays;
@@ -52,8 +52,9 @@ std::vector<double> powers(const FrameResult& frame) {
 }
 
 struct CoverageError {
-  size_t heard = 0, lost = 0, wrong = 0;  // receivers: in the reference, of these without a path, off by wrong_db
-  double mean_db = 0;                     // of those heard in both
+  // Receivers with a path in the reference, of these without a path here, of these wrong by wrong_db.
+  size_t heard = 0, lost = 0, wrong = 0;
+  double mean_db = 0;  // for those that have paths in both
 };
 
 CoverageError compare(const std::vector<double>& reference, const std::vector<double>& mine) {
@@ -84,13 +85,13 @@ std::string stages(const StageSeconds& seconds) {
   return out;
 }
 
-// The speed of another program at drawing the same map, and what share of its cells is off.
+// The speed of another program at the same map, and the share of its cells that are wrong.
 struct Peer {
   std::string name;
   double receivers_s = 0;
 };
 
-// Lines of bench/peers/sionna_radio_map.py for this scene, where --peer has some.
+// Reads lines of bench/peers/sionna_radio_map.py for this scene, if --peer has some.
 std::vector<Peer> read_peers(const std::string& file, const std::string& scene) {
   std::vector<Peer> peers;
   if (file.empty()) return peers;
@@ -151,7 +152,7 @@ void run_case(const Place& place, const Options& options, const std::string& com
   }
 }
 
-// What bench/peers/sionna_radio_map.py reads, so that both draw the same map.
+// Writes the input of bench/peers/sionna_radio_map.py, so that both compute the same map.
 void write_grid(const Place& place, const Options& options) {
   const Config config = config_of(place, options, options.rays);
   const nlohmann::ordered_json json{

@@ -1,5 +1,6 @@
-// bench_discovery: the rays that recall takes, on streets of munich: plain launches, rays = "auto", and frames of a
-// drive that keep the sequences of earlier ones. Assumes the reference lists of munich; "error" is 1 - path recall.
+// bench_discovery measures how many rays are needed for a recall, on streets of munich: plain launches, rays = "auto",
+// and frames of a drive that keep the sequences of earlier ones. It needs the reference lists of munich; "error" is 1 -
+// path recall.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +24,7 @@ const char* const case_names[] = {"munich_street_0", "munich_street_1", "munich_
 constexpr double enough_paths = 0.99, enough_power = 0.9999;
 constexpr double step_s = 0.1, speed_m_s = 10;
 constexpr uint32_t drive_frames = 10;
-constexpr uint64_t refresh_share = 20;  // of the rays of the first frame, what each later one launches
+constexpr uint64_t refresh_share = 20;  // each later frame launches the first frame's rays divided by this
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
@@ -32,7 +33,7 @@ struct Options {
   uint64_t most_rays = 1'000'000;
 };
 
-// 1, 1.5, 2, 3, 5, 7 times powers of ten.
+// Returns 1, 1.5, 2, 3, 5, 7 times powers of ten.
 std::vector<uint64_t> launch_sizes(uint64_t most) {
   std::vector<uint64_t> sizes;
   for (uint64_t decade = 1000; decade <= most; decade *= 10)
@@ -71,7 +72,7 @@ class Bench {
   struct Measured {
     Comparison comparison = {};
     uint64_t rays = 0;
-    double seconds = 0, worst = 1;  // worst: path recall of one way
+    double seconds = 0, worst = 1;  // worst: lowest path recall over the ways
   };
 
   Measured solve_standing(const Config& config) {
@@ -87,7 +88,7 @@ class Bench {
     return config;
   }
 
-  // The smallest launch that suffices as all larger ones do. Where none does, the largest.
+  // Returns the smallest launch that suffices together with all larger ones, or the largest if none does.
   uint64_t find_plain() {
     Config config = standing();
     const std::vector<uint64_t> sizes = launch_sizes(options_.most_rays);
@@ -119,7 +120,8 @@ class Bench {
     print_line(solve_standing(config), fmt::format("auto, recall {}", recall), plain, "");
   }
 
-  // The fewest rays per frame, a twentieth of those of the first frame, that suffice as the next more do.
+  // Finds the fewest rays per frame, a twentieth of those of the first frame, that suffice together with the next
+  // larger number.
   void find_reuse(uint64_t plain) {
     std::optional<Measured> fewest;
     for (const uint64_t rays : launch_sizes(options_.most_rays / refresh_share)) {
@@ -141,7 +143,7 @@ class Bench {
                fmt::format("frame {} of {} ways; {:.4f} at worst", drive_frames - 1, ways_.size(), mean.worst));
   }
 
-  // The transmitter drives and ends where it stands in the list. rays: those of the first frame, of which later ones
+  // The transmitter drives and ends at its place in the list. rays: those of the first frame, of which later ones
   // launch a share, or 0: "auto" for this recall. Recall and rays are means over several ways to that place, and rays
   // over the frames after the first.
   Measured drive(uint64_t rays, double recall) {
@@ -182,7 +184,7 @@ class Bench {
     return mean;
   }
 
-  // plain: 0 where this is the plain launch itself.
+  // plain: 0 if this is the plain launch itself.
   void print_line(const Measured& measured, const std::string& what, uint64_t plain, const std::string& remark) const {
     const Comparison& c = measured.comparison;
     Result line;
@@ -210,8 +212,8 @@ class Bench {
   std::string name_;
   reference::Case reference_;
   std::string command_, device_;
-  Config config_;                 // but for the transmitter
-  std::vector<glm::dvec3> ways_;  // where drives begin
+  Config config_;                 // without the transmitter
+  std::vector<glm::dvec3> ways_;  // starts of drives
 };
 
 void run(const Options& options, const std::string& command) {

@@ -1,7 +1,8 @@
-// bench_drive: frames of moving worlds. A hundred vehicles in munich that all talk to each other, a thousand in a
-// generated city, links between
-// standing antennas among moving cars beside Sionna RT, placing instances, and memory over a thousand frames.
-// Assumes a quiet machine. "error" is 1 - the power recall against cold frames of many more rays; of memory, MiB grown.
+// bench_drive measures frames of moving worlds: a hundred vehicles in munich that all talk to each other, a thousand in
+// a generated city, links between
+// fixed antennas among moving cars compared with Sionna RT, placing instances, and memory over a thousand frames. The
+// machine must be quiet. "error" is 1 - the power recall against cold frames of many more rays; for memory it is the
+// growth in MiB.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,11 +28,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double millisecond_s = 0.001, antenna_height_m = 1.5, above_roof_m = 0.15, radius_m = 300;
-const glm::dvec3 crossing_m(45, 90, antenna_height_m);  // of streets in munich, in the open
+const glm::dvec3 crossing_m(45, 90, antenna_height_m);  // a crossing of streets in munich, in the open
 
 // Sionna RT 2.2.0 in munich, 5.9 GHz, depth 5, line of sight and specular reflection; measured on 2026-11-21, the GPU
-// an H200 with 100 cars, the CPU two cores with 20. Of 10 x 100 links it is the still frame and what moving cars added
-// to the other.
+// an H200 with 100 cars, the CPU two cores with 20. For 10 x 100 links it is the still frame plus the time that moving
+// cars added in the other case.
 constexpr uint64_t sionna_rays = 1'000'000;
 constexpr double sionna_1x10_gpu_s = 0.40, sionna_1x10_cpu_s = 2.0, sionna_10x100_gpu_s = 1.35 + 0.25;
 constexpr size_t sionna_gpu_cars = 100, sionna_cpu_cars = 20;
@@ -51,7 +52,7 @@ struct Options {
   bool no_reference = false, gpu = false;
 };
 
-// An antenna on every vehicle, above the roof of its type.
+// Returns an antenna for every vehicle, above the roof of its type.
 std::vector<MountConfig> roof_mounts(const std::set<std::string>& types) {
   std::vector<MountConfig> mounts;
   for (const std::string& type : types)
@@ -73,7 +74,7 @@ StreetTraffic traffic_of(const Options& options, size_t vehicles) {
           .radius_m = radius_m};
 }
 
-// Vehicles that all talk to each other.
+// All vehicles talk to each other.
 Config talking_vehicles(const Options& options) {
   Config config = munich(options);
   config.tracks = street_traffic(load_scene(config), traffic_of(options, options.vehicles));
@@ -105,7 +106,7 @@ void run_city(const Options& options, const std::string& command) {
             command);
 }
 
-// Two discoveries after the first.
+// Makes two discoveries after the first.
 void run_continuous(const Options& given, const std::string& command) {
   Options options = given;
   options.step_s = millisecond_s;
@@ -148,7 +149,7 @@ std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& po
   return result;
 }
 
-// Standing antennas in the streets, and cars that drive between them.
+// Returns links between fixed antennas in the streets, with cars that drive between them.
 Drive links_among_cars(const Options& options, size_t transmitters, size_t receivers, size_t cars) {
   Drive drive{.config = munich(options), .frames = options.frames};
   const Scene scene = load_scene(drive.config);
@@ -187,7 +188,7 @@ void run_links(const Options& options, const std::string& command) {
       options.gpu ? std::optional(sionna_10x100_gpu_s) : std::nullopt);
 }
 
-// Resident memory of this process, as Linux counts it.
+// Returns the resident memory of this process, as Linux counts it.
 double resident_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -236,7 +237,7 @@ void run_memory(const Options& options, const std::string& command) {
   print(line, command);
 }
 
-// A case that fails leaves the others to run. Returns the exit status.
+// If a case fails, the others still run. Returns the exit status.
 int run(Options options, const std::string& command) {
   const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
   options.gpu = devices[gpu::choose_device(devices, options.device)].gpu;

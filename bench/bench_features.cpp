@@ -1,5 +1,6 @@
-// bench_features: what each kind of interaction adds to a frame of reflections, and that one which a scene does not
-// need adds nothing. "ratio" is reflections' time over the frame's; "error" what fewer rays or larger tiles miss.
+// bench_features measures the time that each kind of interaction adds to a frame of reflections, and checks that an
+// interaction which a scene does not need adds nothing. "ratio" is the time of reflections over the frame's; "error" is
+// the share that fewer rays or larger tiles miss.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +31,7 @@ struct Options {
   bool quick = false;
 };
 
-struct Group {  // variants of one configuration, which cost what they cost beside the first
+struct Group {  // variants of one configuration, compared with the first one
   std::string name;
   Config config;
   std::vector<Variant> variants;
@@ -75,7 +76,7 @@ void roughen(Config& config) {
   }
 }
 
-// "diffraction 812, transmission 3": paths with at least one of each.
+// Returns text such as "diffraction 812, transmission 3": paths with at least one of each.
 std::map<std::string, size_t> paths_with(const Paths& paths) {
   std::map<std::string, size_t> counts;
   for (size_t i = 0; i < paths.size(); i++) {
@@ -95,7 +96,7 @@ double scattered_power(const Paths& paths) {
   return sum;
 }
 
-// The stages that take most of a frame, the host's and the device's.
+// Returns the longest stages of a frame, on the host and the device.
 std::string longest_stages(const StageSeconds& seconds) {
   std::vector<std::pair<double, std::string>> stages;
   for (const auto& [name, s] : seconds)
@@ -137,13 +138,14 @@ Result result_of(const Group& group, size_t i, const Turns& first, const Turns& 
   return result;
 }
 
-// What each feature costs beside reflections.
+// Prints the cost of each feature compared with reflections.
 void print_costs(const Group& group, const Options& options, const std::string& command) {
   const std::vector<Turns> turns = run_in_turn(group.config, group.variants, options.device, options.repeat);
   for (size_t i = 0; i < turns.size(); i++) print(result_of(group, i, turns[0], turns[i]), command);
 }
 
-// Rays of listeners: the diffracted paths, and their power, that the most of them find and fewer miss.
+// Prints for rays of listeners: the diffracted paths, and their power, that the largest number finds and smaller ones
+// miss.
 void print_listeners(Group group, const std::vector<uint64_t>& rays, const Options& options,
                      const std::string& command) {
   for (const uint64_t count : rays)
@@ -171,7 +173,7 @@ void print_listeners(Group group, const std::vector<uint64_t>& rays, const Optio
   }
 }
 
-// Tiles: the scattered power beside that of the finest ones.
+// Prints for tiles: the scattered power compared with that of the finest ones.
 void print_tiles(Group group, const std::vector<double>& tiles_m, const Options& options, const std::string& command) {
   for (const double tile_m : tiles_m) group.variants.push_back(scattered(tile_m));
   const std::vector<Turns> turns = run_in_turn(group.config, group.variants, options.device, options.repeat);
@@ -190,7 +192,8 @@ bool same_stages(const StageSeconds& a, const StageSeconds& b) {
       a, b, {}, [](const auto& stage) { return stage.first; }, [](const auto& stage) { return stage.first; });
 }
 
-// Asked for, but absent from the scene: the second variant must be the first one. "error" is 1 where it is not.
+// A feature that was asked for, but is absent from the scene: the second variant must equal the first one. "error" is 1
+// if it does not.
 void print_absent(const Group& group, const std::string& feature, const Options& options, const std::string& command) {
   const std::vector<Turns> turns = run_in_turn(group.config, group.variants, options.device, options.repeat);
   const Feature& state = turns[1].features.at(feature);
@@ -214,7 +217,7 @@ Group group_of(const Place& place, uint32_t depth, size_t receivers) {
   return group;
 }
 
-// One transmitter and one receiver in a scene of shared/scenes; the place is empty where it is not there.
+// Returns one transmitter and one receiver in a scene of shared/scenes; nothing if the scene is missing.
 std::optional<Place> small_place(const std::string& shared, const std::string& name,
                                  std::array<double, 3> transmitter_m, std::array<double, 3> receiver_m) {
   const fs::path file = fs::path(shared) / "scenes" / name / (name + ".xml");
@@ -268,8 +271,8 @@ void run(Options options, const std::string& command) {
   const auto plates = small_place(options.shared, "triple_reflector", {0.3, 0.2, 1}, {0.5, 0.4, 1.5});
   if (!munich || !canyon || !plates)
     fmt::print(stderr,
-               "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, so cases "
-               "are left out; --shared names their folder\n",
+               "bench_features: munich, simple_street_canyon or triple_reflector is not in {}/scenes, "
+               "so cases are left out; --shared names their folder\n",
                options.shared);
   const Place& main = munich ? *munich : city;
 

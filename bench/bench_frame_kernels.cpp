@@ -1,7 +1,8 @@
-// bench_frame_kernels: every kernel in the frames that need it, beside the least time that its bytes, its operations
-// and its launches allow on this device. Assumes a quiet machine. Times are those of the kernels by the device's clock.
-// A time below that of its bytes means that they came from a cache, which the copy that bytes are measured with misses.
-// "error" of the last row counts kernels that ran and have no row; the others have none.
+// bench_frame_kernels measures every kernel in the frames that need it, and compares it with the least time that its
+// bytes, its operations and its launches allow on this device. The machine must be quiet. Times are those of the
+// kernels by the device's clock. A time below that of its bytes means that they came from a cache, which the copy that
+// bytes are measured with misses. "error" of the last row counts kernels that ran and have no row; the others have
+// none.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,8 +22,8 @@ namespace {
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
   std::vector<std::string> worlds;
-  size_t runs = 7, vehicles = 0;  // 0: 100 on GPUs, 20 on CPUs
-  uint64_t rays = 0;              // 0: 10^6 on GPUs, 10^5 on CPUs
+  size_t runs = 7, vehicles = 0;  // 0 means 100 on GPUs, 20 on CPUs
+  uint64_t rays = 0;              // 0 means 10^6 on GPUs, 10^5 on CPUs
 };
 
 // A kernel in one frame.
@@ -30,7 +31,7 @@ struct Sample {
   double elements, seconds, bytes, operations, launches;
 };
 
-// Sorts have a program of their own, with peers.
+// Sorts have their own program, with peers.
 bool is_of_a_sort(std::string_view kernel) {
   return kernel.starts_with("radix_sort") || kernel.starts_with("bitonic_sort");
 }
@@ -77,8 +78,7 @@ class Bench {
                                                            static_cast<double>(time->second.launches)});
       }
     }
-    for (const KernelCost& cost :
-         kernel_costs()) {  // what a set of sequences does as it grows, the first frame alone does
+    for (const KernelCost& cost : kernel_costs()) {  // growing the set of sequences happens in the first frame only
       const Samples& samples = later.contains(cost.kernel) ? later : first;
       if (const auto found = samples.find(cost.kernel); found != samples.end()) print_row(cost, world, found->second);
     }
@@ -145,7 +145,7 @@ class Bench {
   std::string command_;
   gpu::DeviceInfo info_;
   DeviceLimits limits_;
-  std::set<std::string> ran_, printed_, worlds_;  // worlds_: measured so far
+  std::set<std::string> ran_, printed_, worlds_;  // worlds_: those measured so far
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// bench_hard: what the cases of the hard suite (tests/hard) measure, each beside its tolerance.
-// Exits with 1 where a case does not hold, so that a table of figures is never made of wrong ones unnoticed.
+// bench_hard prints the measurements of the hard suite (tests/hard), each with its tolerance.
+// It exits with 1 if a case fails, so that a table is never made of wrong figures unnoticed.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 namespace wavetracer::bench {
 namespace {
 
-// Whether all cases hold.
+// Returns whether all cases pass.
 bool run(const std::string& device, const std::string& command) {
   const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
   const std::string name = devices[gpu::choose_device(devices, device)].name;

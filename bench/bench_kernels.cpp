@@ -1,6 +1,6 @@
-// bench_kernels: the throughput of every small kernel of the suite, and its share of what memory allows: the bytes that
-// an element must move, at the rate of the device's own copy in the same run. Assumes a quiet machine. Times are those
-// of the kernels by the device's clock; "error" counts wrong elements among the first 2^20.
+// bench_kernels measures the throughput of every small kernel of the suite, and its share of the memory limit: the
+// bytes that an element must move, at the rate of the device's own copy in the same run. The machine must be quiet.
+// Times are those of the kernels by the device's clock; "error" counts wrong elements among the first 2^20.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,16 +31,16 @@ constexpr uint64_t seed = 1;
 struct Options {
   std::string device;
   size_t runs = 7;
-  uint32_t n = 0;  // 0: what suits the device
+  uint32_t n = 0;  // 0 means a number that suits the device
 };
 
 struct KernelCase {
   std::string name;
-  double bytes;  // that an element must move, read and written
+  double bytes;  // bytes that an element must move, read and written
   std::function<void()> run;
-  std::function<size_t()> wrong;          // after a run
+  std::function<size_t()> wrong;          // counts errors after a run
   std::function<void()> prepare = [] {};  // not timed
-  std::function<double()> baseline = {};  // seconds of the host's own
+  std::function<double()> baseline = {};  // seconds of the host's own implementation
   std::string baseline_name = {};
 };
 
@@ -51,7 +51,7 @@ std::vector<uint32_t> random_words(size_t count, uint32_t mask = ~0u) {
   return words;
 }
 
-// Of `count` and 16 elements more, which kernels may read.
+// Returns `count` elements and 16 more, which kernels may read.
 std::vector<uint32_t> permutation(uint32_t count, bool shuffled) {
   std::vector<uint32_t> order(size_t{count} + 16);
   std::iota(order.begin(), order.end(), 0u);
@@ -70,7 +70,7 @@ class Suite {
         checked_(std::min(n_, most_checked)),
         copy_(copy_bandwidth(context_, options.runs)) {}
 
-  // Each part frees its buffers before the next one takes its own.
+  // Each part frees its buffers before the next one allocates its own.
   void run() {
     for (const char* name : {"morton2", "morton3", "morton5", "hilbert2", "hilbert3"}) curves(name);
     for (const bool shuffled : {false, true}) gather(shuffled);
@@ -89,7 +89,7 @@ class Suite {
   std::string command_;
   gpu::Context context_;
   uint32_t n_, checked_;
-  double copy_;  // bytes a second
+  double copy_;  // bytes per second
 
   void measure(const KernelCase& c) {
     const auto once = [&] {
@@ -183,7 +183,7 @@ class Suite {
              [&] { gather(rays, list, rays.count, next); }, wrong});
   }
 
-  // Directions that differ from those of the host, which evaluates the same header.
+  // Counts directions that differ from those of the host, which evaluates the same header.
   size_t wrong_directions(const RayQueue& rays, const std::vector<uint32_t>& order, const LaunchDirections& d) {
     const std::vector<float> heights = LaunchHeights(context_).values();
     const auto place = d.places == "wt_place_hilbert"     ? device::wt_place_hilbert
@@ -222,8 +222,8 @@ class Suite {
     }
   }
 
-  // Keys of launch indices must be those of the rays: with direction-origin but for the lowest bits, 4 of finer
-  // directions in the one, 12 of origins in the other.
+  // Keys of launch indices must equal those of the rays; with direction-origin they may differ in the lowest bits: 4 of
+  // finer directions in the one, 12 of origins in the other.
   void order_keys(OrderKey key, const std::string& name) {
     const LaunchDirections directions("random", n_, seed);
     OrderKeys keys_of(context_, key, 16, directions, 1);
@@ -264,7 +264,7 @@ class Suite {
     measure(c);
   }
 
-  // Half of the words live.
+  // Half of the words are live.
   void compact() {
     const uint32_t block = tuning_of(context_.info()).block;
     Compact compact(context_);

@@ -1,6 +1,6 @@
-// bench_leaks: rays aimed at the edges and vertices of closed rooms from inside, through the trace pass. Each must hit:
-// a ray that leaves a closed surface without meeting it went between two triangles that share an edge or a vertex.
-// Assumes nothing about speed: the value is the number of leaks, and 0 is the only good one.
+// bench_leaks aims rays at the edges and vertices of closed rooms from inside, through the trace pass. Each must hit: a
+// ray that leaves a closed surface without a hit passed between two triangles that share an edge or a vertex. The value
+// is the number of leaks, which must be 0; speed does not matter.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,18 +28,18 @@ namespace {
 using glm::dvec3;
 using Float3 = std::array<float, 3>;
 
-constexpr int cells = 16;                                                                          // a side of a face
+constexpr int cells = 16;  // cells per side of a face
 constexpr size_t triangles_per_axis = 4 * cells * cells, triangle_count = 3 * triangles_per_axis;  // 3,072
 const dvec3 half_m(80, 60, 40);
 
 struct Room {
   std::string name;
   dvec3 centre_m;
-  double jitter;  // by how much of a cell vertices are off their plane and their place in it
+  double jitter;  // distance of vertices from their plane and their place in it, as a share of a cell
 };
 
-// The float32 spacing at UTM coordinates (of Munich: zone 32, easting 691 km, northing 5,335 km) is half a metre, so
-// the last room is not flat. The program itself recentres scenes; nothing here does.
+// The float32 spacing at UTM coordinates (Munich: zone 32, easting 691 km, northing 5,335 km) is half a metre, so the
+// last room is not flat. The program itself recentres scenes; this benchmark does not.
 const Room rooms[] = {{"flat, at the origin", {0, 0, 0}, 0},
                       {"jittered, at the origin", {0, 0, 0}, 0.3},
                       {"jittered, 7 km off", {7000, -7000, 100}, 0.3},
@@ -47,8 +47,8 @@ const Room rooms[] = {{"flat, at the origin", {0, 0, 0}, 0},
 
 enum class Aim { edges, vertices };
 
-// A box whose faces are grids. Vertices on its edges and corners are one vertex each, so it is closed; jittered
-// vertices move little enough that its inner half stays inside.
+// Returns a box whose faces are grids. Vertices on its edges and corners are one vertex each, so it is closed; jittered
+// vertices move so little that its inner half stays inside.
 Scene make_room(const Room& room) {
   Scene scene;
   std::mt19937 generator(1);
@@ -83,7 +83,7 @@ Scene make_room(const Room& room) {
         scene.triangles.push_back({corner[0], corner[2], corner[3]});
       }
   }
-  // One surface of all triangles: rays here leave none, so it is never left out.
+  // All triangles form one surface: rays here start on no surface, so it is never left out.
   scene.triangle_surface.assign(scene.triangles.size(), 0);
   scene.triangle_object.assign(scene.triangles.size(), 0);
   scene.surfaces.resize(1);
@@ -99,7 +99,7 @@ Scene make_room(const Room& room) {
   return scene;
 }
 
-// A point of a triangle's edge, or a vertex of it, in the arithmetic that rays have.
+// Returns a point of a triangle's edge, or a vertex of it, in the arithmetic of rays.
 Float3 choose_target(const Scene& scene, size_t triangle, size_t corner, float along) {
   const auto& corners = scene.triangles[triangle];
   const dvec3 &a = scene.vertices[corners[corner]], &b = scene.vertices[corners[(corner + 1) % 3]];
@@ -111,9 +111,9 @@ Float3 choose_target(const Scene& scene, size_t triangle, size_t corner, float a
   return target;
 }
 
-// Sixteen rays at neighbouring triangles: what packets of 16 take together. Even groups start from one point and pass
-// edges and vertices as closely as rounding allows; odd ones fly along an axis, where nothing is rounded, and meet
-// them exactly. A pure function of `group`.
+// Aims sixteen rays at neighbouring triangles, which a packet of 16 traces together. Even groups start from one point
+// and pass edges and vertices as closely as rounding allows; odd ones run along an axis, where nothing is rounded, and
+// hit them exactly. It is a pure function of `group`.
 void aim_group(const Scene& scene, const Room& room, Aim aim, uint64_t group, uint32_t capacity, uint32_t first,
                std::span<float> planes) {
   std::seed_seq seed{static_cast<uint32_t>(group), static_cast<uint32_t>(group >> 32)};
@@ -131,7 +131,7 @@ void aim_group(const Scene& scene, const Room& room, Aim aim, uint64_t group, ui
       const size_t face_axis = triangle / triangles_per_axis;
       Float3 opposite = target;
       opposite[face_axis] = middle[face_axis];
-      bool inside = true;  // of a room whose walls are uneven
+      bool inside = true;  // inside a room whose walls are uneven
       for (int axis = 0; axis < 3; axis++)
         inside &= std::abs(opposite[axis] - room.centre_m[axis]) <= 0.8 * half_m[axis];
       if (inside) origin = opposite;

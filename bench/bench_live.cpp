@@ -1,6 +1,6 @@
-// bench_live: latency from pose to channel, as a client of `wavetracer serve` sees it over a Unix socket, and where the
-// time goes. Assumes POSIX and a quiet machine. "error" is the share of the power of cold frames of ten times the rays,
-// at the same poses, that the frames measured miss.
+// bench_live measures the latency from pose to channel, as a client of `wavetracer serve` sees it over a Unix socket,
+// and its stages. It needs POSIX and a quiet machine. "error" is the share of the power of cold frames of ten times the
+// rays, at the same poses, that the measured frames miss.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -56,7 +56,7 @@ std::string config_text(const Options& options, uint32_t vehicles, uint64_t rays
   return out;
 }
 
-// A server of its own and a connection to it.
+// A server and a connection to it.
 class Server {
  public:
   Server(const Options& options, uint32_t vehicles, uint64_t rays) {
@@ -87,7 +87,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // The line that answers, without being read as JSON, and the columns that follow it.
+  // Returns the answering line, without parsing it as JSON, and the columns that follow it.
   std::string exchange(const std::string& line) {
     const std::string out = line + "\n";
     for (size_t sent = 0; sent < out.size();) {
@@ -105,7 +105,7 @@ class Server {
     } while (!is_whole(in));
     return in;
   }
-  // The line alone, and what follows it.
+  // Returns the line alone, or the bytes that follow it.
   static std::string_view line_of(std::string_view answer) { return answer.substr(0, answer.find('\n')); }
   static std::string_view columns_of(std::string_view answer) { return answer.substr(answer.find('\n') + 1); }
   json ask(const std::string& line) { return checked(json::parse(line_of(exchange(line)))); }
@@ -117,7 +117,7 @@ class Server {
   std::string device;
 
  private:
-  // The number of bytes that follow the line stands in its first 200.
+  // The number of bytes that follow the line is in its first 200 bytes.
   static bool is_whole(const std::string& in) {
     const size_t end = in.find('\n'), key = in.substr(0, 200).find("\"bytes\":");
     if (end == in.npos) return false;
@@ -143,7 +143,7 @@ class Server {
   int socket_ = -1;
 };
 
-// Frame messages of a drive of the built-in traffic.
+// Returns frame messages of a drive of the built-in traffic.
 std::vector<std::string> drive(const Options& options, uint32_t vehicles) {
   const Trajectories traffic =
       generate_traffic(fmt::format("--seed 1 --blocks 6x6 --vehicles {} --seconds {:.3f} --step {:.3f}", vehicles,
@@ -167,7 +167,7 @@ std::vector<std::string> drive(const Options& options, uint32_t vehicles) {
 
 std::string cold(const std::string& frame) { return "{\"cold\":true," + frame.substr(1); }
 
-// The smallest value that no more than the rest of the share exceeds.
+// Returns the smallest value that at most the share 1 - `share` of the values exceeds.
 double percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto last = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
@@ -179,7 +179,7 @@ struct Recall {
   double power = 0, found_power = 0;
 };
 
-// Paths of one link are the same where their delays agree within 1e-12 s; each is matched once.
+// Paths of one link are the same if their delays agree within 1e-12 s; each is matched once.
 void compare(const json& reference, const json& mine, Recall& recall) {
   using Rows = std::vector<std::pair<double, double>>;  // delay, power
   const auto rows = [](const json& answer) {
@@ -233,7 +233,7 @@ void run(const Options& options, uint32_t vehicles, const std::string& command) 
     double total_s = 0;
     for (size_t k = 0; k < std::min<size_t>(frames.size(), 5); ++k) {
       timed(cold(frames[k]), total_s);
-      if (k > 0) cold_s.push_back(total_s);  // the first one makes buffers
+      if (k > 0) cold_s.push_back(total_s);  // the first one allocates buffers
     }
     timed(cold(frames[0]), total_s);
     for (uint32_t k = 1; k < frames.size(); ++k) {

@@ -1,7 +1,8 @@
-// bench_order: what an order of the rays gains, the sort paid: every method of order.method, at launch and before each
-// depth, launch shapes, and rays born in order, against random directions unordered. Assumes a quiet machine and device
-// memory for all of them at once. "error" counts paths that differ from those of the unordered launch; for rays born
-// in order, whose directions are others, paths that they miss of those that either finds.
+// bench_order measures the gain of ordering rays, including the time of the sort: every method of order.method, at
+// launch and before each depth, launch shapes, and rays born in order, against random directions unordered. The machine
+// must be quiet, with device memory for all of them at once. "error" counts paths that differ from those of the
+// unordered launch; for rays born in order, which have other directions, it counts paths that they miss among those
+// that either finds.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,15 +24,16 @@ constexpr uint32_t max_depth = 7;
 struct Options {
   std::string device, scene;
   size_t runs = 7;
-  uint64_t rays = 0;  // 0: what suits the device
+  uint64_t rays = 0;  // 0 means a number that suits the device
 };
 
 struct Place {
-  std::string name, file, generate;  // file or generate
+  std::string name, file, generate;  // file or generate is set
   std::array<double, 3> transmitter_m, receiver_m;
 };
 
-// Munich with the transmitter of bench_trace and a car of configs/munich.toml; the city, antennas of configs/city.toml.
+// The places are Munich with the transmitter of bench_trace and a car of configs/munich.toml, and the city with
+// antennas of configs/city.toml.
 std::vector<Place> places(const std::string& scene) {
   std::vector<Place> result;
   const std::string munich = WAVETRACER_SHARED "/scenes/munich/munich.xml";
@@ -53,7 +55,7 @@ struct Variant {
   uint32_t bins = 16;
 };
 
-// The unordered launch first.
+// The unordered launch comes first.
 std::vector<Variant> variants() {
   std::vector<Variant> all{{}};
   for (const char* method : {"morton", "hilbert3d-histogram", "morton-histogram", "hilbert3d-histogram-hilbert2d",
@@ -108,7 +110,7 @@ std::multiset<PathBits> bits_of(const Paths& paths) {
   return all;
 }
 
-// How many of a are not in b.
+// Returns how many of a are not in b.
 size_t missing(const std::multiset<PathBits>& a, const std::multiset<PathBits>& b) {
   std::vector<PathBits> rest;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
@@ -119,11 +121,11 @@ struct Subject {
   Variant variant;
   Simulation simulation;
   std::multiset<PathBits> paths;
-  std::vector<double> paid, unpaid, trace, order;  // ms of each run
+  std::vector<double> paid, unpaid, trace, order;  // milliseconds of each run
 };
 
-// Rounds over all of them, each round from another one on, so that a slow spell of the machine slows them all and no
-// variant always follows the same one.
+// Runs rounds over all of them, each starting with another one, so that a slow phase of the machine affects them all
+// and no variant always follows the same one.
 std::vector<Subject> measure(const Place& place, uint64_t rays, const Options& options) {
   std::vector<Subject> subjects;
   for (const Variant& variant : variants()) {

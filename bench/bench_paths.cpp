@@ -1,5 +1,6 @@
-// bench_paths: seconds per frame from poses to fields, for one to a thousand links in munich, beside Sionna RT.
-// Assumes a quiet machine. "error" is the share of paths that are missed, among those that many more rays find.
+// bench_paths measures seconds per frame from poses to fields, for one to a thousand links in munich, and compares with
+// Sionna RT. The machine must be quiet. "error" is the share of paths that are missed, among those that many more rays
+// find.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,12 +25,12 @@ namespace fs = std::filesystem;
 constexpr uint32_t max_depth = 5;
 constexpr size_t most_transmitters = 10, most_receivers = 100;
 
-// Our rays per transmitter, and those of the peer beside them: rays that are sent towards the horizon find more than
-// ten times as many of the peer's, so the fair pair is the one in which ours miss no more paths.
+// Our rays per transmitter, and those of the peer: rays sent towards the horizon find more than ten times as many paths
+// as the peer's, so the fair pair is the one in which ours miss no more paths.
 struct Case {
   size_t transmitters, receivers;
   uint64_t rays, peer_rays;
-  uint64_t diffraction_rays = 0;  // of a receiver, in cases with diffraction at wedges, free edges left out
+  uint64_t diffraction_rays = 0;  // rays of a receiver, in cases with diffraction at wedges, without free edges
 
   bool diffraction() const { return diffraction_rays > 0; }
   std::string links() const { return fmt::format("{}x{}", transmitters, receivers); }
@@ -60,8 +61,8 @@ const Case cases[] = {
     {1, 100, million, million, 100'000},
 };
 
-// Seconds a warm solve of Sionna RT 2.2.0 (Mitsuba 3.9, Dr.Jit) in munich, 5.9 GHz, isotropic V, depth 5, line of sight
-// and specular reflection; measured on 2026-11-21. The CPU: two cores, LLVM 19; the GPU: one NVIDIA H200, OptiX.
+// Seconds per warm solve of Sionna RT 2.2.0 (Mitsuba 3.9, Dr.Jit) in munich, 5.9 GHz, isotropic V, depth 5, line of
+// sight and specular reflection; measured on 2026-11-21. The CPU: two cores, LLVM 19; the GPU: one NVIDIA H200, OptiX.
 // Antennas stood at other places of the same streets: --peer compares on the same ones. Those with diffraction stood at
 // these places, on 2026-11-22.
 struct MeasuredPeer {
@@ -94,7 +95,7 @@ Place load_place(const std::string& shared) {
   return city_place(most_transmitters, most_receivers);
 }
 
-// What bench/peers/sionna_rt.py reads, so that both solve the same links.
+// Writes the input of bench/peers/sionna_rt.py, so that both solve the same links.
 void write_links(const Place& place, const std::string& file) {
   nlohmann::ordered_json json{
       {"scene", place.name}, {"frequency_hz", config_of(place, 1, 1).radio.frequency_hz}, {"max_depth", max_depth}};
@@ -134,11 +135,11 @@ Simulation make_simulation(const Place& place, const Case& c, const std::string&
   config.trace.free_edges = false;
   config.trace.diffraction_rays = c.diffraction_rays;
   Simulation simulation(config, device);
-  simulation.profile_every(1'000'000);  // no stages are printed, so but for the first frames nothing is profiled
+  simulation.profile_every(1'000'000);  // no stages are printed, so only first frames are profiled
   return simulation;
 }
 
-// The paths of many more rays.
+// Returns the paths of many more rays.
 reference::Case make_reference(const Place& place, Case c, const Options& options) {
   c.rays = std::max(c.rays, options.reference_rays);
   if (c.diffraction()) c.diffraction_rays = std::max(c.diffraction_rays, reference_diffraction_rays);
@@ -172,9 +173,9 @@ void set_baseline(Result& result, const Case& c, const Place& place, const Peer&
   }
 }
 
-// Whether path i has a diffraction that is on no wedge of the scene.
+// Tells whether path i has a diffraction that is on no wedge of the scene.
 bool off_wedges(const Paths& paths, size_t i, const Scene& scene) {
-  constexpr double tolerance_m = 0.05;  // of float32 points, which are good to some millimetres
+  constexpr double tolerance_m = 0.05;  // float32 points are accurate to some millimetres
   for (uint64_t k = paths.vertex_offset[i]; k < paths.vertex_offset[i + 1]; k++) {
     if (paths.vertex_interaction[k] != diffraction) continue;
     const glm::dvec3 point = paths.vertex_position_m[k] - scene.origin_m;
@@ -187,8 +188,8 @@ bool off_wedges(const Paths& paths, size_t i, const Scene& scene) {
   return false;
 }
 
-// How many of the paths that the peer has written for this case are among ours. It takes every mesh by itself, so it
-// diffracts at joints of touching houses too, where their walls together leave no sector of free space wider than pi.
+// Counts the peer's paths for this case that are among ours. The peer handles every mesh by itself, so it also
+// diffracts at joints of touching houses, where their walls together leave no sector of free space wider than pi.
 void compare_with_peer(Result& result, const Case& c, const Paths& paths, const Scene& scene,
                        const std::string& folder) {
   const fs::path file = fs::path(folder) / fmt::format("{}_{}_{}.json", c.links(), c.peer_rays,

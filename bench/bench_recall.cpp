@@ -1,5 +1,5 @@
-// bench_recall: what rays buy. Seconds a frame against the share of known paths that are found, for each way of
-// choosing directions. Assumes the reference lists of specular paths; "error" is 1 - recall.
+// bench_recall measures the effect of more rays: seconds per frame against the share of known paths that are found, for
+// each way of choosing directions. It needs the reference lists of specular paths; "error" is 1 - recall.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
-// bench_scaling: frames a second of a drive on 1, 2, 4, ... devices of a host, or on CPUs of 1 process on 1 core and 2
-// processes on 2 cores. Needs the program and nothing else: city and traffic are generated.
-// Assumes POSIX, util-linux's taskset for CPUs, and that the program says "ready after" and "writing to" on stderr.
+// bench_scaling measures frames per second of a drive on 1, 2, 4, ... devices of a host, or on CPUs with 1 process on 1
+// core and 2 processes on 2 cores. It only needs the program: city and traffic are generated.
+// It needs POSIX, util-linux's taskset for CPUs, and the program's lines "ready after" and "writing to" on stderr.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <stdlib.h>
@@ -25,14 +25,14 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string program, device_kind, devices_list;  // device_kind: empty where this machine is to say
+  std::string program, device_kind, devices_list;  // device_kind: empty if this machine decides
   std::vector<uint32_t> counts;
-  double seconds = 25;  // wanted of the run on one device
+  double seconds = 25;  // wanted duration of the run on one device
   uint64_t rays = 50000;
   uint32_t frames = 0, vehicles = 100, shard_frames = 5;
 };
 
-// {}: seconds of traffic, shard_frames, rays, vehicles. 10 frames a second.
+// {} are seconds of traffic, shard_frames, rays, vehicles. There are 10 frames a second.
 constexpr const char* config_text = R"(scene.generate = "--seed 1 --blocks 6x6"
 trajectories.generate = "--seed 1 --blocks 6x6 --vehicles {3} --seconds {0} --step 0.1"
 time.step_s = 0.1
@@ -46,7 +46,7 @@ role = "both"
 offset_m = [0.0, 0.0, 1.6]
 )";
 
-// Of one command, seconds since its start.
+// Times of one command, in seconds since its start.
 struct Times {
   double ready_s = 0, merging_s = 0, whole_s = 0;
   double solving_s() const { return merging_s - ready_s; }
@@ -78,7 +78,7 @@ Times timed(const std::string& command) {
   return times;
 }
 
-// Beside this program, as in a bundle, or where a build folder has it.
+// The program is beside this one, as in a bundle, or at its place in a build folder.
 std::string find_program(const std::string& given) {
   if (!given.empty()) return given;
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
@@ -87,7 +87,7 @@ std::string find_program(const std::string& given) {
   throw ConfigError("wavetracer is not beside bench_scaling and not in its build folder; --program names it");
 }
 
-// Whether `wavetracer devices` has a GPU: whole words of its table.
+// Tells whether `wavetracer devices` lists a GPU: it looks for whole words of its table.
 bool has_gpu(const std::string& program) {
   FILE* const table = popen((quoted(program) + " devices 2>/dev/null").c_str(), "r");
   if (!table) throw RuntimeError("cannot start " + program);
@@ -125,7 +125,7 @@ class Scaling {
       const auto wanted = static_cast<uint32_t>(std::clamp(options_.seconds / frame_s, 1.0, 20000.0));
       options_.frames = wanted;
     }
-    // As many shards as all devices take in whole rounds: what is left over would count as a loss of scaling.
+    // There are as many shards as all devices take in whole rounds: a remainder would count as a loss of scaling.
     const uint32_t round = shard * most * 2;
     options_.frames = std::max(round, options_.frames / round * round);
     write_config(options_.frames);
@@ -149,7 +149,7 @@ class Scaling {
                                                          options_.shard_frames, options_.rays, options_.vehicles);
   }
 
-  // One device is run as a user would: without --devices.
+  // One device is run as a user would run it: without --devices.
   std::string words(uint32_t count) const {
     const std::string run =
         fmt::format("{} run -c {} -o {}", quoted(program_), quoted(folder_ / "drive.toml"), quoted(folder_ / "out"));
@@ -202,7 +202,7 @@ class Scaling {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  unsetenv("POCL_AFFINITY");  // binds PoCL's threads to the first cores, outside of taskset's
+  unsetenv("POCL_AFFINITY");  // the variable binds PoCL's threads to the first cores, outside of taskset's
   CLI::App app("Frames a second of a drive on 1, 2, 4, ... devices");
   bench::Options options;
   app.add_option("--program", options.program, "the wavetracer to run; default: beside this program");

@@ -1,6 +1,6 @@
-// bench_sort: our sorts over random keys, beside those of C++, TBB, Highway and Boost.Compute in the same run, and
-// those of CUDA where --cub names a program for them. Assumes a quiet machine. The value is wall time, launches
-// included; "error" counts keys and values that are not where std::stable_sort puts them.
+// bench_sort measures our sorts of random keys and compares them with those of C++, TBB, Highway and Boost.Compute in
+// the same run, and with those of CUDA if --cub names a program for them. The machine must be quiet. The value is wall
+// time, including launches; "error" counts keys and values that are not where std::stable_sort puts them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,21 +20,21 @@ namespace wavetracer::bench {
 namespace {
 
 constexpr uint32_t most_for_bitonic = 1u << 22;
-constexpr uint32_t most_for_slow_peers = 1u << 22;  // on CPUs; beyond, a run takes a second and more
+constexpr uint32_t most_for_slow_peers = 1u << 22;  // on CPUs; with more, a run takes a second or longer
 
 struct Options {
   std::string device, cub;
   size_t runs = 7;
-  unsigned largest = 0;  // a power of two; 0: what suits the device
+  unsigned largest = 0;  // a power of two; 0 means one that suits the device
   bool peers = true;
 };
 
 struct Case {
   SortShape shape;
-  bool crossover = false;  // few keys: our two sorts alone
+  bool crossover = false;  // few keys: only our two sorts
 };
 
-// 12 bits are the keys of the thesis' histogram, 24 those of direction-origin, 40 a key packed beside an index of 24.
+// 12 bits are the keys of the thesis' histogram, 24 those of direction-origin, 40 a key packed with an index of 24.
 std::vector<Case> all_cases(unsigned largest) {
   std::vector<Case> cases;
   for (unsigned power = 8; power <= std::min(16u, largest); power++)
@@ -51,7 +51,7 @@ std::vector<Case> all_cases(unsigned largest) {
   return cases;
 }
 
-// The same keys in every run and on every machine.
+// The keys are the same in every run and on every machine.
 template <class Key>
 std::vector<Key> random_keys(const SortShape& shape) {
   std::mt19937_64 generator(1);
@@ -69,7 +69,7 @@ std::string label(const SortShape& shape, Payload payload) {
 
 bool full_width(const SortShape& shape) { return shape.bits == shape.key_bits; }
 
-// label: how the case says it, the same in every run.
+// label: its name in the case, the same in every run.
 struct Baseline {
   std::string name;
   double seconds = 0;
@@ -105,7 +105,7 @@ class Bench {
   const Options& options_;
   std::string command_;
   gpu::Context context_;
-  double copy_;  // bytes a second
+  double copy_;  // bytes per second
   ProgramTimes cub_;
 
   struct Measured {
@@ -116,7 +116,7 @@ class Bench {
     size_t wrong;
   };
 
-  // Peers that could do one run, which is not counted.
+  // Returns the peers that could complete one run, which is not counted.
   template <class Key>
   std::vector<SortPeer> warm_peers(const SortShape& shape, const std::vector<Key>& keys) const {
     if (!options_.peers) return {};
@@ -144,7 +144,7 @@ class Bench {
     using Sort = typename DeviceKeys<Key>::Sort;
     DeviceKeys<Key> keys(context_, random_keys<Key>(c.shape), c.shape.bits);
     std::vector<Sort> sorts;
-    if (c.shape.payload) sorts.push_back(keys.radix(Payload::index));  // first: what bitonic is compared with
+    if (c.shape.payload) sorts.push_back(keys.radix(Payload::index));  // first: bitonic is compared with it
     if (!c.crossover) sorts.push_back(keys.radix(c.shape.payload ? Payload::words : Payload::none));
     if (c.shape.payload && full_width(c.shape) && c.shape.n <= most_for_bitonic)
       sorts.push_back(keys.bitonic(Payload::index));
@@ -156,7 +156,7 @@ class Bench {
       keys.run(sort);  // warm-up
       wrong.push_back(keys.wrong(sort));
     }
-    // Rounds over all of them, so that a machine that slows down for a while slows them all.
+    // Rounds go over all of them, so that a slow phase of the machine slows them all.
     std::vector<std::vector<double>> wall(sorts.size()), device(sorts.size()), theirs(peers.size());
     for (size_t run = 0; run < options_.runs; run++) {
       for (size_t i = 0; i < sorts.size(); i++) {
@@ -192,7 +192,7 @@ class Bench {
     }
   }
 
-  // One line a baseline; one without where there is none.
+  // Prints one line per baseline, or one without a baseline if there is none.
   void print_case(const Measured& m, const Baselines& baselines) const {
     const double n = m.shape.n, bytes_a_second = m.model_bytes * n / m.seconds.device;
     Result result;

@@ -1,5 +1,6 @@
-// bench_start: seconds from the launch of `wavetracer run` to its first kernel, with empty caches and on later starts.
-// Assumes POSIX, and that the program says "ready after" on standard error when its kernels are there and none has run.
+// bench_start measures the seconds from the start of `wavetracer run` to its first kernel, with empty caches and on
+// later starts. It needs POSIX, and the program's line "ready after" on standard error, printed when its kernels are
+// built and none has run.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -26,9 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double target_s = 0.3;  // what a second start may take
+constexpr double target_s = 0.3;  // limit of a second start
 
-// Four blocks of houses and one link: what starts quickly, so that the program's own start shows.
+// Four blocks of houses and one link load quickly, so that the program's own start shows.
 constexpr const char* config_text = R"([scene]
 generate = "--seed 1 --blocks 2x2"
 [trace]
@@ -42,12 +43,12 @@ position_m = [60.0, 0.0, 1.5]
 )";
 
 struct Start {
-  double ready_s = 0, whole_s = 0;       // from launch to the first kernel, and to the program's end
-  std::map<std::string, double> stages;  // of the time to the first kernel
+  double ready_s = 0, whole_s = 0;       // from the start to the first kernel, and to the program's end
+  std::map<std::string, double> stages;  // stages of the time to the first kernel
   std::string device;
 };
 
-// Starts the program with its standard error in a pipe, and calls on_line for each line as it arrives.
+// Starts the program with its standard error in a pipe, and calls on_line for each line when it arrives.
 template <class OnLine>
 int spawn(std::vector<std::string> words, OnLine on_line) {
   int ends[2];
@@ -117,7 +118,7 @@ struct Options {
   size_t runs = 9;
 };
 
-// Beside this program, as in a bundle, or where a build folder has it.
+// The program is beside this one, as in a bundle, or at its place in a build folder.
 std::string find_program(const std::string& given) {
   if (!given.empty()) return given;
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
@@ -130,7 +131,8 @@ void run(const Options& options, const std::string& command) {
   const test::TemporaryFolder folder;
   const std::string config = folder / "start.toml", output = folder / "out";
   std::ofstream(config) << config_text;
-  // Caches of this program, of PoCL and of NVIDIA's driver: empty at the first start, filled by it for the later ones.
+  // Caches of this program, of PoCL and of NVIDIA's driver are empty at the first start, which fills them for the later
+  // ones.
   for (const auto& [variable, name] :
        {std::pair{"XDG_CACHE_HOME", "cache"}, {"POCL_CACHE_DIR", "pocl"}, {"CUDA_CACHE_PATH", "cuda"}}) {
     fs::create_directory(folder / name);

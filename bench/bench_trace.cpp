@@ -1,7 +1,7 @@
-// bench_trace: nearest hits of seven segments of specular bounces, ours in every shape the device has, and Embree
-// beside it. Assumes a quiet machine. Ours and Embree get the same arrays of rays; "error" counts rays whose hit
-// distance differs from that of Embree's robust mode (of our first shape, where Embree is missing) by more than a
-// millimetre and 1e-4 of it.
+// bench_trace measures nearest hits of seven segments of specular bounces, with our kernels in every shape that the
+// device has, and with Embree. The machine must be quiet. Ours and Embree get the same arrays of rays; "error" counts
+// rays whose hit distance differs from that of Embree's robust mode (or of our first shape, if Embree is missing) by
+// more than a millimetre and 1e-4 of it.
 #include <fmt/format.h>
 #include <array>
 
@@ -43,7 +43,8 @@ struct Sample {
 using Segments = std::vector<std::vector<Ray>>;
 using Truth = std::vector<std::vector<Hit>>;
 
-// The program's own launch rays: "random", or "hilbert", its default, in which neighbours go the same way.
+// Returns the program's own launch rays: "random", or "hilbert", its default, in which neighbours have similar
+// directions.
 std::vector<Ray> launch(gpu::Context& context, Directions directions, std::array<float, 3> origin, size_t count) {
   RayQueue queue = make_ray_queue(context, count, "launch rays");
   GenerateRays(context, LaunchDirections(directions, count, 1))(queue, {0, {origin[0], origin[1], origin[2]}}, 0,
@@ -83,7 +84,7 @@ std::vector<Hit> trace_once(Tracer& tracer, std::span<const Ray> rays) {
   return hits;
 }
 
-// All segments from the launched rays on, and the hits they should give, by following `truth`.
+// Returns all segments from the launched rays on, and the hits that they should give, by following `truth`.
 std::pair<Segments, Truth> make_segments(std::vector<Ray> launched, Tracer& truth,
                                          std::span<const AccelTriangle> triangles) {
   Segments segments{std::move(launched)};
@@ -95,15 +96,15 @@ std::pair<Segments, Truth> make_segments(std::vector<Ray> launched, Tracer& trut
   return {std::move(segments), std::move(hits)};
 }
 
-// Every tracer over every segment. Runs go round the tracers in turn, so that a machine that slows down for a while
-// slows them all, and ratios of medians mean something.
+// Measures every tracer over every segment. Runs alternate between the tracers, so that a slow phase of the machine
+// slows them all, and ratios of medians are meaningful.
 std::vector<Sample> measure(std::span<const NamedTracer> tracers, const Segments& segments, const Truth& truth,
                             size_t runs) {
   std::vector<Sample> samples(tracers.size());
   for (size_t s = 0; s < kSegments; s++) {
     if (segments[s].empty()) continue;
     for (size_t i = 0; i < tracers.size(); i++) {
-      const std::vector<Hit> hits = trace_once(*tracers[i].tracer, segments[s]);  // warm-up; its rays stay loaded
+      const std::vector<Hit> hits = trace_once(*tracers[i].tracer, segments[s]);  // warms up; the rays stay loaded
       for (size_t ray = 0; ray < hits.size(); ray++) {
         const float expected = truth[s][ray].t;
         samples[i].differing += !(std::abs(hits[ray].t - expected) <= 1e-3f + 1e-4f * std::abs(expected));

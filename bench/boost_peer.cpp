@@ -1,5 +1,5 @@
-// Boost.Compute in a context of its own on the device of the same platform and name.
-// A radix sort on GPUs, a merge sort on CPUs. Its programs compile in the first run, which is not counted.
+// Boost.Compute runs in its own context on the device of the same platform and name.
+// It uses a radix sort on GPUs, a merge sort on CPUs. Its programs compile in the first run, which is not counted.
 #include "boost_peer.hpp"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 
 namespace wavetracer::bench {
 
-// Its run throws RuntimeError, with what OpenCL answers, where the device cannot run it.
+// Its run throws RuntimeError with OpenCL's answer if the device cannot run it.
 template <class Key>
 SortPeer boost_peer(const gpu::DeviceInfo& device, const std::vector<Key>& keys, bool payload);
 

@@ -1,4 +1,4 @@
-// Boxes and height fields as triangles, and their OBJ file.
+// Makes boxes and height fields of triangles, and their OBJ file.
 // OBJ counts vertices from 1.
 #include "box_scene.hpp"
 

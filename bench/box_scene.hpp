@@ -13,11 +13,11 @@ namespace wavetracer::bench {
 
 class BoxScene {
  public:
-  // A closed box, its faces outwards.
+  // Adds a closed box with its faces outwards.
   void box(const glm::dvec3& centre_m, const glm::dvec3& size_m);
-  // A surface of triangles over a square around the origin: cells x cells squares, each cut in two.
+  // Adds a surface of triangles over a square around the origin: cells x cells squares, each cut in two.
   void height_field(double side_m, uint32_t cells, const std::function<double(glm::dvec2)>& height_m);
-  // Throws RuntimeError where the file cannot be written.
+  // Throws RuntimeError if the file cannot be written.
   void write(const std::filesystem::path& file) const;
 
  private:

@@ -1,4 +1,4 @@
-// Counts of keys per bucket, and the concurrent table's search for a place, one key after the other.
+// Counts keys per bucket, and follows the concurrent table's search for a place, one key after the other.
 #include "cache_keys.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Host side of probe_cache_rate.cl and probe_thesis_cache.cl of tests/kernels.
+// The host side of probe_cache_rate.cl and probe_thesis_cache.cl of tests/kernels.
 // Times are those of the kernels by the device's clock, medians; the first run of each is not counted.
 #include "cache_rates.hpp"
 
@@ -11,12 +11,12 @@ namespace wavetracer::bench {
 namespace {
 
 constexpr uint32_t node_words = 17;
-constexpr uint32_t never_put = 0x80000000u;  // keys from here on
+constexpr uint32_t never_put = 0x80000000u;  // keys from here on were never put
 constexpr uint32_t stamp = 1;
 
 gpu::Range range(const gpu::Context& context, size_t items) { return {items, context.info().simple_local_size()}; }
 
-// Kernels that no table changes are built with one all the same.
+// Kernels that do not depend on a table are also built with one.
 gpu::Kernel plain_kernel(gpu::Context& context, const char* name) {
   return context.kernel(
       "probe_cache_rate", name,
@@ -67,7 +67,7 @@ Questions make_questions(gpu::Context& context, uint32_t count, uint32_t runs) {
   return q;
 }
 
-// Keys go in by parts, as questions are no more than fit into their buffers. Seconds of all parts.
+// Keys are put in parts, as the buffers hold a limited number of questions. Returns the seconds of all parts.
 double RatedTable::fill(Questions& questions) {
   clear();
   double seconds = 0;

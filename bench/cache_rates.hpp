@@ -1,5 +1,5 @@
-// Rates of one table of the ray cache, and of the thesis' as printed: what of bench_cache runs on the device.
-// Assumes that a table is filled to a load of 0.8 with the keys 0, 1, 2, ... before it is asked.
+// Rates of one table of the ray cache, and of the thesis' as printed: the part of bench_cache that runs on the device.
+// A table is filled to a load of 0.8 with the keys 0, 1, 2, ... before it is asked.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace wavetracer::bench {
 
 constexpr double cache_load = 0.8;
 
-// Questions and answers, shared by all tables.
+// Questions and answers, which all tables share.
 struct Questions {
   uint32_t count = 0, runs = 0;
   gpu::Buffer<uint64_t> cells;
@@ -19,20 +19,21 @@ struct Questions {
 };
 Questions make_questions(gpu::Context& context, uint32_t count, uint32_t runs);
 
-// Which keys are asked for.
+// The keys that are asked for.
 struct Traffic {
   std::string name;
   bool stored;       // keys that were put, or others
-  uint32_t askers;   // so many in a row ask for one key, then for another, drawn at random
-  uint32_t readers;  // cache.readers_number, of tables that wear out; those are filled anew before each run
+  uint32_t askers;   // this many askers in a row ask for one key, then for another random one
+  uint32_t readers;  // cache.readers_number, for tables that wear out; those are filled again before each run
 };
 constexpr uint32_t no_wear = 1u << 31;  // readers of an entry
 
 struct Rate {
-  double asked = 0;     // operations a second
-  double right = 0;     // of these, with the answer of the right key, or none where it was never put; puts: kept
+  double asked = 0;  // operations per second
+  double right = 0;  // rate of operations with the answer of the right key, or none if it was never put; for puts: rate
+                     // of kept ones
   double answered = 0;  // share of the operations
-  uint64_t wrong = 0;   // answers that are not what was stored under their key
+  uint64_t wrong = 0;   // answers other than what was stored under their key
 };
 
 // A table that can be filled and asked.
@@ -41,7 +42,7 @@ class RatedTable {
   virtual ~RatedTable() = default;
   // Puts all keys into the cleared table.
   Rate put(Questions& questions);
-  // The table was filled.
+  // The table must be filled.
   Rate find(Questions& questions, const Traffic& traffic);
   virtual uint32_t entries() const = 0;
   virtual uint64_t bytes() const = 0;
@@ -55,18 +56,18 @@ class RatedTable {
   virtual void clear() = 0;
   virtual void put_questions(Questions& questions, uint32_t count) = 0;
   virtual void find_questions(Questions& questions, uint32_t readers) = 0;
-  virtual uint64_t kept() = 0;  // keys in the table
+  virtual uint64_t kept() = 0;  // number of keys in the table
   virtual bool wears() const = 0;
   double fill(Questions& questions);
 };
 
-// One of ours in the memory of `bytes` bytes.
+// One of our tables with `bytes` bytes of memory.
 class OurTable : public RatedTable {
  public:
   OurTable(gpu::Context& context, const CacheConfig& config, uint64_t bytes);
   uint32_t entries() const override { return table_.regions[0].entries; }
   uint64_t bytes() const override { return table_.bytes(); }
-  // Evaluations of the hash alone, a second.
+  // Returns evaluations of the hash alone per second.
   double hash(Questions& questions);
 
  private:
@@ -78,7 +79,7 @@ class OurTable : public RatedTable {
   bool wears() const override { return table_.config.kind == "open" && table_.config.locking == "readers"; }
 };
 
-// The table of listing C.3, of nodes of 68 bytes.
+// The table of listing C.3, with nodes of 68 bytes.
 class ThesisTable : public RatedTable {
  public:
   ThesisTable(gpu::Context& context, uint64_t bytes);
@@ -96,7 +97,7 @@ class ThesisTable : public RatedTable {
   bool wears() const override { return true; }
 };
 
-// Random reads a second from a buffer of so many bytes: slots of 64 bytes, words of 8.
+// Random reads per second from a buffer of this size: slots of 64 bytes, words of 8.
 struct GatherRates {
   double slots = 0, words = 0;
 };

@@ -1,4 +1,4 @@
-// Traced by our own kernels and reflected on the host.
+// Our own kernels trace, the host reflects.
 // In Munich the transmitter stands in a street, at a pedestrian's height.
 #include "cache_rays.hpp"
 

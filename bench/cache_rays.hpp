@@ -1,5 +1,5 @@
-// Rays of a real scene, segment by segment, with what the ray cache's key takes of them.
-// Assumes one transmitter, and specular reflections alone.
+// Rays of a real scene, segment by segment, with the values that the ray cache's key uses.
+// There is one transmitter, and only specular reflection.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,20 +12,20 @@ namespace wavetracer::bench {
 
 struct Segment {
   std::vector<Ray> rays;
-  std::vector<uint32_t> left, surface;  // what each ray left: its primitive and surface, WT_NONE at the transmitter
+  std::vector<uint32_t> left, surface;  // the primitive and surface that each ray left, WT_NONE at the transmitter
 };
 
 struct SceneRays {
-  std::string name;  // of the scene
+  std::string name;  // name of the scene
   Scene scene;
   std::vector<Segment> segments;
   size_t count() const;
 };
 
-// The segments 1 to 5 of `launched` rays: of Munich, where the shared folder has it, else of a generated city.
+// Returns the segments 1 to 5 of `launched` rays: in Munich, if the shared folder has it, else in a generated city.
 SceneRays scene_rays(gpu::Context& context, const std::string& shared, uint32_t launched);
 
-// A labelled queue of region 0.
+// Returns a labelled queue of region 0.
 RayQueue labelled_queue(gpu::Context& context, const Segment& segment);
 
 }  // namespace wavetracer::bench

@@ -1,5 +1,5 @@
-// A run goes through the segments as the first frame of a drive does, and asks again as the second one does.
-// The first run is not counted.
+// A run goes through the segments as the first frame of a drive does, and asks again as the second one does. The first
+// run is not counted.
 #include "cache_stages.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Launch {
   RayQueue rays;
   HitList traced, hits;
   gpu::Buffer<float> missed;
-  gpu::Buffer<uint32_t> indices;  // every ray is a missed one
+  gpu::Buffer<uint32_t> indices;  // every ray counts as missed
   gpu::Buffer<uint32_t> hashes;
 };
 
@@ -47,7 +47,7 @@ double answered(const Launch& launch) {
 }  // namespace
 
 std::vector<StageTimes> stage_times(gpu::Context& context, const SceneRays& rays, CacheConfig config, uint32_t runs) {
-  config.buffer_size = rays.count() + rays.count() / 4;  // at load 0.8, if each ray had a key of its own
+  config.buffer_size = rays.count() + rays.count() / 4;  // for a load of 0.8 if each ray had its own key
   CacheTable table = make_cache_table(context, config, 1, static_cast<uint32_t>(rays.scene.surfaces.size()),
                                       static_cast<uint32_t>(rays.scene.triangles.size()));
   const CacheMovement movement = make_cache_movement(context);

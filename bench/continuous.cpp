@@ -1,4 +1,4 @@
-// Both simulations solve a frame in turn, so that whatever else the machine does meets both alike.
+// The two simulations solve frames alternately, so that other load of the machine affects both.
 #include "continuous.hpp"
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@ void measure_continuous(const std::string& name, const Config& config, double di
   Config changed = config;
   changed.trace.discover_every_s = discover_every_s;
   Simulation spared(changed, device);
-  for (Simulation* simulation : {&all, &spared}) {  // buffers are made, drivers finish compiling
-    simulation->profile_every(16);                  // as runs do
+  for (Simulation* simulation : {&all, &spared}) {  // allocates buffers, lets drivers finish compiling
+    simulation->profile_every(16);                  // as in runs
     simulation->run_frame(0);
     simulation->run_frame(1);
     simulation->forget();
@@ -56,8 +56,8 @@ void measure_continuous(const std::string& name, const Config& config, double di
   line.error = mean(lost);
   const double worst = *std::max_element(lost.begin(), lost.end());
   line.detail = fmt::format(
-      "{} frames of 1 ms, rays every {} s; a frame without rays {:.4g} s (median); the worst lacks {:.2g} of the "
-      "power; "
+      "{} frames of 1 ms, rays every {} s; a frame without rays {:.4g} s (median); "
+      "the worst lacks {:.2g} of the power; "
       "late by the run itself: {} paths, {:.2g} of the power, at most {:.2g}",
       spared_s.size(), discover_every_s, median(between_s), worst, late.paths, late.power_share(), late.largest_share);
   line.extra = {{"between_s", median(between_s)},

@@ -1,5 +1,5 @@
-// Steps of a millisecond with rays launched every so often, beside frames that all launch rays.
-// Assumes a quiet machine, and sequences that are reused.
+// Measures steps of a millisecond in which only some frames launch rays, compared with frames that all launch rays.
+// The machine must be quiet, and sequences must be reused.
 #pragma once
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace wavetracer::bench {
 
-// Prints a line: seconds per frame on average, launches included, against frames that all launch rays. The error is the
-// share of their power that the frames without rays lack, on average; the detail has the worst frame, and what the run
-// itself says of it.
+// Prints a line: average seconds per frame, launches included, compared with frames that all launch rays. The error is
+// the average share of their power that the frames without rays lack; the detail has the worst frame, and the run's own
+// estimate.
 void measure_continuous(const std::string& name, const Config& config, double discover_every_s,
                         const std::string& device, const std::string& command);
 

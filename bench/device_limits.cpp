@@ -1,5 +1,5 @@
-// Arithmetic is measured by tests/kernels/probe_arithmetic.cl: chains of fused multiplies and adds.
-// GPUs want one lane per work-item, CPUs vectors: the better of both counts.
+// tests/kernels/probe_arithmetic.cl measures arithmetic: chains of fused multiplies and adds.
+// GPUs need one lane per work-item, CPUs vectors: the better of both counts.
 #include "device_limits.hpp"
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace wavetracer::bench {
 namespace {
 
-constexpr uint32_t chains = 8;  // of the kernel
+constexpr uint32_t chains = 8;  // number of chains of the kernel
 
 template <class Scalar>
 double operations_per_second(gpu::Context& context, size_t runs, uint32_t lanes) {

@@ -1,5 +1,5 @@
-// What a device can do at most, measured: no kernel is faster than its bytes, operations and launches allow.
-// Assumes a quiet machine.
+// Measures the limits of a device: no kernel is faster than its bytes, operations and launches allow. The machine must
+// be quiet.
 #pragma once
 #include <cstddef>
 
@@ -8,12 +8,12 @@
 namespace wavetracer::bench {
 
 struct DeviceLimits {
-  double bytes_s = 0;                   // read and written, by a copy that no cache holds
+  double bytes_s = 0;                   // read and written by a copy that no cache holds
   double singles_s = 0, doubles_s = 0;  // operations of float and double; a fused multiply and add counts as two
-  double launch_s = 0;  // the shortest time of a kernel that does next to nothing, by the device's clock
+  double launch_s = 0;                  // the shortest time of a nearly empty kernel, by the device's clock
 };
 
-// Medians of so many runs each.
+// Returns medians of `runs` runs each.
 DeviceLimits measure_limits(gpu::Context& context, size_t runs);
 
 }  // namespace wavetracer::bench

@@ -1,5 +1,5 @@
-// Runs and checks of our sorts.
-// The word that travels with key i is ~i, so that a sort that made up its own indices would be seen.
+// Runs and checks our sorts.
+// The word that travels with key i is ~i, so that a sort that made up its own indices would be detected.
 #include "device_sort.hpp"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ std::vector<uint32_t> travelling_words(size_t n) {
   return words;
 }
 
-// A pass of eight bits reads the keys to count them, then reads and writes keys and words (reference: D. Merrill and
-// A. Grimshaw, "High performance and scalable radix sorting", PPL 2011). Indices are not read before the first pass.
+// A pass of eight bits reads the keys to count them, then reads and writes keys and words (see D. Merrill and A.
+// Grimshaw, "High performance and scalable radix sorting", PPL 2011). Indices are not read before the first pass.
 template <class Key>
 double radix_bytes(Payload payload, unsigned bits) {
   const unsigned passes = (bits + 7) / 8, word = payload == Payload::none ? 0 : 4;
@@ -87,7 +87,7 @@ SortSeconds DeviceKeys<Key>::run(const Sort& sort) {
 template <class Key>
 size_t DeviceKeys<Key>::wrong(const Sort& sort) const {
   const std::vector<Key> keys = sorted_.read();
-  std::vector<uint32_t> places;  // where each key stood; empty without payload
+  std::vector<uint32_t> places;  // original place of each key; empty without payload
   if (sort.payload != Payload::none) places = values_.read();
   if (sort.payload == Payload::words)
     for (uint32_t& place : places) place = ~place;
@@ -105,7 +105,7 @@ size_t DeviceKeys<Key>::wrong_by_stable_sort(const std::vector<Key>& keys, const
   return differing;
 }
 
-// With places these rules leave one result, that of a stable sort: places that ascend among equal keys are distinct.
+// With places, these rules allow only the result of a stable sort: places that ascend among equal keys are distinct.
 template <class Key>
 size_t DeviceKeys<Key>::wrong_by_rules(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const {
   size_t violations = 0;

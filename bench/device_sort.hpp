@@ -1,5 +1,5 @@
-// Our sorts as the sort benchmark runs them: over one array of keys, restored on the device before each run, and
-// checked on the host. Assumes keys of which only the lowest `bits` bits differ.
+// Runs our sorts for the sort benchmark: over one array of keys, restored on the device before each run, and checked on
+// the host. Only the lowest `bits` bits of keys differ.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -13,7 +13,7 @@ namespace wavetracer::bench {
 
 struct SortSeconds {
   double wall = 0;    // from the first launch until all is done, as a user waits, without profiling
-  double device = 0;  // the kernels alone, by the device's clock, in a run of its own
+  double device = 0;  // the kernels alone, by the device's clock, in a separate run
 };
 
 template <class Key>
@@ -21,7 +21,7 @@ class DeviceKeys {
  public:
   DeviceKeys(gpu::Context& context, std::vector<Key> keys, unsigned bits);
 
-  // One of our sorts, ready to run. model_bytes: what it moves by a key; 0: there is no model of it.
+  // One of our sorts, ready to run. model_bytes: bytes that it moves per key; 0 if there is no model.
   struct Sort {
     std::string name;
     Payload payload;
@@ -32,8 +32,9 @@ class DeviceKeys {
   Sort bitonic(Payload payload);
 
   SortSeconds run(const Sort& sort);
-  // Of the last run: keys and values that differ from those of std::stable_sort. Above 2^22 keys, keys out of order,
-  // values that do not belong to their keys or are not stable, and one more if the sum of the keys changed.
+  // Counts, for the last run, keys and values that differ from those of std::stable_sort. Above 2^22 keys it counts
+  // keys out of order, values that do not belong to their keys or are not stable, and one more if the sum of the keys
+  // changed.
   size_t wrong(const Sort& sort) const;
 
   const std::vector<Key>& keys() const { return keys_; }

@@ -1,5 +1,5 @@
-// Stages of the device come from its events, so what they leave of a frame is the host, transfers and waiting.
-// The 95th percentile is the smallest value that no more than 5 % of the frames exceed.
+// Stages of the device come from its events; the rest of a frame is the host, transfers and waiting. The 95th
+// percentile is the smallest value that at most 5 % of the frames exceed.
 #include "drive.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// What warm frames took, and of those that were profiled, stage by stage.
+// Times of warm frames, and the stages of those that were profiled.
 class FrameTimes {
  public:
   void add(const FrameResult& result) {
@@ -67,7 +67,7 @@ class FrameTimes {
   }
   const std::vector<double>& frame() const { return frame_; }
 
-  // Medians, the longest first. A stage that was not in every profiled frame counts as nothing where it was not.
+  // Returns medians, the longest first. A stage that was missing from a profiled frame counts as 0 there.
   std::vector<std::pair<std::string, double>> stages() const {
     std::vector<std::pair<std::string, double>> medians;
     for (auto [stage, seconds] : seconds_) {
@@ -117,7 +117,7 @@ double measure(const Drive& drive, const Setting& setting, const References& ref
     for (uint32_t frame = 1; frame < drive.frames; frame++) frames.push_back(frame);
   }
 
-  FrameResult result = simulation.run_frame(0);  // buffers are made, drivers finish compiling
+  FrameResult result = simulation.run_frame(0);  // allocates buffers, lets drivers finish compiling
   simulation.forget();
   result = simulation.run_frame(0);
   const double cold_s = result.seconds.at("frame");
@@ -176,8 +176,7 @@ double measure(const Drive& drive, const Setting& setting, const References& ref
                          path_recalls.back(), last.reference, last.extra(), mean(path_recalls), mean(power_recalls));
   }
   line.detail = fmt::format(
-      "{:.3g} frames/s, p95 {:.4g} s, cold frame {:.4g} s; {} links, {} paths, {} rays a "
-      "transmitter; {}; {}",
+      "{:.3g} frames/s, p95 {:.4g} s, cold frame {:.4g} s; {} links, {} paths, {} rays a transmitter; {}; {}",
       1 / median_s, p95_s, cold_s, result.world.links.size(), result.counts.paths, rays, recall, stages);
   for (const std::string& warning : result.warnings) fmt::print(stderr, "{}: {}\n", line.name, warning);
   print(line, command);

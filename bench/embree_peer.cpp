@@ -1,5 +1,5 @@
-// Embree as the peer: scene building, and the tracing loops for single rays and packets.
-// Assumes x86 where it sets FTZ and DAZ, which Embree's manual recommends for speed.
+// Embree as the peer: it builds the scene, and traces single rays and packets.
+// On x86 it sets FTZ and DAZ, which Embree's manual recommends for speed.
 #include "embree_peer.hpp"
 
 #if defined(__SSE3__) || defined(__x86_64__)

@@ -24,7 +24,7 @@ void roughen(Config& config) {
   }
 }
 
-// A grid of crowns around the first transmitter.
+// Adds a grid of crowns around the first transmitter.
 void plant(Config& config) {
   const std::array<double, 3> middle = config.transmitters.front().position_m;
   for (int i = -10; i < 10; ++i)

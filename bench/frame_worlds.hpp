@@ -1,4 +1,4 @@
-// Worlds that together launch every kernel of a frame: munich, or the generated city where munich is not there.
+// Worlds that together launch every kernel of a frame: munich, or the generated city if munich is missing.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,10 +10,10 @@ namespace wavetracer::bench {
 struct FrameWorld {
   std::string name;
   Config config;
-  uint32_t frames = 1;  // of a drive; a still world is solved again and again
+  uint32_t frames = 1;  // frames of a drive; a world without motion is solved again and again
 };
 
-// rays: per transmitter, where a world does not choose them itself.
+// rays: per transmitter, for worlds that do not choose them themselves.
 std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, size_t vehicles, uint32_t frames);
 
 }  // namespace wavetracer::bench

@@ -1,5 +1,5 @@
-// Wall time around Simulation::run_frame, so that host stages count as well as kernels.
-// A steady clock; the median of an even number of frames is the mean of the two in the middle.
+// Measures wall time around Simulation::run_frame, so that host stages count as well as kernels.
+// The clock is steady; the median of an even number of frames is the mean of the two in the middle.
 #include "frames.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Warm frames of a simulation: the first one apart, then the median of the rest by wall time.
-// Assumes that the caller has nothing else running on the device.
+// Measures warm frames of a simulation: the first one separately, then the median of the rest by wall time.
+// Nothing else may run on the device.
 #pragma once
 #include <cstddef>
 
@@ -8,9 +8,9 @@
 namespace wavetracer::bench {
 
 struct Frames {
-  double first_s = 0;   // cold: buffers are made, drivers finish compiling
-  double median_s = 0;  // of the frames after it
-  FrameResult result;   // of the last frame
+  double first_s = 0;   // a cold frame: buffers are allocated, drivers finish compiling
+  double median_s = 0;  // median of the frames after it
+  FrameResult result;   // result of the last frame
 };
 
 // Solves frame 0 once and then `count` times more, count >= 1.

@@ -1,5 +1,5 @@
-// What a benchmark prints: one JSON object a line on standard output, with the same keys from every benchmark.
-// Assumes that everything else goes to standard error.
+// The output of a benchmark: one JSON object per line on standard output, with the same keys in every benchmark. All
+// other output goes to standard error.
 #pragma once
 #include <cstdio>
 #include <ctime>
@@ -17,28 +17,28 @@ enum class Better { higher, lower };
 struct Result {
   std::string bench;   // the program's name without bench_
   std::string name;    // the case
-  std::string device;  // what it ran on
+  std::string device;  // the device that it ran on
   double value = 0;
   std::string unit;
   Better better = Better::higher;
-  std::string baseline;                  // what it is compared with; empty: nothing
+  std::string baseline;                  // the baseline that it is compared with; empty if there is none
   std::optional<double> baseline_value;  // in the same unit
-  double error = 0;                      // what the speed costs, in the words of the benchmark's documentation; 0 where
-                                         // exact, NaN where it was not measured
-  std::string detail;                    // a short remark for the table; may be empty
+  // The price of the speed, as the benchmark's documentation defines it; 0 if exact, NaN if it was not measured.
+  double error = 0;
+  std::string detail;                                               // a short remark for the table; may be empty
   nlohmann::ordered_json extra = nlohmann::ordered_json::object();  // fields of this benchmark alone
-  bool exact = false;  // error counts what is wrong, and a result with any is none
+  bool exact = false;  // error counts wrong results, and a result with errors is refused
 };
 
-// The command as a user would repeat it: the program without its folder, and its arguments.
+// Returns the command as a user would repeat it: the program without its folder, and its arguments.
 inline std::string command_line(int argc, const char* const* argv) {
   std::string command = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; i++) command += std::string(" ") + argv[i];
   return command;
 }
 
-// ratio says how many times better the value is than the baseline's, whichever way the unit points.
-// Throws RuntimeError instead, so that the benchmark fails, for a result that must be exact and is not.
+// ratio says how many times better the value is than the baseline's, whether a larger or a smaller value is better.
+// If a result must be exact and is not, it throws RuntimeError, so that the benchmark fails.
 inline void print(const Result& result, const std::string& command) {
   if (result.exact && result.error != 0)
     throw RuntimeError(result.name + ": " + std::to_string(static_cast<uint64_t>(result.error)) +

@@ -1,5 +1,5 @@
-// Lower bounds. A search in a tree of n triangles visits a node of eight boxes per level and one triangle; a reflection
-// costs its image and its point. Where a count is not known, the smallest possible one stands for it.
+// Costs are lower bounds. A search in a tree of n triangles visits a node of eight boxes per level and one triangle; a
+// reflection costs its image and its point. If a count is unknown, the smallest possible one is used.
 #include "kernel_costs.hpp"
 
 #include <algorithm>
@@ -16,10 +16,10 @@ using namespace device;
 using N = const FrameNumbers&;
 
 constexpr double word = sizeof(uint32_t), ray_m = 6 * word, hit = WT_HIT_PLANES * word, node = sizeof(uint64_t);
-constexpr double box_operations = 12, triangle_operations = 40;  // slabs; edges and a division
-constexpr double image_operations = 11, point_operations = 30;   // of a reflection, in double
-constexpr double wedge_operations = 60;                          // the shortest way over an edge
-constexpr double sphere_operations = 20, reach_operations = 45;  // of a segment and a receiver
+constexpr double box_operations = 12, triangle_operations = 40;  // slab tests; edge tests and a division
+constexpr double image_operations = 11, point_operations = 30;   // for a reflection, in double
+constexpr double wedge_operations = 60;                          // for the shortest way over an edge
+constexpr double sphere_operations = 20, reach_operations = 45;  // for a segment and a receiver
 constexpr double labelled = WT_RAY_LABELLED_PLANES * word, queued = WT_RAY_PLANES * word;
 
 double nothing(N) { return 0; }
@@ -29,7 +29,7 @@ double always(N) {
 }
 double segments(N n) { return static_cast<double>(n.frame.counts.segments); }
 double rays(N n) { return static_cast<double>(n.frame.counts.rays); }
-// Of the segments after the first.
+// Segments after the first.
 double later_segments(N n) { return segments(n) - rays(n); }
 double nodes(N n) { return static_cast<double>(n.frame.counts.sequences) + n.transmitters(); }
 template <size_t size>
@@ -51,7 +51,7 @@ double vehicles_operations(N n) {
   return 2 * box_operations *
          std::ceil(std::log2(std::max<double>(static_cast<double>(n.frame.world.instances.size()), 2)));
 }
-// A ray is read once, and each of its hits enters a sequence.
+// A ray is read once, and each of its hits is added to a sequence.
 double bounces_bytes(N n) {
   return (rays(n) * (ray_m + 2 * word) + n.hit_share() * segments(n) * (node + word)) / segments(n);
 }
@@ -86,7 +86,7 @@ double point_of_rows(N n) { return (n.depth() + 1) * 9; }
 double path_rows(N n) { return static_cast<double>(n.frame.counts.paths); }
 double row_bytes(N n) { return solved_bytes(n) + sizeof(wt_path_row) + n.depth() * sizeof(wt_vertex_row); }
 double field_operations(N n) { return 400 + n.depth() * 700; }  // two antennas; a slab and its change of basis
-// The root of the tree for every leg, and no volume.
+// It reads the root of the tree for every leg, and no volume.
 double vegetation_bytes(N n) { return solved_bytes(n) + sizeof(double); }
 double vegetation_operations(N n) { return (n.depth() + 1) * 2 * box_operations; }
 double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + word; }

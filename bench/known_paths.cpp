@@ -1,4 +1,4 @@
-// A merge of lists that are sorted by link and delay, as Paths promises.
+// Merges lists that are sorted by link and delay, as Paths promises.
 #include "known_paths.hpp"
 
 #include <tuple>

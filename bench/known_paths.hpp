@@ -1,5 +1,5 @@
-// All paths of a frame that any of several launches has found: as near to the truth as launches come.
-// Assumes launches of one world, by one program: paths are the same where path_recall says so.
+// All paths of a frame that any of several launches has found: the best available approximation of the truth.
+// The launches must be of one world, by one program: paths are the same if path_recall says so.
 #pragma once
 #include <cstddef>
 
@@ -9,7 +9,7 @@ namespace wavetracer::bench {
 
 class KnownPaths {
  public:
-  // Keeps what is new of a frame.
+  // Adds the new paths of a frame.
   void add(const Paths& found);
   size_t size() const { return paths_.size(); }
   double power() const;  // sum of |a|^2 over all ports
@@ -19,7 +19,7 @@ class KnownPaths {
     size_t paths = 0;
     double power = 0;  // sum of |a|^2
   };
-  // What is known and not among these.
+  // Returns the known paths that are not among these.
   Lost lost(const Paths& found) const;
 
  private:

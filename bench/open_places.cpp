@@ -1,4 +1,4 @@
-// Places are open where a line straight down meets nothing but the ground.
+// A place is open if a line straight down hits nothing but the ground.
 // Kerbs, cars and uneven ground below one metre count as ground; roofs and decks are higher.
 #include "open_places.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 constexpr double ground_tolerance_m = 1;
-constexpr int most_tries = 10'000;  // open places are a hundredth of a dense city at least
+constexpr int most_tries = 10'000;  // open places are at least a hundredth of a dense city
 
 double to_millimetres(double metres) { return std::round(metres * 1e3) / 1e3; }
 
@@ -50,8 +50,8 @@ dvec3 OpenPlaces::open(const Area& area, double height_m) {
     return {x, y, to_millimetres(ground + height_m)};
   }
   throw InputError(
-      fmt::format("{}: of {} places between ({}, {}) and ({}, {}) none is open to the sky; is this a scene "
-                  "with streets?",
+      fmt::format("{}: of {} places between ({}, {}) and ({}, {}) none is open to the sky; "
+                  "is this a scene with streets?",
                   scene_.file, most_tries, area.lower_m.x, area.lower_m.y, area.upper_m.x, area.upper_m.y));
 }
 
@@ -62,7 +62,7 @@ dvec3 OpenPlaces::within(const dvec3& lower_m, const dvec3& upper_m) {
 }
 
 dvec3 OpenPlaces::free_start(const dvec3& end_m, double distance_m) const {
-  // Rotations by 3-4-5 turns, which are the same on every machine and never come back to where they were.
+  // Rotations by 3-4-5 triangles are the same on every machine and never return to the start.
   dvec2 way(1, 0);
   for (int turn = 0; turn < 16; ++turn, way = dvec2(0.6 * way.x - 0.8 * way.y, 0.8 * way.x + 0.6 * way.y)) {
     const dvec3 start = end_m + distance_m * dvec3(way.x, way.y, 0), beyond = end_m + 1.1 * (start - end_m);

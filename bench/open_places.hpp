@@ -1,5 +1,6 @@
-// Places for antennas, drawn at random: in the open, or within a box.
-// The same seed gives the same places everywhere: the generator is the standard's own, distributions are not used.
+// Draws places for antennas at random: in the open, or within a box.
+// The same seed gives the same places everywhere: the generator is that of the standard, and distributions are not
+// used.
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -15,26 +16,26 @@ struct Area {
   glm::dvec2 lower_m{0}, upper_m{0};
 };
 
-// The middle of the rectangle, `share` of its sides.
+// Returns the middle of the rectangle with `share` of its sides.
 Area middle_of(const Area& area, double share);
-// Up to reach_m from a place to each side.
+// Returns the area up to reach_m from a place in each direction.
 Area around(const glm::dvec3& place_m, double reach_m);
 
 class OpenPlaces {
  public:
-  // The scene must outlive this.
+  // The scene must outlive this object.
   OpenPlaces(const Scene& scene, uint64_t seed);
-  // Of the whole scene.
+  // Returns the area of the whole scene.
   Area area() const;
   glm::dvec3 lower_m() const { return scene_.lower + scene_.origin_m; }
   glm::dvec3 upper_m() const { return scene_.upper + scene_.origin_m; }
-  // A place height_m above ground that nothing covers, in file coordinates, to a millimetre. Throws InputError where
-  // hardly any place is open.
+  // Returns a place height_m above ground with nothing above it, in file coordinates, to a millimetre. Throws
+  // InputError if hardly any place is open.
   glm::dvec3 open(const Area& area, double height_m);
-  // A place in a box, likewise.
+  // Returns a place in a box, in the same way.
   glm::dvec3 within(const glm::dvec3& lower_m, const glm::dvec3& upper_m);
-  // Another place distance_m from this one on its level, with nothing between them: where something that ends here may
-  // have come from. This place itself where all ways are obstructed.
+  // Returns another place distance_m from this one at its height, with nothing between them: a vehicle that ends here
+  // may have come from there. It returns this place itself if all ways are obstructed.
   glm::dvec3 free_start(const glm::dvec3& end_m, double distance_m) const;
 
  private:

@@ -1,5 +1,5 @@
-// A merge of two lists sorted by link and delay: only paths within the tolerance of each other are ever compared.
-// Powers agree within 1e-6 of themselves: the same path solved from its other end differs in the last bits alone.
+// Merges two lists sorted by link and delay: only paths within the tolerance of each other are compared. Powers must
+// agree within 1e-6 of themselves: the same path solved from its other end differs in the last bits alone.
 #include "path_recall.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool same_power(double a, double b) { return std::abs(a - b) <= power_tolerance 
 std::vector<size_t> matching_rows(const Paths& reference, const Paths& mine) {
   std::vector<bool> taken(mine.size(), false);
   std::vector<size_t> rows(reference.size(), no_row);
-  size_t first = 0;  // of mine, not before reference path i less the tolerance
+  size_t first = 0;  // first row of mine that is not before reference path i minus the tolerance
   const auto is_before = [&](size_t j, size_t i) {
     return link_of(mine, j) < link_of(reference, i) ||
            (link_of(mine, j) == link_of(reference, i) && mine.delay_s[j] < reference.delay_s[i] - delay_tolerance_s);

@@ -1,5 +1,5 @@
 // Places are drawn by street_points, so that they are the same on every machine.
-// The nearest receiver leads, so that a single link is one that has paths.
+// The nearest receiver comes first, so that a single link has paths.
 #include "places.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double antenna_height_m = 1.5, radius_m = 300;  // as cars have them; "around the corner", not "out of town"
+// Antenna height of cars; receivers are around the corner, not out of town.
+constexpr double antenna_height_m = 1.5, radius_m = 300;
 
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& points) {
   std::vector<RadioEnd> result;
@@ -26,7 +27,7 @@ std::vector<RadioEnd> ends(const char* prefix, const std::vector<glm::dvec3>& po
   return result;
 }
 
-// The receivers, then the transmitters after the first one, which stands at `first`.
+// Adds the receivers, then the transmitters after the first one, which stands at `first`.
 void place_ends(Place& place, const glm::dvec3& first, size_t transmitters, size_t receivers) {
   Config config;
   config.scene = place.scene;

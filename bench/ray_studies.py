@@ -4,7 +4,7 @@ from speed import CPU, H200, digits, markdown, share, sources
 
 
 def orders(groups):
-    """How many times as fast all ray stages are with an order as with none."""
+    """Returns the factors by which an order makes all ray stages faster."""
     ways = [("Z", "morton"), ("H3DH", "hilbert3d-histogram, 16 bins"), ("direction-origin", "direction-origin"), ("born in order", "born in order")]
     lines, found = [], []
     for words, device, rays in (("10^6 rays, two CPU cores", CPU, 1000000), ("1.7 10^7 rays, H200", H200, 16777216)):

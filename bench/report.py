@@ -17,7 +17,7 @@ import rows
 import speed
 import verdicts
 
-# Benchmarks whose error counts what is wrong: their numbers are worth nothing where it is not 0.
+# Benchmarks whose error counts wrong results: their numbers are worthless unless it is 0.
 EXACT = ("frame_kernels", "hard", "kernels", "leaks", "order", "scaling", "sort", "trace")
 BLOCK = re.compile(r"(<!-- generated: (\w+) by bench/report\.py -->\n).*?(<!-- end of generated -->)", re.S)
 
@@ -119,7 +119,7 @@ def generated(root):
 
 
 def same(there, text):
-    """Whether a file is as it would be written. Two versions of gnuplot draw one plot in two ways."""
+    """Tells whether a file is as it would be written. Two versions of gnuplot draw one plot in two ways."""
     version = re.compile(r"Produced by GNUPLOT [^<\n]*")
     there_by, by = version.search(there), version.search(text)
     return there == text or bool(there_by and by and there_by[0] != by[0])

@@ -1,5 +1,5 @@
-// Specular reflection in double, back to float32.
-// Assumes that a hit's primitive is the triangle's position in the array given to next_segment.
+// Computes specular reflection in double, and converts back to float32.
+// A hit's primitive must be the triangle's index in the array given to next_segment.
 #include "segments.hpp"
 
 #include <bit>
@@ -11,8 +11,8 @@
 namespace wavetracer::bench {
 namespace {
 
-// Moves p off its surface by a distance that float32 can see: steps of the last bits, or an absolute one near the
-// origin.
+// Moves p off its surface by a distance that float32 resolves: some steps of the last bit, or an absolute distance near
+// the origin.
 std::array<float, 3> offset_point(glm::dvec3 p, glm::dvec3 normal) {
   std::array<float, 3> out;
   for (int axis = 0; axis < 3; axis++) {

@@ -1,6 +1,5 @@
 // The rays of the trace benchmark: directions from one transmitter, then specular bounces of the rays that hit
-// something. Assumes float32 coordinates around the scene's origin; the same arrays are given to every tracer that is
-// compared.
+// something. Coordinates are float32 around the scene's origin; every tracer gets the same arrays.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace wavetracer::bench {
 
-// 32 bytes, in the order in which kernels read it as two float4.
+// Has 32 bytes, in the order in which kernels read it as two float4.
 struct Ray {
   std::array<float, 3> origin;
   float t_min;
@@ -21,12 +20,12 @@ struct Ray {
 
 constexpr uint32_t kNoPrimitive = ~0u;
 struct Hit {
-  float t;             // t_max of the ray where it hits nothing
-  uint32_t primitive;  // kNoPrimitive where it hits nothing
+  float t;             // t_max of the ray if it hits nothing
+  uint32_t primitive;  // kNoPrimitive if it hits nothing
 };
 
-// The reflections of the rays that hit, in the same order (stable compaction). The new origins are moved off the plane
-// of the triangle so that no ray meets its own (Waechter and Binder, Ray Tracing Gems, chapter 6).
+// Returns the reflections of the rays that hit, in the same order (stable compaction). The new origins are moved off
+// the plane of the triangle so that no ray hits its own (Waechter and Binder, Ray Tracing Gems, chapter 6).
 std::vector<Ray> next_segment(std::span<const Ray> rays, std::span<const Hit> hits,
                               std::span<const AccelTriangle> triangles);
 

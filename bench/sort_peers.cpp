@@ -1,4 +1,4 @@
-// Host sorts behind one closure each, and the pipe from a program of someone else's making.
+// Wraps host sorts in one closure each, and reads a pipe from an external program.
 // Closures share one array to sort in, so they must not run at the same time.
 #include "sort_peers.hpp"
 
@@ -42,7 +42,7 @@ std::vector<Record> records_of(const std::vector<Key>& keys) {
   return records;
 }
 
-// A maker of peers that sort these records.
+// Makes peers that sort these records.
 template <class Record>
 class Maker {
  public:
@@ -89,7 +89,7 @@ std::string word_of(const SortShape& shape) {
   return fmt::format("u{}:{}:{}:{}", shape.key_bits, shape.payload ? "pairs" : "keys", shape.n, shape.bits);
 }
 
-// For the shell, whatever the name holds.
+// Quotes any name for the shell.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);

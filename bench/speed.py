@@ -1,6 +1,6 @@
 """Tables of speed for README.md, docs/speed.md and RESULTS.md, of the newest row of each measurement and device.
 
-What a row is called stands here; each number, with its error, command and date, is of bench/results. So one measurement
+This file has the names of the rows; each number, with its error, command and date, comes from bench/results. So one measurement
 has one number in all pages. A row that no benchmark has printed is left out, and a cell stays empty.
 """
 from rows import command, device_name, of_device

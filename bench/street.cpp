@@ -1,5 +1,5 @@
-// Draws points in a disc and keeps those that the sky sees, by testing every triangle: a few million tests in all.
-// The generator is the standard's own, whose numbers are the same with every library; distributions are not used.
+// Draws points in a disc and keeps those with only sky above, by testing every triangle: a few million tests in all.
+// The generator is that of the standard, whose numbers are the same with every library; distributions are not used.
 #include "street.hpp"
 
 #include <fmt/format.h>
@@ -15,14 +15,15 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double ground_tolerance_m = 0.5;  // kerbs and uneven ground; roofs are higher
+constexpr double ground_tolerance_m = 0.5;  // covers kerbs and uneven ground; roofs are higher
 
-// Twice the signed area of the triangle (a, b, p) seen from above.
+// Returns twice the signed area of the triangle (a, b, p) seen from above.
 double area(const dvec3& a, const dvec3& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-// The height at which a ray straight down at (x, y) meets the scene first, recentred; -infinity where it meets nothing.
+// Returns the height at which a ray straight down at (x, y) first meets the scene, recentred; -infinity if it meets
+// nothing.
 double highest(const Scene& scene, double x, double y) {
   double result = -std::numeric_limits<double>::infinity();
   for (const auto& triangle : scene.triangles) {
@@ -38,15 +39,15 @@ double highest(const Scene& scene, double x, double y) {
 
 std::vector<dvec3> street_points(const Scene& scene, dvec3 centre_m, double radius_m, double height_m, size_t count) {
   std::mt19937 generator(1);
-  const auto draw = [&](double centre) {  // in centre +- radius_m, to a millimetre
+  const auto draw = [&](double centre) {  // returns a value in centre +- radius_m, to a millimetre
     return std::round((centre + (static_cast<double>(generator()) * 0x1p-31 - 1) * radius_m) * 1e3) / 1e3;
   };
   std::vector<dvec3> points;
   for (size_t tries = 0; points.size() < count; tries++) {
     if (tries > 100 * count + 1000)
       throw InputError(
-          fmt::format("{}: only {} of {} places within {} m of ({}, {}) are open to the sky at z = 0; is "
-                      "this a city with streets at z = 0?",
+          fmt::format("{}: only {} of {} places within {} m of ({}, {}) are open to the sky at z = 0; "
+                      "is this a city with streets at z = 0?",
                       scene.file, points.size(), count, radius_m, centre_m.x, centre_m.y));
     const double x = draw(centre_m.x), y = draw(centre_m.y);
     if (std::hypot(x - centre_m.x, y - centre_m.y) > radius_m) continue;

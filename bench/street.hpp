@@ -1,5 +1,5 @@
-// Places for antennas in the streets of a city: points with nothing but sky above them.
-// Assumes streets at z = 0 of the file's coordinates, as in munich and in the generated city.
+// Finds places for antennas in the streets of a city: points with nothing but sky above them.
+// Streets are at z = 0 of the file's coordinates, as in munich and in the generated city.
 #pragma once
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -9,9 +9,9 @@
 
 namespace wavetracer::bench {
 
-// `count` points at height_m within radius_m of centre_m, file coordinates, to a millimetre. A point is taken where a
-// ray straight down from the sky meets the ground first. The same arguments give the same points everywhere.
-// Throws InputError where hardly any place is open.
+// Returns `count` points at height_m within radius_m of centre_m, file coordinates, to a millimetre. A point is
+// accepted if a ray straight down from the sky meets the ground first. The same arguments give the same points
+// everywhere. Throws InputError where hardly any place is open.
 std::vector<glm::dvec3> street_points(const Scene& scene, glm::dvec3 centre_m, double radius_m, double height_m,
                                       size_t count);
 

@@ -1,5 +1,5 @@
-// Everything that rises above the kerb is an obstacle, however high it hangs, so that all tests are plane geometry:
-// rectangles of the ground against the footprints of triangles, by the separating axis theorem.
+// All parts of the scene above the kerb are obstacles, at any height, so that all tests are plane geometry: rectangles
+// on the ground against the footprints of triangles, by the separating axis theorem.
 #include "street_traffic.hpp"
 
 #include <fmt/format.h>
@@ -25,17 +25,17 @@ using glm::dvec3;
 
 constexpr double kerb_m = 0.3, least_speed_m_s = 5, most_speed_m_s = 14;
 constexpr double clear_at_start_m = 2.5, strip_m = 3, ahead_m = 4, gap_m = 6;
-constexpr double point_width_m = 0.5;  // of the strip of a vehicle of no size
+constexpr double point_width_m = 0.5;  // width of the strip of a vehicle without a size
 constexpr int directions = 24;         // tried from each place, and back from the end of a way
 
 struct Type {
   const char* name;
   unsigned percent;
-  double length_m;  // as SUMO's class of this name, which the simulation takes
+  double length_m;  // that of SUMO's class of this name, which the simulation uses
 };
 constexpr Type types[] = {{"passenger", 85, 5}, {"delivery", 8, 6.5}, {"truck", 7, 7.1}};
 
-// Convex, in the plane of the ground, with its bounding box.
+// A convex polygon in the plane of the ground, with its bounding box.
 struct Footprint {
   std::array<dvec2, 4> corners{};
   size_t count = 0;
@@ -49,13 +49,13 @@ struct Footprint {
 };
 
 struct Rectangle {
-  dvec2 centre, ahead;  // ahead: of unit length
+  dvec2 centre, ahead;  // ahead: a unit vector
   double half_length_m, half_width_m;
 };
 
 dvec2 left_of(const dvec2& v) { return {-v.y, v.x}; }
 
-// Does `axis` tell the two apart?
+// Tells whether `axis` separates the two.
 bool apart(const dvec2& axis, const Rectangle& r, std::span<const dvec2> corners) {
   const double middle = glm::dot(axis, r.centre);
   const double half =
@@ -94,7 +94,7 @@ class Ground {
     });
   }
 
-  // Height of the highest ground at a place; empty where there is none.
+  // Returns the height of the highest ground at a place; nothing if there is none.
   std::optional<double> height_at(const dvec2& p) const {
     std::optional<double> height_m;
     for (const auto& [a, b, c] : ground_) {
@@ -109,12 +109,12 @@ class Ground {
   }
 
  private:
-  // Twice the signed area of the triangle (a, b, p) seen from above.
+  // Returns twice the signed area of the triangle (a, b, p) seen from above.
   static double area(const dvec3& a, const dvec3& b, const dvec2& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
   }
 
-  // The part of the triangle above the kerb; a corner more where one of three is cut off.
+  // Adds the part of the triangle above the kerb; it has four corners if one of three is cut off.
   void add_obstacle(const std::array<dvec3, 3>& corners) {
     Footprint f;
     for (size_t k = 0; k < 3; k++) {
@@ -129,7 +129,7 @@ class Ground {
   std::vector<std::array<dvec3, 3>> ground_;
 };
 
-// A circle on its way.
+// A circle that moves along a straight line.
 struct Drive {
   dvec2 start, velocity_m_s;
   double radius_m;
@@ -166,8 +166,8 @@ std::vector<TrackConfig> street_traffic(const Scene& scene, const StreetTraffic&
   for (size_t tries = 0; tracks.size() < traffic.vehicles; tries++) {
     if (tries > 500 * traffic.vehicles + 5000)
       throw InputError(
-          fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive "
-                      "fewer, shorter or in a larger part of the scene",
+          fmt::format("{}: only {} of {} vehicles find a free way of {} s within {} m of ({}, {}): drive fewer, "
+                      "shorter or in a larger part of the scene",
                       scene.file, tracks.size(), traffic.vehicles, traffic.duration_s, traffic.radius_m,
                       traffic.centre_m.x, traffic.centre_m.y));
     const dvec2 offset(draw(-traffic.radius_m, traffic.radius_m), draw(-traffic.radius_m, traffic.radius_m));

@@ -1,5 +1,5 @@
-// The twenty cases: each a scene, a depth, and where its ends stand.
-// Heights are those of cars, masts, drones and rooms; receivers stand around the first transmitter, as links do.
+// The twenty cases: each has a scene, a depth, and the places of its ends.
+// Heights are those of cars, masts, drones and rooms; receivers stand around the first transmitter, as in real links.
 #include "study_cases.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +56,7 @@ Places canyon(OpenPlaces& draw) {
   return out;
 }
 
-// Ends anywhere in the inner six tenths.
+// Ends are anywhere in the inner six tenths.
 Places room(OpenPlaces& draw) {
   const dvec3 lower = 0.8 * draw.lower_m() + 0.2 * draw.upper_m(), upper = 0.2 * draw.lower_m() + 0.8 * draw.upper_m();
   Places out{{draw.within(lower, upper)}, {}};
@@ -64,7 +64,7 @@ Places room(OpenPlaces& draw) {
   return out;
 }
 
-// Four storeys of slabs and columns on wide ground.
+// Makes four storeys of slabs and columns on wide ground.
 BoxScene park_scene() {
   BoxScene out;
   for (int slab = 0; slab < 5; ++slab) out.box({0, 0, 3 * slab}, {60, 30, 0.3});
@@ -84,7 +84,7 @@ Places park(OpenPlaces& draw) {
   return out;
 }
 
-// A deck on piers along a street, between houses.
+// Makes a deck on piers along a street, between houses.
 BoxScene bridge_scene() {
   BoxScene out;
   out.box({0, 0, -0.5}, {400, 400, 1});
@@ -104,7 +104,7 @@ Places bridge(OpenPlaces& draw) {
   return out;
 }
 
-// + * / only, the same on every machine: 60 m high, some 120 m wide.
+// Uses + * / only, so it is the same on every machine: a hill 60 m high, some 120 m wide.
 double hill_m(glm::dvec2 p) {
   const double wide = 1 + (p.x * p.x + p.y * p.y) / (150.0 * 150.0);
   return 60 / (wide * wide);
@@ -118,13 +118,13 @@ BoxScene hill_scene() {
   return out;
 }
 
-// A wave of period 1 and height 1, likewise.
+// Returns a wave of period 1 and height 1, with the same operations.
 double wave(double t) {
   const double s = t - std::floor(t);
   return 16 * s * s * (1 - s) * (1 - s);
 }
 
-// Hills of so many metres, some 200 m wide, with houses all over them; 0: the same houses on flat ground.
+// Makes hills of this height, some 200 m wide, with houses all over them; 0: the same houses on flat ground.
 std::function<BoxScene()> hills_scene(double height_m) {
   return [=] {
     const auto ground_m = [=](glm::dvec2 p) {
@@ -201,7 +201,7 @@ const std::vector<Recipe>& recipes() {
       {"hills_100", 5, own("hills_100", hills_scene(100)), hill}};
   return list;
 }
-constexpr size_t study_cases = 20;  // the rest is hills
+constexpr size_t study_cases = 20;  // the other recipes are hills
 
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<dvec3>& points) {
   std::vector<RadioEnd> out;
@@ -232,8 +232,8 @@ StudyCase study_case(const std::string& name, const fs::path& shared, const fs::
   out.config.radio.frequency_hz = 5.9e9;
   out.config.trace.max_depth = recipe->depth;
   const Scene scene = load_scene(out.config);
-  // Each case draws from its own stream, so that a case alone has the places that it has among all; hills have the
-  // same.
+  // Each case draws from its own stream, so that a case alone has the same places as among all cases; hills share one
+  // stream.
   const auto stream = std::min<uint64_t>(static_cast<uint64_t>(recipe - recipes().begin()), study_cases);
   OpenPlaces draw(scene, seed * 1000 + stream);
   const Places places = recipe->places(draw);

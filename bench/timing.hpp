@@ -1,5 +1,5 @@
-// What the kernel benchmarks share: medians, wall time, and the bandwidth that the device's own copy reaches.
-// Assumes a quiet machine.
+// Functions that the kernel benchmarks share: medians, wall time, and the bandwidth of the device's own copy. The
+// machine must be quiet.
 #pragma once
 #include <algorithm>
 #include <chrono>
@@ -23,14 +23,14 @@ double wall_seconds(const Body& body) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// All that the device did since the last reset of the profile, by its own clock.
+// Returns the time of all device work since the last reset of the profile, by the device's clock.
 inline double device_seconds(gpu::Context& context) {
   double total = 0;
   for (const auto& [stage, seconds] : context.profile()) total += seconds;
   return total;
 }
 
-// Bytes read and bytes written a second, by a copy that no cache holds: 256 MiB on CPUs, 2 GiB elsewhere.
+// Returns bytes read and written per second, by a copy that no cache holds: 256 MiB on CPUs, 2 GiB on other devices.
 inline double copy_bandwidth(gpu::Context& context, size_t runs) {
   const uint64_t wanted = context.info().cpu ? uint64_t{256} << 20 : uint64_t{2} << 30;
   const size_t words = std::min(wanted, context.info().max_buffer / 4) / sizeof(uint32_t);

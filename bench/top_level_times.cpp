@@ -1,5 +1,5 @@
-// Cars scattered over a square kilometre, other places in each run; medians of wall time, without profiling.
-// The scene below them is a generated block: placing does not depend on it.
+// Cars are scattered over a square kilometre, at other places in each run; times are medians of wall time, without
+// profiling. The scene below them is a generated block: placing does not depend on it.
 #include "top_level_times.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::vector<Placement> scattered(size_t count, std::mt19937& generator) {
   return placements;
 }
 
-// Of cars as they stand, whatever their headings: the tree's build does not depend on sizes.
+// Returns boxes of cars without rotation: the time to build the tree does not depend on sizes.
 std::vector<Box> boxes_of(const std::vector<Placement>& placements, const Scene& model) {
   std::vector<Box> boxes(placements.size());
   for (size_t i = 0; i < boxes.size(); i++)
@@ -41,7 +41,7 @@ std::vector<Box> boxes_of(const std::vector<Placement>& placements, const Scene&
   return boxes;
 }
 
-// A frame's placement, its transfers included.
+// Returns the time of a frame's placement, including its transfers.
 double place_seconds(gpu::Context& context, const Scene& block, const std::vector<Scene>& models,
                      const std::vector<Instance>& instances, TopLevelBuild build, size_t runs) {
   DeviceScene scene = make_device_scene(context, block, false, 2 * half_width_m);
@@ -55,7 +55,7 @@ double place_seconds(gpu::Context& context, const Scene& block, const std::vecto
       placement.place(scene, placements);
       context.finish();
     });
-    if (run > 0) seconds.push_back(wall);  // the first also compiles
+    if (run > 0) seconds.push_back(wall);  // the first run also compiles
   }
   return median(seconds);
 }

@@ -1,5 +1,5 @@
-// What the trace benchmark compares, behind one interface: our kernels in each shape, and Embree where it was found.
-// Assumes that rays outlive the runs over them.
+// The tracers that the trace benchmark compares, behind one interface: our kernels in each shape, and Embree if it was
+// found. Rays must outlive the runs over them.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@
 
 namespace wavetracer::bench {
 
-// Only run is timed, by the tracer itself.
+// Only run() is timed, by the tracer itself.
 class Tracer {
  public:
   virtual ~Tracer() = default;
@@ -27,7 +27,7 @@ class Tracer {
   virtual double run() = 0;  // seconds
   virtual void fetch(std::span<Hit> hits) const = 0;
 };
-// Our kernels. Rays live on the device, so uploads are not timed. On a GPU the time is that of the kernel by the
+// Our kernels. Rays are stored on the device, so uploads are not timed. On a GPU the time is that of the kernel by the
 // device's clock, as in published figures; on a CPU it is wall time from launch to finish, as for Embree.
 class OurTracer : public Tracer {
  public:
@@ -46,7 +46,7 @@ class OurTracer : public Tracer {
       std::transform(rays.begin(), rays.end(), plane.begin(), [&](const Ray& ray) { return ray.direction[axis]; });
       queue_.planes.write(plane, (WT_RAY_DIRECTION + axis) * queue_.capacity);
     }
-    // Origins are off their surfaces already, so none is left out: ours does the work that Embree does.
+    // Origins are off their surfaces already, so no surface is left out: ours does the same work as Embree.
     std::fill(plane.begin(), plane.end(), std::bit_cast<float>(WT_NONE));
     queue_.planes.write(plane, size_t{WT_RAY_SURFACE} * queue_.capacity);
     queue_.count = static_cast<uint32_t>(rays.size());

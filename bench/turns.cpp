@@ -1,4 +1,4 @@
-// A steady clock around Simulation::run_frame, as frames.cpp has it.
+// Measures with a steady clock around Simulation::run_frame, as frames.cpp does.
 // Quartiles are interpolated between ranks.
 #include "turns.hpp"
 
@@ -10,7 +10,7 @@
 namespace wavetracer::bench {
 namespace {
 
-// q from 0 to 1, of values that are not empty.
+// q is from 0 to 1; values must not be empty.
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   const double rank = q * static_cast<double>(values.size() - 1);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What came of the claims of A. Zhdanov's thesis on each device.
+"""Verdicts on the claims of A. Zhdanov's thesis on each device.
 
 Usage: verdicts.py THESIS_MD...; each file is the thesis.md that `wavetracer bench thesis` has written. Its verdicts replace
 those of the same device in bench/results/verdicts.csv; report.py makes docs/thesis_verdicts.md of that file.

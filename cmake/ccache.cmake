@@ -1,6 +1,6 @@
-# Compiles through ccache where it is installed. Clones and presets share results: paths below the project are hashed as
-# relative ones, and neither the folder that the compiler runs in nor the names of unity files count.
-# CCACHE_DISABLE=1 in the environment builds without it.
+# Compiles through ccache if it is installed. Clones and presets share results: paths below the project are hashed as
+# relative ones, and neither the compiler's working folder nor the names of unity files count. CCACHE_DISABLE=1 in the
+# environment builds without it.
 find_program(WAVETRACER_CCACHE ccache)
 if(WAVETRACER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1

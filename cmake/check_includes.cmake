@@ -1,5 +1,6 @@
-# Fails where a source includes a header of a folder of host/ that it may not know.
-# cmake -DROOT=the project -DSOURCES="files" -DALLOWED="folders" -DADVICE=what to do -DSTAMP=file -P check_includes.cmake
+# Fails if a source includes a header of a folder of host/ that it must not use.
+# cmake -DROOT=the project -DSOURCES="files" -DALLOWED="folders" -DADVICE=what to do -DSTAMP=file -P
+# check_includes.cmake
 cmake_minimum_required(VERSION 3.25)
 separate_arguments(ALLOWED)
 separate_arguments(SOURCES)

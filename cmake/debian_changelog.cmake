@@ -1,5 +1,5 @@
-# OUTPUT, a changelog in Debian's form, of INPUT in the form of Keep a Changelog. Run with cmake -P.
-# Assumes headings `## [VERSION] - YYYY-MM-DD` and items that begin with `- `; an unreleased heading is passed over.
+# Writes OUTPUT, a changelog in Debian's form, from INPUT in the form of Keep a Changelog. Run with cmake -P.
+# Headings are `## [VERSION] - YYYY-MM-DD` and items begin with `- `; an unreleased heading is skipped.
 file(STRINGS ${INPUT} lines ENCODING UTF-8)
 set(text "")
 set(date "")

@@ -1,11 +1,11 @@
-# Man pages and completions, written by the built program from its own options and field table, and installed.
-# docs/configuration.md and docs/materials.md are kept with the sources: the target `reference` writes them, a test says
-# when one is stale.
+# Man pages and completions: the built program writes them from its own options and field table, and they are installed.
+# docs/configuration.md and docs/materials.md are kept with the sources: the target `reference` writes them, and a test
+# fails if one is out of date.
 set(pages ${CMAKE_BINARY_DIR}/pages)
 file(MAKE_DIRECTORY ${pages})
 
-# wavetracer_page(FILE DESTINATION argument...): what `wavetracer documentation argument...` writes. With the suffix .gz
-# it is packed, without a time in it, so that the same sources give the same file.
+# wavetracer_page(FILE DESTINATION argument...): installs the output of `wavetracer documentation argument...`. With the
+# suffix .gz it is compressed without a time in it, so that the same sources give the same file.
 set(page_files "")
 function(wavetracer_page file destination)
   string(REGEX REPLACE "\\.gz$" "" plain ${file})

@@ -1,5 +1,5 @@
-# wavetracer_check_includes(TARGET SOURCES file... ALLOWED folder... ADVICE text): the build of TARGET fails where a source
-# includes a header of a folder of host/ that is not allowed.
+# wavetracer_check_includes(TARGET SOURCES file... ALLOWED folder... ADVICE text): makes the build of TARGET fail if a
+# source includes a header of a folder of host/ that is not allowed.
 function(wavetracer_check_includes target)
   cmake_parse_arguments(ARG "" "ADVICE" "SOURCES;ALLOWED" ${ARGN})
   set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${target}_includes_checked)
@@ -13,7 +13,7 @@ function(wavetracer_check_includes target)
   add_dependencies(${target} ${target}_includes)
 endfunction()
 
-# wavetracer_linked_folders(OUT target...): the folders of host/ whose libraries these targets are, or link.
+# wavetracer_linked_folders(OUT target...): finds the folders of host/ whose libraries these targets are or link.
 function(wavetracer_linked_folders out)
   set(seen "")
   set(next ${ARGN})
@@ -88,8 +88,8 @@ function(wavetracer_write_unity target)
   set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
-# wavetracer_optimization(TARGET): for the sanitizers only what computes for long is optimized, of other builds all but the
-# tests, since compiling is most of what a test takes.
+# wavetracer_optimization(TARGET): sanitizer builds optimize only code that computes for long, other builds all but the
+# tests, since most of a test's time is compiling.
 function(wavetracer_optimization target)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(option "")
@@ -102,7 +102,7 @@ function(wavetracer_optimization target)
 endfunction()
 
 # wavetracer_folder(NAME [DEPENDS folder...] [LIBRARIES target...] [PUBLIC_LIBRARIES target...])
-# One host/ folder is one static library, made of all its .cpp files; DEPENDS names the folders that it may include.
+# Makes one static library of all .cpp files of a host/ folder; DEPENDS names the folders that it may include.
 function(wavetracer_folder name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;PUBLIC_LIBRARIES;SOURCES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)

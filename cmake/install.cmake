@@ -1,15 +1,15 @@
-# Install: the program, the shared library, its headers, a package for find_package(wavetracer) and one for pkg-config.
-# Man pages and completions are installed by documentation.cmake. All of it may be moved to another prefix.
+# Installs the program, the shared library, its headers, a package for find_package(wavetracer) and one for pkg-config.
+# documentation.cmake installs man pages and completions. All of it may be moved to another prefix.
 include(CMakePackageConfigHelpers)
 install(TARGETS wavetracer RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS wavetracer_library EXPORT wavetracer_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-# The module that reads maps by GDAL, which the program opens only when a map needs it.
+# This module reads maps by GDAL; the program opens it only when a map needs it.
 if(TARGET wavetracer_maps)
   install(TARGETS wavetracer_maps LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/wavetracer)
 endif()
 
-# Those for kernels (device/) and between passes stay here.
+# Headers for kernels (device/) and between passes are not installed.
 file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/include/wavetracer/*.h ${CMAKE_SOURCE_DIR}/include/wavetracer/*.hpp)
 list(FILTER headers EXCLUDE REGEX path_geometry.hpp)
 install(FILES ${headers} ${CMAKE_BINARY_DIR}/include/wavetracer/version.hpp
@@ -26,7 +26,7 @@ file(RELATIVE_PATH prefix_from_pc "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(${CMAKE_SOURCE_DIR}/cmake/wavetracer.pc.in ${CMAKE_BINARY_DIR}/wavetracer.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/wavetracer.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-# Configurations that run as they are, and the examples of the library.
+# Installs configurations that run unchanged, and the examples of the library.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/wavetracer/configs
   PATTERN *.fcd.xml EXCLUDE PATTERN out EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
@@ -36,10 +36,11 @@ install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${d
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/design DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# The Python package, where Debian's Python looks for packages below /usr; elsewhere it goes into PYTHONPATH.
+# Installs the Python package: below /usr, Debian's Python finds it; with another prefix, PYTHONPATH must name its
+# folder.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/wavetracer DESTINATION lib/python3/dist-packages
   PATTERN __pycache__ EXCLUDE)
-# The parts of the wheel that are not Python; pyproject.toml asks for this component alone.
+# These are the parts of the wheel that are not Python; pyproject.toml asks for this component alone.
 install(TARGETS wavetracer RUNTIME DESTINATION wavetracer/bin COMPONENT wheel EXCLUDE_FROM_ALL)
 install(PROGRAMS $<TARGET_FILE:wavetracer_library> DESTINATION wavetracer/lib RENAME libwavetracer.so COMPONENT wheel EXCLUDE_FROM_ALL)
 find_file(WAVETRACER_PROJ_DATA proj.db PATHS /usr/share/proj /usr/local/share/proj)

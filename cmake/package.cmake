@@ -1,7 +1,6 @@
-# `cpack -G DEB` in the build folder: the package wavetracer for Debian 12, with what its libraries need.
-# Assumes dpkg-dev (dpkg-shlibdeps) and gzip. tests/install/clean_system.sh installs it in a system of its own.
-# Debian wants a name and an address of who answers for a package: who builds it, as Debian's own tools are told, else
-# whoever minds the machine.
+# `cpack -G DEB` in the build folder: the package wavetracer for Debian 12, with what its libraries need. It needs
+# dpkg-dev (dpkg-shlibdeps) and gzip. tests/install/clean_system.sh installs it in a separate system. Debian requires
+# the name and address of a maintainer: those that Debian's own tools use, else root of the machine.
 set(maintainer "wavetracer developers <root@localhost>")
 if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
   set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
@@ -17,8 +16,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-# pocl-opencl-icd is the device where there is no GPU; gnuplot-nox draws what `plot` and `bench` ask for.
-# The module for maps opens GDAL itself, so no dependence on it is found.
+# pocl-opencl-icd is the device if there is no GPU; gnuplot-nox draws the plots of `plot` and `bench`.
+# The module for maps opens GDAL itself, so CPack finds no dependency on it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
 if(WAVETRACER_GDAL_NAME MATCHES "^libgdal\\.so\\.([0-9]+)$")
   string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libgdal${CMAKE_MATCH_1}")
@@ -33,13 +32,13 @@ come from SUMO, CSV or built-in traffic; results go to HDF5 and CSV.
 Runs on any OpenCL device, also on the CPU with PoCL. This package holds the
 program, the shared library with its headers for C and C++, and a Python
 package.")
-# CPack 3.25 calls ldconfig in scripts of its own; Debian wants the trigger.
+# CPack 3.25 calls ldconfig in its own scripts; Debian requires the trigger.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/triggers)
 set(CPACK_STRIP_FILES ON)
-# Folders that CPack makes have the modes that Debian asks for.
+# Folders that CPack makes get the modes that Debian requires.
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
-# The changelog of a Debian package, made of CHANGELOG.md.
+# Makes the changelog of a Debian package from CHANGELOG.md.
 add_custom_command(OUTPUT ${pages}/changelog.gz VERBATIM
   COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_SOURCE_DIR}/CHANGELOG.md -DOUTPUT=${pages}/changelog "-DMAINTAINER=${WAVETRACER_MAINTAINER}"
           -P ${CMAKE_SOURCE_DIR}/cmake/debian_changelog.cmake

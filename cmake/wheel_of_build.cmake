@@ -1,4 +1,4 @@
-# The wheel of a build folder that is complete: pip's build copies from there, and compiles nothing.
+# Packs a complete build folder as a wheel: pip's build copies from it, and compiles nothing.
 add_custom_target(wavetracer)
 add_custom_target(wavetracer_library)
 get_filename_component(build ${WAVETRACER_BUILD} ABSOLUTE BASE_DIR ${CMAKE_SOURCE_DIR})

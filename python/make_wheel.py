@@ -20,7 +20,7 @@ import zipfile
 here = pathlib.Path(__file__).resolve().parent
 
 
-# Of every Linux that the wheel is for, and not carried.
+# Every Linux that the wheel is for has these; the wheel does not contain them.
 SYSTEM = ("libc.", "libm.", "libgcc_s.", "libstdc++.", "libresolv.", "ld-linux")
 
 

@@ -1,4 +1,4 @@
-// What most tests ask of a text.
+// The checks of texts that most tests use.
 #pragma once
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-// The driver that tests are meant to run on, where somebody has said so.
+// The driver that tests must run on, if the environment names one.
 #pragma once
 #include <cstdlib>
 #include <stdexcept>
@@ -8,8 +8,8 @@
 
 namespace wavetracer::test {
 
-// Throws std::runtime_error where WAVETRACER_TEST_PLATFORM names another platform than the device's: `./dev drivers`
-// tries one driver at a time, and tests that ran on another one would prove nothing.
+// Throws std::runtime_error if WAVETRACER_TEST_PLATFORM names another platform than the device's: `./dev drivers` tests
+// one driver at a time, and tests that ran on another one would prove nothing.
 inline void require_expected_platform(const gpu::DeviceInfo& device) {
   const char* expected = std::getenv("WAVETRACER_TEST_PLATFORM");
   if (expected && device.platform != expected)

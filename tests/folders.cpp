@@ -1,4 +1,4 @@
-// The paths that CMake knows.
+// The paths come from CMake.
 #include "folders.hpp"
 
 namespace wavetracer::test {

@@ -8,9 +8,9 @@
 
 namespace wavetracer::test {
 
-std::string source_folder();  // the project
+std::string source_folder();  // the project's folder
 std::string shared_folder();  // large test data, the CMake option test::shared_folder(); may be missing
-std::string build_folder();   // the build
-std::string program();        // the built wavetracer
+std::string build_folder();   // the build folder
+std::string program();        // the built wavetracer program
 
 }  // namespace wavetracer::test

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What users of Sionna RT ask, asked of both programs on one scene: the numbers of docs/from-sionna.md, a line each.
+"""Answers questions of users of Sionna RT with both programs on one scene, and prints the numbers of
+docs/from-sionna.md, a line each.
 
     sionna_questions.py [receivers] [repeat] [scattering] [rows] [cars]
 
@@ -97,7 +98,7 @@ def scattering():
 
 
 def rows():
-    """What is stored of a map of 90,000 receivers."""
+    """Prints the number of paths stored for a map of 90,000 receivers."""
     simulation = wt.Simulation(wt.configs / "coverage.toml")
     simulation.run_frame()
     simulation.forget()

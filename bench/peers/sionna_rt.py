@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-# The links of bench_paths solved by Sionna RT: the same JSON lines, for `bench_paths --peer`.
-# Assumes `pip install sionna-rt`; on CPUs LLVM, too: 15 is too old, libllvm19 works (DRJIT_LIBLLVM_PATH names its .so).
+# Solves the links of bench_paths by Sionna RT and prints the same JSON lines, for `bench_paths --peer`.
+# It needs `pip install sionna-rt`, and on CPUs LLVM: 15 is too old, libllvm19 works (DRJIT_LIBLLVM_PATH names its .so).
 """Usage: bench_paths --write-links links.json
        sionna_rt.py links.json munich.xml > peer.jsonl
        bench_paths --peer peer.jsonl
@@ -27,7 +27,8 @@ import numpy as np
 import sionna.rt as rt
 from sionna.rt.constants import InteractionType
 
-# Transmitters, receivers, rays per transmitter: those of bench_paths.cpp. For each set of links the most rays come last.
+# Transmitters, receivers, rays per transmitter, as in bench_paths.cpp. For each set of links the largest number of rays
+# comes last.
 CASES = [(1, 1, 10**5), (1, 1, 10**6), (1, 1, 10**7), (1, 10, 10**6),
          (1, 100, 10**6), (1, 100, 10**7), (10, 100, 10**6), (10, 100, 10**7)]
 LARGE = 10**7  # cases of so many rays, those of all transmitters together, are for GPUs, and for --large
@@ -69,7 +70,7 @@ def write_paths(file, paths, links, rays, interactions, tx_count, rx_count):
     """The distinct paths as a reference list (tests/reference/README.md) of V ports; the H ports are 0."""
     kinds = np.moveaxis(paths.interactions.numpy(), 0, -1)
     vertices = np.moveaxis(paths.vertices.numpy(), 0, -2)  # rx, tx, path, depth, xyz
-    real, imaginary = (part.numpy()[:, 0, :, 0] for part in paths.a)  # of rx, antenna, tx, antenna, path
+    real, imaginary = (part.numpy()[:, 0, :, 0] for part in paths.a)  # axes: rx, antenna, tx, antenna, path
     angles = {"aod_theta_phi_rad": (paths.theta_t.numpy(), paths.phi_t.numpy()),
               "aoa_theta_phi_rad": (paths.theta_r.numpy(), paths.phi_r.numpy())}
     delay = paths.tau.numpy()

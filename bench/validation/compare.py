@@ -1,4 +1,4 @@
-"""What links amount to beside the models: medians and spreads of each class of links, and by distance."""
+"""Compares links with the models: medians and spreads of each class of links, and by distance."""
 import numpy as np
 
 import p1411
@@ -6,7 +6,7 @@ import streets
 import tr37885
 import tr38901
 
-NLOS_FROM_M = 30.0  # where the NLOS formulas of P.1411 begin
+NLOS_FROM_M = 30.0  # the NLOS formulas of P.1411 begin here
 WEAK_DB = 150.0  # losses above this are hard to measure
 ROUGH = ("brick", "concrete", "glass", "marble")  # walls and ground of generated cities
 
@@ -54,7 +54,8 @@ def beside(kind, state, frequency_ghz, rows, variant):
 
 
 def classes(rows, variant):
-    """Of masts and, without vehicles around, of vehicles: sight and none. Among vehicles also what only they hide."""
+    """Yields the classes of links, each a name and a mask: with line of sight and without, and in traffic also links
+    that only vehicles block."""
     near = rows["d_m"] >= NLOS_FROM_M
     yield "los", rows["los"] & rows["los_traffic"] if variant == "traffic" else rows["los"]
     if variant == "traffic":
@@ -118,7 +119,7 @@ def by_distance(kind, frequency_ghz, rows):
 
 
 def blocked(frequency_ghz, rows):
-    """What vehicles in between add to the loss of links that only they hide."""
+    """The loss that vehicles in between add to links that only they block."""
     hidden = rows["los"] & ~rows["los_traffic"] & np.isfinite(rows["loss_db_traffic"])
     return {"frequency_hz": frequency_ghz * 1e9, "links": int(hidden.sum()),
             "added": middle(rows["loss_db_traffic"][hidden] - rows["loss_db_with"][hidden]),
@@ -126,7 +127,8 @@ def blocked(frequency_ghz, rows):
 
 
 def causes():
-    """What more of the physics changes in the losses of links without sight, from masts in one city: by how many dB."""
+    """The changes in dB that more physics makes to the losses of links without line of sight, from masts in one city.
+    """
     few = {"seed": 1, "masts": 1, "terminals": 40}
     three = {**streets.TRACE, "max_depth": 3}
     plain, short = streets.city_masts(1), streets.city_masts(**few, trace=three)

@@ -1,4 +1,5 @@
-"""What the paths of many links amount to, in arrays with one entry per pair of a transmitter and a receiver."""
+"""Gains, delays and spreads of many links from their paths, in arrays with one entry per pair of a transmitter and a
+receiver."""
 import numpy as np
 
 WINDOW_DB = 25.0  # weaker paths than this below the strongest of a link do not count for spreads: TR 38.901, 7.5, step 6
@@ -33,7 +34,8 @@ def azimuth_spread(link, power, phi, count, weight):
     """Degrees, by equation A-1 of TR 38.901, Annex A."""
     mean = (np.bincount(link, power * np.cos(phi), count) + 1j * np.bincount(link, power * np.sin(phi), count)) / weight
     length = np.abs(mean)
-    return np.degrees(np.sqrt(-2 * np.log(np.where(length > 1 - 1e-12, 1, length))))  # of one path: 0, not its rounding
+    # A single path has a spread of 0, not its rounding.
+    return np.degrees(np.sqrt(-2 * np.log(np.where(length > 1 - 1e-12, 1, length))))
 
 
 def line_of_sight(paths, transmitters, receivers):

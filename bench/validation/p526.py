@@ -55,7 +55,7 @@ def double_exact_db(a, b, c, h1, h2, wavelength_m):
     """
     k = 2 * np.pi / wavelength_m
     s = np.sqrt(a * c / ((a + b) * (b + c)))
-    turn_1, turn_2 = h1 / a - (h2 - h1) / b, h2 / c + (h2 - h1) / b  # how far the path turns down at each edge
+    turn_1, turn_2 = h1 / a - (h2 - h1) / b, h2 / c + (h2 - h1) / b  # angles by which the path turns down at each edge
     b1 = turn_1 * np.sqrt(1j * k * a * b / (2 * (a + b)))
     b2 = turn_2 * np.sqrt(1j * k * b * c / (2 * (b + c)))
     if min(b1.real, b2.real) < -1e-9:

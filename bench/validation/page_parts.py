@@ -1,4 +1,4 @@
-"""What the parts of docs/validation.md are written and drawn with."""
+"""Helpers that write and draw the parts of docs/validation.md."""
 import subprocess
 
 

@@ -87,7 +87,8 @@ def double(frequencies=CARRIERS_HZ, distances=DOUBLE_M, turns=TURNS):
         wavelength = SPEED_OF_LIGHT / f
         for a, b, c in distances:
             pairs = [(one, two) for one in turns for two in turns]
-            # The edge of a half path: its height over the line from its end to the other edge is turn * a b / (a + b).
+            # The drop of a half path at an edge is its height over the line from its end to the other edge, turn * a b
+            # / (a + b).
             drop = [(one / p526.nu_of(b / (a + b), a, b, wavelength), two / p526.nu_of(b / (b + c), b, c, wavelength))
                     for one, two in pairs]
             got = losses([a, a + b], a + b + c, [(-low, -high) for low, high in drop], f, 2)

@@ -15,7 +15,7 @@ import links
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CARRIERS_HZ = (5.9e9, 28e9)
 SEEDS = tuple(range(1, 11))
-BLOCK_M, STREET_M = 100.0, 20.0  # of generated cities: from street to street, and the width of one
+BLOCK_M, STREET_M = 100.0, 20.0  # generated cities: distance from street to street, and the width of a street
 MAST_M, PEDESTRIAN_M, ROOF_M = 10.0, 1.5, 1.6
 FAR_M = 400.0  # links are no longer than this
 TRACE = {"rays": 50_000, "max_depth": 4, "diffraction": True, "diffraction_rays": 10_000}
@@ -139,7 +139,7 @@ def open_places(random, candidates=400, half_m=250.0, see_m=80.0):
 
 
 def heights_over(corners, at):
-    """Where the vertical line through a place meets triangles, shape (triangles, 3, 3)."""
+    """Heights at which the vertical line through a place meets triangles, shape (triangles, 3, 3)."""
     a, b, c = (corners[:, i] for i in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,5 +1,5 @@
 // An axis-aligned box in float32, and the few operations that building needs.
-// Assumes finite bounds; an empty box is inverted (lower > upper), which growing and intersecting respect.
+// Bounds are finite; an empty box is inverted (lower > upper), and growing and intersecting handle that.
 #pragma once
 #include <algorithm>
 #include <limits>
@@ -35,10 +35,10 @@ struct Box {
       if (other.lower[axis] < lower[axis] || other.upper[axis] > upper[axis]) return false;
     return true;
   }
-  // In double, because extents of float32 overflow or vanish when they are multiplied.
+  // It computes in double, because extents of float32 overflow or vanish when they are multiplied.
   double extent(int axis) const { return static_cast<double>(upper[axis]) - static_cast<double>(lower[axis]); }
   double center(int axis) const { return 0.5 * (static_cast<double>(upper[axis]) + static_cast<double>(lower[axis])); }
-  // Half of the surface area: the measure of the surface area heuristic (SAH). Zero for an empty box.
+  // Returns half of the surface area, the measure of the surface area heuristic (SAH); zero for an empty box.
   double half_area() const {
     if (empty()) return 0;
     const double x = extent(0), y = extent(1), z = extent(2);

@@ -1,4 +1,4 @@
-// The recursion of the builder: leaf, object split, spatial split or halving, one task a subtree; then flattening.
+// The recursion of the builder: leaf, object split, spatial split or halving, one task per subtree; then flattening.
 // Each node owns its references, so subtrees are independent and the tree is the same for any number of threads.
 #include "accel/build.hpp"
 
@@ -22,16 +22,16 @@ using accel::Halves;
 using accel::Reference;
 using accel::Split;
 
-constexpr size_t kParallelSubtree = 1024;  // smaller subtrees are built by one task
+constexpr size_t kParallelSubtree = 1024;  // one task builds a smaller subtree
 
 struct Subtree {
   Box box;
   std::unique_ptr<Subtree> left, right;
-  std::vector<uint32_t> triangles;  // of a leaf
+  std::vector<uint32_t> triangles;  // triangles of a leaf
   size_t node_count = 1, reference_count = 0;
 };
 
-// Levels below a node that halving needs until leaves hold at most max_leaf references.
+// Returns how many levels of halving are needed below a node until leaves hold at most max_leaf references.
 uint32_t levels_needed(size_t count, uint32_t max_leaf) {
   const size_t leaves = (count + max_leaf - 1) / max_leaf;
   return static_cast<uint32_t>(std::bit_width(leaves - 1));
@@ -42,7 +42,7 @@ class Builder {
   Builder(std::span<const AccelTriangle> triangles, const BuildOptions& options, double root_area)
       : triangles_(triangles), options_(options), root_area_(root_area) {}
 
-  // budget: references that spatial splits may still add below this node.
+  // budget: number of references that spatial splits may still add below this node.
   std::unique_ptr<Subtree> build(std::vector<Reference> references, uint32_t depth, size_t budget) const {
     const Bounds bounds = accel::bounds_of(references);
     auto node = std::make_unique<Subtree>();
@@ -75,7 +75,7 @@ class Builder {
   const BuildOptions& options_;
   double root_area_;
 
-  // Empty halves where the node should be a leaf.
+  // Returns empty halves if the node should be a leaf.
   Halves divide(std::span<const Reference> references, const Bounds& bounds, uint32_t depth, size_t budget) const {
     const size_t count = references.size();
     const bool may_be_leaf = count <= options_.max_leaf;
@@ -94,7 +94,7 @@ class Builder {
     }
     if (space.cost < object.cost && space.left_count + space.right_count <= count + budget) {
       Halves halves = accel::split_space(triangles_, references, bounds.box, space);
-      // A side may be as large as the whole: the budget that such a cut takes ends the recursion.
+      // A side may be as large as the whole: such a cut uses up budget, which ends the recursion.
       const bool cut = !halves.left.empty() && !halves.right.empty();
       if (cut && halves.left.size() + halves.right.size() <= count + budget) return halves;
     }
@@ -102,7 +102,8 @@ class Builder {
     return may_be_leaf ? Halves{} : accel::split_median(references, bounds.centers);
   }
 
-  // Half area that both children of an object split cover; all of it where no plane divides the centres.
+  // Returns the half area that both children of an object split cover, or the whole half area if no plane divides the
+  // centres.
   double overlap(const Split& object) const {
     if (object.axis < 0) return root_area_;
     Box common = object.left;

@@ -1,5 +1,5 @@
-// The builder of binary bounding volume hierarchies: binned surface area heuristic (SAH) with optional spatial splits.
-// Assumes finite float32 triangles; runs on all cores, and its result does not depend on how many there are.
+// Builds binary bounding volume hierarchies by the binned surface area heuristic (SAH), with optional spatial splits.
+// Triangles must be finite in float32. It runs on all cores, and the result does not depend on their number.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,27 +12,28 @@ namespace wavetracer {
 
 struct BuildOptions {
   // Split large triangles between children (Stich, Friedrich, Dietrich: Spatial Splits in Bounding Volume Hierarchies,
-  // HPG 2009). They help where large triangles lie askew and cost time elsewhere, whatever the SAH predicts: off until
-  // a caller has timed both.
+  // HPG 2009). They help where large triangles are not parallel to the axes and cost time elsewhere, even if the SAH
+  // predicts a gain. They are off unless a caller has timed both.
   bool spatial_splits = false;
-  // Triangles a leaf may hold. Four fill one block of a BVH8 and keep a BVH2's leaves short.
+  // Largest number of triangles in a leaf. Four fill one block of a BVH8 and keep a BVH2's leaves short.
   uint32_t max_leaf = 4;
-  // Triangles that the tracer tests at once: 1 in a BVH2, 4 in a BVH8. A leaf costs its number of such tests.
+  // Number of triangles that the tracer tests at once: 1 in a BVH2, 4 in a BVH8. The cost of a leaf is its number of
+  // such tests.
   uint32_t block = 1;
-  // The SAH's cost of testing one node's boxes, where one test of triangles costs 1. The choice matters little: CPU
+  // Cost in the SAH of testing one node's boxes, relative to one test of triangles. The choice matters little: CPU
   // tracing of a city changed by about 5 % between 0.5 and 2, and 0.5 was the fastest.
   float node_cost = 0.5f;
-  // Spatial splits may add this many references for each triangle. With more than 1 the SAH cost of a city falls by
+  // Number of references that spatial splits may add per triangle. With more than 1 the SAH cost of a city falls by
   // less than 2 %, for a tree up to twice as large.
   float duplication = 1;
-  // A spatial split is tried where the children of the best object split overlap by more than this part of the root's
-  // area (alpha of Stich et al., who found 1e-5 to give most of the gain).
+  // A spatial split is tried if the children of the best object split overlap by more than this share of the root's
+  // area (alpha of Stich et al., who found that 1e-5 gives most of the gain).
   float overlap = 1e-5f;
-  // No leaf lies deeper, so kernels can size their stacks; levels that are left are spent on halving by count once they
-  // would not suffice otherwise. A city of 40,000 triangles needs 24.
+  // The largest depth of a leaf, so that kernels can size their stacks. Once the remaining levels would not suffice
+  // otherwise, nodes are halved by count. A city of 40,000 triangles needs 24 levels.
   uint32_t max_depth = 60;
 
-  // What suits each layout. make_bvh8 chooses leaves itself, so it wants a tree down to single triangles.
+  // These options suit each layout. make_bvh8 chooses leaves itself, so it needs a tree down to single triangles.
   static BuildOptions for_bvh2() { return {}; }
   static BuildOptions for_bvh8() {
     BuildOptions options;
@@ -42,28 +43,29 @@ struct BuildOptions {
   }
 };
 
-// An inner node has two children; a leaf has count > 0 and left = right = 0.
+// A node: an inner node has two children; a leaf has count > 0 and left = right = 0.
 struct BinaryNode {
   Box box;
   uint32_t left = 0, right = 0;   // indices into BinaryTree::nodes
-  uint32_t first = 0, count = 0;  // into BinaryTree::references; of inner nodes too: all references below
+  uint32_t first = 0, count = 0;  // range in BinaryTree::references; for inner nodes too: all references below
 };
 
-// Nodes in depth-first order, left children next to their parents, node 0 the root; no node at all without triangles.
+// Nodes in depth-first order, left children next to their parents, with the root as node 0; there is no node without
+// triangles.
 struct BinaryTree {
   std::vector<BinaryNode> nodes;
   std::vector<uint32_t>
       references;          // indices into the triangles; with spatial splits a triangle may be in several leaves
-  uint32_t max_depth = 0;  // of the deepest leaf, where the root's is 0
+  uint32_t max_depth = 0;  // depth of the deepest leaf; the root's is 0
 };
 
 // Every triangle is in at least one leaf. Without spatial splits boxes are the exact bounds of their triangles; with
-// them, clipped boxes are rounded outwards, and the leaves that hold a triangle cover it. Throws RuntimeError where
+// them, clipped boxes are rounded outwards, and the leaves that hold a triangle cover it. Throws RuntimeError if
 // options cannot be met (see check in build.cpp) or there are more triangles than indices.
 BinaryTree build_binary(std::span<const AccelTriangle> triangles, const BuildOptions& options);
 
-// Expected cost of a ray that meets the root's box, in tests of triangles: node_cost for every inner node and one for
-// each started block of a leaf, weighted with the boxes' areas.
+// Returns the expected cost of a ray that meets the root's box, in tests of triangles: node_cost for every inner node
+// and one for each started block of a leaf, weighted with the boxes' areas.
 double sah_cost(const BinaryTree& tree, const BuildOptions& options);
 
 }  // namespace wavetracer

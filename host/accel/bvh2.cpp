@@ -1,5 +1,5 @@
-// The BVH2 layout: nodes with the boxes of both children, and triangles in three rotations of their axes.
-// Assumes a tree whose leaves hold at most 15 triangles.
+// The BVH2 layout: nodes with the boxes of both children, and triangles in three rotations of their axes. Leaves of the
+// tree must hold at most 15 triangles.
 #include <tbb/parallel_for.h>
 
 #include <bit>
@@ -20,7 +20,7 @@ class Writer {
  public:
   Writer(const BinaryTree& tree, Bvh2& out) : tree_(tree), out_(out) {}
 
-  // Writes a binary inner node and all below, in depth-first order.
+  // Writes a binary inner node and all nodes below it, in depth-first order.
   int32_t inner(const BinaryNode& node, uint32_t depth) {
     const size_t at = out_.nodes.size();
     out_.nodes.push_back({});
@@ -32,7 +32,7 @@ class Writer {
     return static_cast<int32_t>(at);
   }
 
-  // A root above one leaf, or above nothing.
+  // Writes a root above a single leaf, or above nothing.
   void lonely() {
     out_.max_depth = 1;
     out_.nodes.push_back(tree_.nodes.empty() ? lonely_root(Box{}, wt_leaf(0, 0))

@@ -1,4 +1,4 @@
-// How a node of a BVH2 is filled in, by the builders of trees over triangles and over instances.
+// Fills a node of a BVH2, for the builders of trees over triangles and over instances.
 #pragma once
 #include "accel/box.hpp"
 #include "wavetracer/device/bvh.h"
@@ -18,7 +18,7 @@ inline void store_child(wt_bvh2_node& node, int side, const Box& box, int32_t ch
   node.child[side] = child;
 }
 
-// A root over one box, which is the leaf `child`, or over nothing: then box is empty and child wt_leaf(0, 0).
+// Makes a root over one box, which is the leaf `child`, or over nothing: then box is empty and child is wt_leaf(0, 0).
 inline wt_bvh2_node lonely_root(const Box& box, int32_t child) {
   wt_bvh2_node node{};
   store_child(node, 0, box, child);

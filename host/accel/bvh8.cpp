@@ -1,5 +1,5 @@
-// The BVH8 layout: the optimal collapse of a binary tree by dynamic programming, and blocks of four triangles.
-// Assumes a tree built down to small leaves; a binary leaf is never divided.
+// The BVH8 layout: the optimal collapse of a binary tree by dynamic programming, and blocks of four triangles. The tree
+// must be built down to small leaves; a binary leaf is never divided.
 #include <array>
 #include <limits>
 #include <string>
@@ -14,21 +14,21 @@ constexpr uint32_t kWidth = 8, kBlock = 4;
 
 uint32_t block_count(uint32_t triangles) { return (triangles + kBlock - 1) / kBlock; }
 
-// What stands for a binary node in the eight-wide tree.
+// The representation of a binary node in the eight-wide tree.
 struct Plan {
   // forest[i]: least cost of at most i + 1 subtrees that cover the node's triangles.
   std::array<float, kWidth - 1> forest;
-  // left_share[i]: how many of them the left child gets; 0 where the node is best covered by fewer than i + 1 subtrees.
+  // left_share[i]: number of them that the left child gets; 0 if fewer than i + 1 subtrees cover the node best.
   // left_share[0] is 0; the last entry is for eight, which the node gets as the children of an eight-wide node.
   std::array<uint8_t, kWidth> left_share;
   bool leaf;
 };
 
-// Costs from the leaves up: children follow their parents in the tree, so a backward sweep meets them first.
+// Computes costs from the leaves up: children follow their parents in the tree, so a backward sweep meets them first.
 std::vector<Plan> plan_collapse(const BinaryTree& tree, const CollapseOptions& options) {
   std::vector<Plan> plans(tree.nodes.size());
   const double root_area = tree.nodes.empty() ? 0 : tree.nodes[0].box.half_area();
-  const double scale = root_area > 0 ? 1 / root_area : 0;  // without area every tree costs the same
+  const double scale = root_area > 0 ? 1 / root_area : 0;  // without area, every tree has the same cost
   for (size_t index = tree.nodes.size(); index-- > 0;) {
     const BinaryNode& node = tree.nodes[index];
     Plan& plan = plans[index];
@@ -53,7 +53,7 @@ std::vector<Plan> plan_collapse(const BinaryTree& tree, const CollapseOptions& o
       }
       return best;
     };
-    // The root is an inner node in any case, so its cost does not count.
+    // The root is always an inner node, so its cost does not count.
     const float as_inner = distribute(kWidth) + (index > 0 ? options.node_cost * area : 0.0f);
     plan.leaf = as_leaf <= as_inner;
     plan.forest[0] = std::min(as_leaf, as_inner);
@@ -71,7 +71,7 @@ class Writer {
   Writer(const BinaryTree& tree, std::span<const AccelTriangle> triangles, const std::vector<Plan>& plans, Bvh8& out)
       : tree_(tree), triangles_(triangles), plans_(plans), out_(out) {}
 
-  // Writes the eight-wide node of these binary nodes and all below, in depth-first order.
+  // Writes the eight-wide node of these binary nodes and all nodes below it, in depth-first order.
   int32_t inner(const std::vector<uint32_t>& children, uint32_t depth) {
     const size_t at = out_.nodes.size();
     out_.nodes.push_back({});
@@ -90,7 +90,7 @@ class Writer {
     return static_cast<int32_t>(at);
   }
 
-  // The binary nodes that cover `index` with at most `roots` subtrees, as planned.
+  // Collects the binary nodes that cover `index` with at most `roots` subtrees, as planned.
   void gather(uint32_t index, uint32_t roots, std::vector<uint32_t>& out) const {
     const Plan& plan = plans_[index];
     while (roots > 1 && roots < kWidth && plan.left_share[roots - 1] == 0) roots--;
@@ -117,7 +117,7 @@ class Writer {
   }
 
   int32_t leaf(const BinaryNode& node) {
-    // Parts of one triangle that spatial splits had put into different leaves meet again here; one is enough.
+    // Spatial splits may have put parts of a triangle into different leaves that are joined here; one part is enough.
     std::vector<uint32_t> members;
     for (uint32_t i = node.first; i < node.first + node.count; i++) {
       const uint32_t triangle = tree_.references[i];

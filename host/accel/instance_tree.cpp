@@ -1,4 +1,4 @@
-// Median splits: surface areas matter little where all boxes are vehicles.
+// It uses median splits: surface areas matter little if all boxes are vehicles.
 // The layout is that of a BVH2, wavetracer/device/bvh.h.
 #include "accel/instance_tree.hpp"
 
@@ -31,7 +31,7 @@ class Builder {
                      begin + static_cast<std::ptrdiff_t>(last), [&](uint32_t a, uint32_t b) {
                        const float x = boxes_[a].lower[axis] + boxes_[a].upper[axis];
                        const float y = boxes_[b].lower[axis] + boxes_[b].upper[axis];
-                       return x < y || (x == y && a < b);  // the same tree whatever the library does
+                       return x < y || (x == y && a < b);  // makes the tree independent of the standard library
                      });
     const size_t at = out_.nodes.size();
     out_.nodes.push_back({});

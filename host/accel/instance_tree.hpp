@@ -1,5 +1,5 @@
-// The tree of a frame over the boxes of its instances: halved by count along the longest axis, one instance a leaf.
-// Balanced, so no deeper than log2 of their number; built anew every frame, on one core.
+// The tree of a frame over the boxes of its instances: halved by count along the longest axis, one instance per leaf.
+// It is balanced, so no deeper than log2 of their number, and is built anew every frame on one core.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ struct TopLevel {
   std::vector<uint32_t> order;      // leaf k holds box order[k]
 };
 
-// Boxes must not be empty; of no boxes at all it is a root that no ray enters.
+// Boxes must not be empty; without boxes it returns a root that no ray enters.
 TopLevel build_top_level(std::span<const Box> boxes);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // The layouts that kernels traverse, made from a binary tree: BVH2 for GPUs and packets, BVH8 for CPUs.
-// Their memory is defined in wavetracer/device/bvh.h; node 0 is always an inner node, also of an empty scene.
+// wavetracer/device/bvh.h defines their memory; node 0 is always an inner node, even in an empty scene.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -14,32 +14,34 @@ struct Bvh2 {
   std::vector<wt_bvh2_node> nodes;
   std::vector<wt_bvh2_triangle> triangles;  // three rotated copies of triangle_slots triangles
   uint32_t triangle_slots = 0;
-  // Inner nodes on the longest way down, root included: a stack of this many entries suffices.
+  // Number of inner nodes on the longest path from the root, root included: a stack of this many entries suffices.
   uint32_t max_depth = 0;
 };
 
-// A child that is not used (of a tree with fewer than two leaves) has an inverted box and is a leaf of no triangles:
-// kernels that order a box's planes themselves may enter it and find nothing. Throws RuntimeError for a leaf of more
-// triangles than a reference can count; build with max_leaf <= 15.
+// An unused child (in a tree with fewer than two leaves) has an inverted box and is a leaf of no triangles: kernels
+// that sort a box's planes may enter it and find nothing. Throws RuntimeError for a leaf of more triangles than a
+// reference can count; build with max_leaf <= 15.
 Bvh2 make_bvh2(const BinaryTree& tree, std::span<const AccelTriangle> triangles);
 
-// BVH2 nodes as one ray per work-item reads them: boxes as centre and half size, padded for the rounding of rays whose
-// origins and hits have coordinates of at most extent_m.
+// Returns BVH2 nodes in the form for one ray per work-item: boxes as centre and half size, padded for the rounding of
+// rays whose origins and hits have coordinates of at most extent_m.
 std::vector<wt_centred_node> centred_nodes(std::span<const wt_bvh2_node> nodes, float extent_m);
 
 struct Bvh8 {
   std::vector<wt_bvh8_node> nodes;
   std::vector<wt_triangle_block> blocks;
-  // Inner nodes on the longest way down, root included: a stack of 7 * max_depth + 1 entries suffices.
+  // Number of inner nodes on the longest path from the root, root included: a stack of 7 * max_depth + 1 entries
+  // suffices.
   uint32_t max_depth = 0;
 };
 
 // Collapses the binary tree into the eight-wide tree of least SAH cost, leaves included (Ylitie, Karras, Laine:
 // Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, HPG 2017, section 3.1).
 struct CollapseOptions {
-  // Cost of testing eight boxes, where a block of four triangles costs 1; as in BuildOptions.
+  // Cost of testing eight boxes, relative to a block of four triangles; as in BuildOptions.
   float node_cost = 0.5f;
-  // Triangles a leaf may hold; 4 is one block. More blocks a leaf mean fewer nodes, but triangles tested in vain.
+  // Largest number of triangles in a leaf; 4 is one block. More blocks per leaf mean fewer nodes, but more tests of
+  // triangles without a hit.
   uint32_t max_leaf = 4;
 };
 Bvh8 make_bvh8(const BinaryTree& tree, std::span<const AccelTriangle> triangles, const CollapseOptions& options = {});

@@ -1,5 +1,5 @@
-// Object splits by binning (I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, IRT 2007), and
-// halving. All sums are minima, maxima and integers, so results do not depend on how the work is divided among threads.
+// Splits objects by binning (I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, IRT 2007), and
+// halves. All sums are minima, maxima and integers, so results do not depend on how threads share the work.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 float center(const Reference& reference, int axis) { return static_cast<float>(reference.box.center(axis)); }
 
-// Bin of a centre between the bounds of all centres. The same function decides costs and sides.
+// Computes the bin of a centre between the bounds of all centres. Costs and sides use the same function.
 struct Binner {
   double lower, scale;
   Binner(const Box& centers, int axis) : lower(centers.lower[axis]), scale(kBins / centers.extent(axis)) {}
@@ -32,7 +32,7 @@ struct Bin {
 };
 using Bins = std::array<std::array<Bin, kBins>, 3>;
 
-// Divides the references into tasks where that pays; join must be associative and commutative to the last bit.
+// Divides the references into tasks if there are enough of them; join must be exactly associative and commutative.
 template <class Value, class Add, class Join>
 Value reduce(std::span<const Reference> references, const Add& add, const Join& join) {
   if (references.size() <= kParallelReferences) {

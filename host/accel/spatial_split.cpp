@@ -1,5 +1,5 @@
-// Spatial splits (Stich, Friedrich, Dietrich, HPG 2009): a plane cuts the node's box, and triangles that cross it are
-// cut too. Boxes of pieces are computed in double and rounded outwards, so that the pieces' boxes always cover the
+// Splits space (Stich, Friedrich, Dietrich, HPG 2009): a plane cuts the node's box, and triangles that cross it are cut
+// too. Boxes of pieces are computed in double and rounded outwards, so that the pieces' boxes always cover the
 // triangle.
 #include <tbb/parallel_for.h>
 
@@ -12,14 +12,15 @@
 namespace wavetracer::accel {
 namespace {
 
-constexpr size_t kParallelSpatial = 1024;  // references from which the axes are searched by different tasks
-constexpr double kSmallest = 0x1p-149;     // float32's
+constexpr size_t kParallelSpatial = 1024;  // with more references, each axis is searched by its own task
+constexpr double kSmallest = 0x1p-149;     // smallest number of float32
 
-// Planes tried a node: as many as its references can make a difference for, since each costs a cut of each reference.
+// Returns the number of planes to try for a node: it grows with the references, since each plane costs a cut of each
+// reference.
 int bin_count(size_t references) { return references < 64 ? 8 : kBins; }
 
-// Box around the point where edge ab meets the plane. The pad is one unit in the last place of the larger end, more
-// than interpolation in double and rounding to float32 can be off, and never less than the smallest number.
+// Returns a box around the point where edge ab meets the plane. The pad is one unit in the last place of the larger
+// end, more than interpolation in double and rounding to float32 can be off, and never less than the smallest number.
 Box crossing(const float (&a)[3], const float (&b)[3], int axis, float plane) {
   const double from = a[axis], t = (static_cast<double>(plane) - from) / (static_cast<double>(b[axis]) - from);
   Box box;
@@ -38,7 +39,7 @@ class Planes {
  public:
   Planes(const Box& box, int axis, int bins)
       : lower_(box.lower[axis]), width_(box.extent(axis) / bins), scale_(bins / box.extent(axis)), last_(bins - 1) {}
-  float plane(int bin) const { return static_cast<float>(lower_ + width_ * bin); }  // the lower side of a bin
+  float plane(int bin) const { return static_cast<float>(lower_ + width_ * bin); }  // lower side of a bin
   int bin(float x) const { return std::clamp(static_cast<int>((static_cast<double>(x) - lower_) * scale_), 0, last_); }
 
  private:
@@ -48,7 +49,7 @@ class Planes {
 
 struct Bin {
   Box box;
-  size_t enter = 0, leave = 0;  // references that begin and end here
+  size_t enter = 0, leave = 0;  // numbers of references that begin and end in the bin
 };
 
 std::array<Bin, kBins> fill_bins(std::span<const AccelTriangle> triangles, std::span<const Reference> references,
@@ -94,7 +95,7 @@ Pieces cut(const AccelTriangle& triangle, const Box& box, int axis, float plane)
 
 Split find_spatial_split(std::span<const AccelTriangle> triangles, std::span<const Reference> references,
                          const Box& box, uint32_t block) {
-  std::array<Split, 3> best;  // of each axis
+  std::array<Split, 3> best;  // for each axis
   const int bin_limit = bin_count(references.size());
   const auto search = [&](int axis) {
     if (!(box.extent(axis) > 0)) return;
@@ -143,7 +144,7 @@ Halves split_space(std::span<const AccelTriangle> triangles, std::span<const Ref
       halves.right.push_back(reference);
       continue;
     }
-    // Section 4.4 of the paper: is the whole reference on one side cheaper than a part on both?
+    // Section 4.4 of the paper: compares the whole reference on one side with a part on both.
     Box whole_left = left, whole_right = right;
     whole_left.grow(reference.box);
     whole_right.grow(reference.box);

@@ -1,5 +1,5 @@
-// From the scene's doubles to float32 triangles.
-// Assumes that the loader has dropped zero-area triangles and checked indices.
+// Converts the scene's doubles to float32 triangles.
+// The loader must have dropped zero-area triangles and checked indices.
 #include "accel/triangles.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Triangles as the acceleration structures take them: float32, recentred, with the indices a hit reports.
-// Assumes coordinates that float32 can hold; accel_triangles refuses others.
+// Triangles in the form for acceleration structures: float32, recentred, with the indices that a hit reports.
+// accel_triangles refuses coordinates that float32 cannot hold.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,9 +14,9 @@ struct AccelTriangle {
   uint32_t surface;    // index into Scene::surfaces
 };
 
-// All triangles of a scene, in its order; each vertex is the nearest float32 of the recentred double, so triangles that
-// share a vertex still share it exactly. Negative zeros become positive: builds are then independent of the order of
-// comparisons. Throws InputError for a coordinate that is not finite in float32.
+// Returns all triangles of a scene, in its order; each vertex is the nearest float32 of the recentred double, so
+// triangles that share a vertex still share it exactly. Negative zeros become positive, which makes builds independent
+// of the order of comparisons. Throws InputError for a coordinate that is not finite in float32.
 std::vector<AccelTriangle> accel_triangles(const Scene& scene);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Sentences from rows.
-// Assumes that the axes rays, auto and reuse share their reference.
+// Makes sentences from rows.
+// The axes rays, auto and reuse share their reference.
 #include "accuracy/advice.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,12 +31,12 @@ std::string decibels(const study::PathError& error) {
                                                          error.power_median_db, error.power_max_db);
 }
 
-// What a limit asks of rays or depth, or that nothing keeps it.
+// Says which rays or depth a limit needs, or that no row keeps it.
 std::string limit_text(const Row* best, const Row& whole) {
   if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), milliseconds(whole));
   return fmt::format(
-      "{} ({} per frame; loses {} of the power and {} of the paths). {}, which is what this is measured against, takes "
-      "{:.3g} times as long",
+      "{} ({} per frame; loses {} of the power and {} of the paths). "
+      "{}, the reference of this comparison, takes {:.3g} times as long",
       keys(*best), milliseconds(*best), share_text(best->error.lost_power), share_text(best->error.lost_share),
       keys(whole), whole.frame_s / best->frame_s);
 }
@@ -72,8 +72,8 @@ void add_deeper(const Study& study, std::vector<std::string>& out) {
   });
   if (!deeper || own == study.rows.end() || !(own->error.lost > 0)) return;
   out.push_back(fmt::format(
-      "One interaction more than yours, {}, would add {} of the power and {} of the paths{}, for "
-      "{:.3g} times the time",
+      "One interaction more than yours, {}, would add {} of the power and {} of the paths{}, "
+      "for {:.3g} times the time",
       keys(*deeper), share_text(own->error.lost_power), share_text(own->error.lost_share),
       decibels(own->error).empty() ? "" : " (" + decibels(own->error) + ")", deeper->frame_s / own->frame_s));
 }
@@ -82,12 +82,11 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
   const Row *on = find(study, "reuse", "on"), *off = find(study, "reuse", "off");
   if (!on || !off || !reference(study, "rays")) return;
   out.push_back(fmt::format(
-      "Reuse from frame to frame, trace.reuse=true: {} per frame and {} of the power lost; without "
-      "it {} and {}",
+      "Reuse from frame to frame, trace.reuse=true: {} per frame and {} of the power lost; without it {} and {}",
       milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off), share_text(off->error.lost_power)));
 }
 
-// What is gained by it, on top of the user's other settings.
+// Says what the mechanism gains, on top of the user's other settings.
 std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row& off) {
   std::string text = fmt::format("{} ({}): ", mechanism.words, fmt::join(mechanism.on, ", "));
   const study::PathError& error = off.error;

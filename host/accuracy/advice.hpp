@@ -1,4 +1,4 @@
-// What the rows of a study mean: which keys to set, and what may be left out knowingly.
+// Explains the rows of a study: which keys to set, and which effects may be left out.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,16 +6,17 @@
 
 namespace wavetracer::accuracy {
 
-// The shares of the power that a recommendation may lose.
+// Shares of the power that a recommendation may lose.
 constexpr double allowed_losses[] = {1e-3, 1e-5};
 
-// The fastest measured row of these axes, references left out, that loses at most so much of the power; null: none.
+// Returns the fastest measured row of these axes, except references, that loses at most this share of the power, or
+// null if there is none.
 const Row* cheapest(const Study& study, const std::vector<std::string>& axes, double lost_power);
 
-// One sentence or a few an item, with the keys to set.
+// Returns one or more sentences per item, with the keys to set.
 std::vector<std::string> recommendations(const Study& study);
 
-// "none", "0.31%", "?" where it is not defined.
+// Returns "none", "0.31%", or "?" if the share is undefined.
 std::string share_text(double share);
 
 }  // namespace wavetracer::accuracy

@@ -1,5 +1,5 @@
-// The axes, cheapest setting first.
-// Assumes the keys of the field table (host/config/field_table.cpp), which checks them when a setting is read.
+// Lists the axes, cheapest setting first.
+// Keys are those of the field table (host/config/field_table.cpp), which checks them when a setting is read.
 #include "accuracy/axes.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -19,7 +19,7 @@ Setting of_depth(uint32_t depth) {
   return {"depth", std::to_string(depth), {fmt::format("trace.max_depth={}", depth)}};
 }
 
-// Once and three times every power of ten of the range, its ends, and the user's own number.
+// Returns every power of ten of the range and three times each, the ends of the range, and the user's own number.
 std::set<uint64_t> ray_steps(std::optional<uint64_t> own, study::RayRange range) {
   std::set<uint64_t> steps = {range.first, range.last};
   for (uint64_t decade = 1000; decade <= range.last; decade *= 10)
@@ -53,8 +53,8 @@ Setting of_listener_rays(uint64_t rays) {
   return {"diffraction_rays", grouped(rays), {fmt::format("trace.diffraction_rays={}", rays)}};
 }
 
-// From a few hundred, which maps of many receivers can afford. Not with trace.rays = "auto", which takes no such
-// number.
+// Begins at a few hundred, which maps of many receivers can afford. There is no axis with trace.rays = "auto", which
+// does not use this number.
 std::optional<Axis> listener_axis(const Config& own) {
   if (!own.trace.diffraction || !own.trace.rays) return std::nullopt;
   std::set<uint64_t> steps;
@@ -65,7 +65,7 @@ std::optional<Axis> listener_axis(const Config& own) {
   const uint64_t most = 3 * *steps.rbegin();
   Axis axis{of_listener_rays(most), {}};
   if (most > *own.trace.rays)
-    axis.reference.keys.push_back(fmt::format("trace.rays={}", most));  // never more than these
+    axis.reference.keys.push_back(fmt::format("trace.rays={}", most));  // the largest number that is used
   for (const uint64_t rays : steps) axis.settings.push_back(of_listener_rays(rays));
   return axis;
 }

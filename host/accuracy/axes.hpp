@@ -1,5 +1,5 @@
-// What `wavetracer accuracy` varies, one axis at a time from the user's own settings.
-// A setting is what --set takes, so every row can be repeated with `wavetracer run`.
+// The axes of `wavetracer accuracy`, which are varied one at a time from the user's own settings.
+// A setting is a list of --set options, so every row can be repeated with `wavetracer run`.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,13 +11,13 @@ namespace wavetracer::accuracy {
 
 struct Setting {
   std::string axis;               // rays, auto, reuse, depth, diffraction_rays, or the name of a Feature
-  std::string name;               // on its axis
-  std::vector<std::string> keys;  // KEY=VALUE over the user's own
-  std::string needs = {};         // the Feature without which it says nothing; empty: none
-  bool leads = false;             // frames before those that count come first, so that these have something to reuse
+  std::string name;               // name on its axis
+  std::vector<std::string> keys;  // KEY=VALUE settings that override the user's own
+  std::string needs = {};         // the Feature without which the row has no meaning; empty: none
+  bool leads = false;             // frames before the measured ones are run first, so that there is something to reuse
 };
 
-// Settings, and what all of them are compared with.
+// An axis: settings, and the reference that they are compared with.
 struct Axis {
   Setting reference;
   std::vector<Setting> settings;
@@ -25,10 +25,10 @@ struct Axis {
 
 constexpr study::RayRange default_rays{10000, 1000000};
 
-// drive: there are frames that may reuse what earlier ones have found. The reference has ten times the most rays.
+// drive: there are frames that may reuse results of earlier ones. The reference has ten times the most rays.
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays);
 
-// The Features that are on or off by keys, and what they are called at the start of a sentence.
+// Features that keys switch on or off, and their names at the start of a sentence.
 struct Mechanism {
   std::string feature, words;
   std::vector<std::string> on, off;

@@ -1,5 +1,6 @@
-// One-at-a-time effects use the samples of all inputs together, with the others at their nominal values: N samples for
-// each input. Sobol's first-order indices of so few samples err by a tenth or two; these variances err by sqrt(2 / N).
+// One-at-a-time effects use the samples of all inputs, with the others at their nominal values: N samples for each
+// input. Sobol's first-order indices of so few samples would have errors of 0.1 to 0.2; these variances have a relative
+// error of sqrt(2 / N).
 #include "accuracy/inputs.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr double undefined_share = std::numeric_limits<double>::quiet_NaN();
 
 using Varied = std::array<bool, input_count>;
 
-// Where the errors of each end, vehicle and material stand in a row of the hypercube.
+// Columns of the errors of each end, vehicle and material in a row of the hypercube.
 class Dimensions {
  public:
   Dimensions(const World& world, size_t materials)
@@ -32,7 +33,7 @@ class Dimensions {
 
   size_t count() const { return count_; }
   size_t transmitter(size_t i) const { return 3 * i; }
-  // A receiver that is also a transmitter is one antenna.
+  // A receiver that is also a transmitter is one antenna, and shares its errors.
   size_t receiver(size_t i) const { return 3 * (twins_[i] == no_end ? transmitters_ + i : twins_[i]); }
   size_t vehicle(size_t i) const { return vehicles_ + 2 * i; }
   size_t material(size_t i) const { return materials_ + i; }
@@ -60,7 +61,7 @@ double variance(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size() - 1);
 }
 
-// One figure of one link: nominal, over all samples, over those of each input alone.
+// One figure of one link: nominal, over all samples, and over those of each input alone.
 struct Observed {
   double nominal = undefined_share;
   std::vector<double> together;
@@ -91,14 +92,14 @@ Config study_config(const InputRequest& request) {
   Config config = load_config(request.file, request.sets);
   if (!config.live_vehicles.empty())
     throw ConfigError(request.file +
-                      ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be "
-                      "varied; give trajectories instead of them");
+                      ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be varied; "
+                      "give trajectories instead of them");
   if (config.trace.reception == "sphere")
     throw ConfigError(request.file +
-                      ": trace.reception = \"sphere\" keeps no sequences from sample to sample; use "
-                      "--set trace.reception=exact");
+                      ": trace.reception = \"sphere\" keeps no sequences from sample to sample; "
+                      "use --set trace.reception=exact");
   config.trace.reuse = true;
-  config.trace.discover_every_s = request.discover_every;  // a sample is a second
+  config.trace.discover_every_s = request.discover_every;  // a sample counts as a second
   config.cache.kind = "none";
   config.output.waypoints = 0;
   return config;
@@ -131,8 +132,8 @@ class InputMeasurement {
     }
     if (links == 0)
       throw ConfigError(
-          fmt::format("{}: none of the frames has a link, so there is nothing to vary; look at [links], and at where "
-                      "and when transmitters and receivers are there",
+          fmt::format("{}: none of the frames has a link, so there is nothing to vary; look at [links], "
+                      "and at where and when transmitters and receivers are there",
                       request_.file));
     if (out_.frames_run > 0) out_.sample_s = all_s_ / static_cast<double>(out_.frames_run);
     return std::move(out_);
@@ -148,7 +149,8 @@ class InputMeasurement {
             e.height_m > 0, e.permittivity > 0, e.vehicles_m > 0 && !state.instances.empty()};
   }
 
-  // The nominal frame, all inputs together, each of them alone. False where it was interrupted.
+  // Runs the nominal frame, then samples of all inputs together, then of each input alone. Returns false if it was
+  // interrupted.
   bool measure_frame(uint32_t frame) {
     observed_.assign(nominal_.links.size(), {});
     frames_.forget();
@@ -254,7 +256,7 @@ class InputMeasurement {
   const Dimensions dimensions_;
   const std::vector<std::vector<double>> samples_;
   WorldState nominal_;
-  std::vector<LinkObserved> observed_;  // of the frame
+  std::vector<LinkObserved> observed_;  // links of the current frame
   double time_s_ = 0, all_s_ = 0;
   InputStudy out_;
 };

@@ -1,5 +1,5 @@
-// What errors of the inputs do to the answer: where antennas and vehicles are, how high, and what walls are made of are
-// varied together and one after the other, and every link gets an interval of gain and delay spread.
+// Computes the effect of input errors on the results: positions of antennas and vehicles, heights, and materials of
+// walls are varied together and one after the other, and every link gets an interval of gain and delay spread.
 // Sequences of surfaces are kept from sample to sample (trace.reuse): only some samples launch rays.
 #pragma once
 #include <array>
@@ -17,17 +17,17 @@ enum class Input { position, height, permittivity, vehicles };
 constexpr size_t input_count = 4;
 constexpr std::array<const char*, input_count> input_names{"position", "height", "permittivity", "vehicles"};
 
-// Standard deviations of normal errors; 0: that input is not varied.
+// Standard deviations of normal errors; an input with 0 is not varied.
 struct InputErrors {
-  double position_m = 2;      // of each horizontal coordinate of each antenna that is not on a vehicle
-  double height_m = 0.2;      // of each antenna
-  double permittivity = 0.1;  // of the logarithm of (permittivity - 1) and of the conductivity, of each material
-  double vehicles_m = 2;      // of each horizontal coordinate of each vehicle, its antennas with it
+  double position_m = 2;      // error of each horizontal coordinate of each antenna that is not on a vehicle
+  double height_m = 0.2;      // error of each antenna's height
+  double permittivity = 0.1;  // error of the logarithm of (permittivity - 1) and of the conductivity, for each material
+  double vehicles_m = 2;      // error of each horizontal coordinate of each vehicle with its antennas
 };
 
 struct InputRequest {
-  std::string file;               // of the configuration
-  std::vector<std::string> sets;  // as --set takes them
+  std::string file;               // file of the configuration
+  std::vector<std::string> sets;  // in the form of --set
   std::string device;
   uint32_t frames = 5, samples = 64, discover_every = 8;
   uint64_t seed = 1;
@@ -41,10 +41,10 @@ struct InputInterval {
 struct InputRow {
   uint32_t frame = 0;
   std::string tx, rx;
-  uint32_t samples = 0;  // in which the link has a path
+  uint32_t samples = 0;  // samples in which the link has a path
   InputInterval gain_db{}, delay_spread_ns{};
-  // The share of each input in the sum of the variances that each of them makes alone, and that sum over the variance
-  // of all together: 1 where effects add up. NaN where nothing varies.
+  // Variance that each input makes alone, as a share of the sum of these; and that sum divided by the variance of all
+  // together: 1 if effects add up. NaN if nothing varies.
   std::array<double, input_count> gain_share{}, delay_spread_share{};
   double gain_explained = 0, delay_spread_explained = 0;
 };
@@ -53,20 +53,20 @@ struct InputStudy {
   std::vector<InputRow> rows;
   std::array<bool, input_count> varied{};
   uint32_t samples = 0;
-  uint64_t frames_run = 0, frames_with_rays = 0;  // of all samples
-  LateCounts late;                                // what samples without rays lacked
-  double nominal_s = 0, sample_s = 0;             // time of the first frame, and of a sample on average
+  uint64_t frames_run = 0, frames_with_rays = 0;  // over all samples
+  LateCounts late;                                // paths that samples without rays lacked
+  double nominal_s = 0, sample_s = 0;             // time of the first frame, and average time of a sample
   bool stopped = false;
 };
 
-// Rows of the frames that are complete, also where it was interrupted. Throws ConfigError where there is no link or
-// where sequences cannot be kept; and what Simulation throws.
+// Returns rows of the frames that are complete, even if it was interrupted. Throws ConfigError if there is no link or
+// sequences cannot be kept, and the errors of Simulation.
 InputStudy study_inputs(const InputRequest& request, const study::Host& host);
 
-// inputs.csv, a row per link and frame; lines for a terminal: medians over links and the widest intervals.
+// Returns inputs.csv, a row per link and frame, and lines for a terminal: medians over links and the widest intervals.
 std::string inputs_csv(const InputStudy& study);
 std::string inputs_text(const InputStudy& study);
-// The shares of links with intervals up to a width. At least one row.
+// Plots the share of links with intervals up to a width. There must be a row.
 plots::Figure inputs_figure(const InputStudy& study);
 
 }  // namespace wavetracer::accuracy

@@ -1,5 +1,5 @@
-// The rows of a study of inputs as CSV, as lines for a terminal, and as a figure.
-// A number is empty where a link has none.
+// Writes the rows of a study of inputs as CSV, as lines for a terminal, and as a figure.
+// A number is empty if a link has none.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6
 
 double width(const InputInterval& interval) { return interval.high - interval.low; }
 
-// NaN of none.
+// Returns NaN for an empty list.
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return std::nan("");
@@ -77,8 +77,8 @@ std::string inputs_text(const InputStudy& study) {
   std::stable_sort(widest.begin(), widest.end(),
                    [](const InputRow* a, const InputRow* b) { return width(a->gain_db) > width(b->gain_db); });
   std::string text = fmt::format(
-      "{} links, {} samples of each; intervals hold 90% of them\nmedian width  path gain {:.2g} dB, delay spread "
-      "{:.2g} ns\nshares        path gain: {}\n              delay spread: {}\n",
+      "{} links, {} samples of each; intervals hold 90% of them\nmedian width  path gain {:.2g} dB, "
+      "delay spread {:.2g} ns\nshares        path gain: {}\n              delay spread: {}\n",
       study.rows.size(), study.samples, median_over(study, [](const InputRow& r) { return width(r.gain_db); }),
       median_over(study, [](const InputRow& r) { return width(r.delay_spread_ns); }),
       shares_line(study, &InputRow::gain_share), shares_line(study, &InputRow::delay_spread_share));

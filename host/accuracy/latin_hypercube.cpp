@@ -1,4 +1,4 @@
-// std::shuffle and the distributions of the library may differ between libraries; these do not.
+// std::shuffle and the distributions of the standard library may differ between libraries; these functions do not.
 #include "accuracy/latin_hypercube.hpp"
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
-// Frames are cold, because what a frame finds should depend on the setting alone, and are timed on a device that is
-// warm. Where sequences are reused, the ten frames before launch every direction once (trace.refresh_rays by default).
+// Each frame starts without results of earlier ones, because its paths should depend on the setting alone; but it is
+// timed on a warm device. Where sequences are reused, the ten frames before launch every direction once
+// (trace.refresh_rays by default).
 #include "accuracy/measure.hpp"
 #include <algorithm>
 #include "output/median.hpp"
@@ -9,7 +10,7 @@ namespace wavetracer::accuracy {
 namespace {
 
 constexpr uint32_t lead_frames = 10;
-constexpr double slow_frame_s = 2;  // is not repeated: what starting the device costs is little of it
+constexpr double slow_frame_s = 2;  // a slower frame is not repeated: starting the device is only a small part of it
 
 class Meter {
  public:
@@ -30,7 +31,7 @@ class Meter {
   std::vector<double> seconds_;
 };
 
-// False where it was interrupted.
+// Returns false if it was interrupted.
 bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32_t>& frames, const How& how) {
   bool warm = false;
   for (const uint32_t frame : frames) {
@@ -52,7 +53,7 @@ bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32
 }
 
 bool measure_reuse(Simulation& simulation, Meter& meter, const std::vector<uint32_t>& frames, const How& how) {
-  std::optional<uint32_t> last;  // solved
+  std::optional<uint32_t> last;  // the last frame that was solved
   for (const uint32_t frame : frames) {
     const uint32_t lead = frame < lead_frames ? 0 : frame - lead_frames;
     const bool goes_on = last && *last + 1 >= lead;

@@ -1,5 +1,6 @@
-// The frames of one setting: what they find, and how long they take.
-// Every frame that counts is solved again and again, cold but for the device, unless the setting is about reuse.
+// Measures the frames of one setting: the paths that they find, and their time.
+// Every counted frame is solved again and again without results of earlier frames but on a warm device, unless the
+// setting is about reuse.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -14,23 +15,23 @@ namespace wavetracer::accuracy {
 struct Measured {
   DeviceSummary device;
   std::vector<Paths> frames;
-  uint64_t paths = 0, links = 0;  // of these frames; links that are wanted
-  uint64_t world_frames = 1;      // of which these are some
+  uint64_t paths = 0, links = 0;  // paths of these frames; links that were asked for
+  uint64_t world_frames = 1;      // number of frames of the world, which these are a part of
   double frame_s = 0;             // median of warm frames
-  std::string refusal;            // why nothing was measured; empty: it was
+  std::string refusal;            // the reason if nothing was measured, else empty
   std::vector<std::string> warnings;
 };
 
-// The middles of `count` equal parts of a drive, or all frames of a shorter one.
+// Returns the middles of `count` equal parts of a drive, or all frames of a shorter one.
 std::vector<uint32_t> spread_frames(uint64_t of, uint32_t count);
 
 struct How {
-  std::string device;  // as Simulation takes it
+  std::string device;  // in the form of Simulation's argument
   uint32_t frames = 5, repeats = 3;
   std::function<bool()> interrupted;
 };
 
-// Nothing where it was interrupted. A frame of more than two seconds is solved once.
+// Returns nothing if it was interrupted. A frame of more than two seconds is solved once.
 std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how);
 
 }  // namespace wavetracer::accuracy

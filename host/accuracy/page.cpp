@@ -1,4 +1,4 @@
-// The page and the order in which files are written: the table first, because the plot and the page are made of it.
+// Makes the page, and writes the files: the table first, because the plot and the page are made from it.
 #include "study/page.hpp"
 #include <fmt/format.h>
 #include <span>
@@ -26,8 +26,8 @@ std::string table_html(const std::vector<Row>& rows) {
 
 std::string frames_text(const Study& study) {
   const std::string times = fmt::format(
-      "the time of a frame is the median of warm frames, each solved {} times, once where it takes more than two "
-      "seconds",
+      "the time of a frame is the median of warm frames, each solved {} times, "
+      "once where it takes more than two seconds",
       study.repeats);
   if (!study.drive) return fmt::format("one frame with {} links; {}", study.links, times);
   return fmt::format("{} frames spread over the drive, {} links in all, each frame cold but for the rows of reuse; {}",
@@ -45,8 +45,8 @@ std::string page_html(const Study& study, const std::string& command_line, const
   text +=
       "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
       "Losses and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. "
-      "Gains are of links that have paths in both; the errors of spreads are means over these links. On the plot, what "
-      "loses nothing lies on the bottom.</p>\n";
+      "Gains are of links that have paths in both; the errors of spreads are means over these links. "
+      "On the plot, settings that lose nothing lie at the bottom.</p>\n";
   return study::document_html("Speed against error", style, text + svg + table_html(study.rows));
 }
 

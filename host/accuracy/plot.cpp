@@ -1,5 +1,5 @@
-// Two panels on logarithmic axes, a colour an axis. What loses nothing lies on the bottom, where the axis says "none".
-// Assumes gnuplot 5.2.
+// Two panels on logarithmic axes, one colour per axis. Rows that lose nothing lie at the bottom, where the scale says
+// "none". It needs gnuplot 5.2.
 #include <fmt/format.h>
 #include <algorithm>
 #include <stdexcept>
@@ -10,16 +10,16 @@
 namespace wavetracer::accuracy {
 namespace {
 
-constexpr double none = 1e-8;  // a share that is drawn for 0, and for what is less
+constexpr double none = 1e-8;  // share at which 0 and smaller values are drawn
 
 size_t column(const std::string& name) {
   const std::vector<std::string>& names = csv_columns();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) throw std::logic_error("no column is called " + name);
-  return static_cast<size_t>(found - names.begin()) + 1;  // as gnuplot counts
+  return static_cast<size_t>(found - names.begin()) + 1;  // gnuplot counts from 1
 }
 
-// Of axes with a measured row, in their order.
+// Returns the axes with a measured row, in their order.
 std::vector<std::string> measured_axes(const Study& study) {
   std::vector<std::string> out;
   for (const Row& row : study.rows)
@@ -38,8 +38,8 @@ std::string panel(const std::vector<std::string>& axes, const std::string& y, co
         column("axis"), plots::quoted(axes[i]), column("frame_s"), column(y), none, column(y), none);
     const std::string_view colour = plots::colours[i % plots::colours.size()];
     text += fmt::format(
-        "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n  {}:{} with labels "
-        "noenhanced left rotate by 50 offset 0.3,0.6 font ',9' textcolor '{}' notitle",
+        "{}{} with points pointtype 7 pointsize 0.8 linecolor '{}' title '{}', \\\n"
+        "  {}:{} with labels noenhanced left rotate by 50 offset 0.3,0.6 font ',9' textcolor '{}' notitle",
         i == 0 ? "" : ", \\\n  ", points, colour, plots::quoted(axes[i]), points, column("setting"), colour);
   }
   return text + "\n";

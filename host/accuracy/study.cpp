@@ -1,5 +1,5 @@
-// The user's own settings first, because mistakes and a scene without links show there; then axis by axis.
-// Paths are kept of the own settings and of one reference at a time.
+// The user's own settings are measured first, because mistakes and a scene without links show there; then axis by axis.
+// Only the paths of the own settings and of one reference at a time are kept.
 #include "accuracy/study.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -27,10 +27,9 @@ class Measurement {
   Measurement(const Request& request, const study::Host& host)
       : request_(request), host_(host), own_(load_config(request.file, request.sets)) {
     if (!own_.live_vehicles.empty())
-      throw ConfigError(
-          request.file +
-          ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; give "
-          "trajectories instead of them");
+      throw ConfigError(request.file +
+                        ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; "
+                        "give trajectories instead of them");
   }
 
   Study operator()() {
@@ -75,7 +74,7 @@ class Measurement {
     return !setting.leads && resolved_config(config) == resolved_config(own_);
   }
 
-  // Nothing where it was interrupted; a refusal where the configuration or the device cannot do it.
+  // Returns nothing if it was interrupted; a refusal if the configuration or the device cannot do it.
   std::optional<Measured> try_measure(const Setting& setting, bool& own) const {
     Measured refused;
     try {
@@ -91,7 +90,7 @@ class Measurement {
     return refused;
   }
 
-  // Before a setting is measured: how many are, of all.
+  // Reports progress before a setting is measured: how many of all are done.
   void tell(const Setting& setting) const {
     host_.tell(setting.axis + " " + setting.name, out_.rows.size(), out_.planned, "settings");
   }
@@ -137,8 +136,8 @@ class Measurement {
     for (const Row& row : out_.rows)
       if (row.reference && row.paths > 0) return;
     throw ConfigError(fmt::format(
-        "{}: none of the {} links has a path at any setting, not even with every mechanism that the scene needs, so "
-        "there is nothing to compare; look at where the antennas stand",
+        "{}: none of the {} links has a path at any setting, not even with every mechanism that the scene needs, "
+        "so there is nothing to compare; look at where the antennas stand",
         request_.file, out_.links));
   }
 

@@ -1,5 +1,5 @@
-// A list of columns, each a name and how to write its cell.
-// Six digits a number: more than a clock is good for.
+// A list of columns, each with a name and a function that writes its cell.
+// Numbers have six digits, more than a clock is good for.
 #include "accuracy/table.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,7 +106,7 @@ std::vector<std::string> short_cells(const Row& row) {
 }
 
 std::string encode_text(const std::vector<Row>& rows) {
-  // Narrower names than the page has, so that a row fits a terminal.
+  // Names are shorter than on the page, so that a row fits a terminal.
   std::vector<std::vector<std::string>> lines = {{"axis", "setting", "", "frame ms", "paths", "lost paths",
                                                   "lost power", "gain dB", "worst dB", "delay ns", "Doppler Hz",
                                                   "links lost"}};

@@ -1,4 +1,4 @@
-// `wavetracer accuracy`: speed against error of the user's own scene, and what to set.
+// `wavetracer accuracy` compares speed and error of the user's own scene, and advises what to set.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,5 @@
-// `wavetracer bench EXPERIMENT`: an experiment by name, written as tables, a plot and a report.
-// The speed of single parts is measured by the programs of bench/ instead.
+// `wavetracer bench EXPERIMENT` runs an experiment by name and writes tables, a plot and a report.
+// The programs of bench/ measure the speed of single parts.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -39,7 +39,7 @@ study::Request request(const BenchOptions& options, const study::Experiment& exp
                      .minutes = options.minutes,
                      .command_line = command_line};
   if (!options.rays.empty()) out.rays = study::parse_ray_range(options.rays);
-  if (out.rays && !experiment.study()) study::ray_counts(*out.rays);  // says so where there are none
+  if (out.rays && !experiment.study()) study::ray_counts(*out.rays);  // throws if there are none
   if (!options.directory.empty())
     out.config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return out;
@@ -88,8 +88,8 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<BenchOptions>();
   command->add_option("experiment", options->experiment, "Name of the experiment");
   command->add_option("-c,--config", options->file,
-                      "Config file whose scene, transmitters and receivers are used instead of a generated city; the "
-                      "experiment sets rays, directions, order and launch shape itself");
+                      "Config file whose scene, transmitters and receivers are used instead of a generated city; "
+                      "the experiment sets rays, directions, order and launch shape itself");
   command->add_option("-o,--output", options->directory, "Folder for the results, instead of output.directory");
   command
       ->add_option("--set", options->sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
@@ -111,11 +111,11 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--minutes", options->minutes,
-                   "Figures of orders (6.1, 6.18) begin no number of rays that would end later than this; default 3 on "
-                   "a GPU and 10 on a CPU, without a limit where --rays is given")
+                   "Figures of orders (6.1, 6.18) begin no number of rays that would end later than this; "
+                   "default 3 on a GPU and 10 on a CPU, without a limit where --rays is given")
       ->check(CLI::Range(0.001, 1e6));
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
-  command->footer("");  // removes the footer of the program, which would be printed too
+  command->footer("");  // removes the program's footer, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });
   command->callback([options, &invocation] { bench(*options, invocation); });
 }

@@ -1,5 +1,5 @@
-// What `wavetracer --version` says: the version on its first line, then how and from what the program was built.
-// The text is made by cmake/build_info.cmake, in a file of its own, so that a commit recompiles nothing else.
+// The text of `wavetracer --version`: the version on its first line, then how and from what the program was built.
+// cmake/build_info.cmake writes it into a file of its own, so that a commit recompiles nothing else.
 #pragma once
 
 namespace wavetracer::app {

@@ -1,4 +1,4 @@
-// Sets of features, so that every kernel of ordinary runs is checked once.
+// Checks several sets of features, so that every kernel of ordinary runs is checked once.
 #include "app/check_devices.hpp"
 #include <fmt/format.h>
 #include <iostream>
@@ -34,7 +34,7 @@ bool check_features(gpu::Context& context, const CheckedFeatures& features) {
   return all;
 }
 
-// Where it is not used, the reason was said.
+// If the device is not used, the reason was printed.
 bool check_one(const gpu::DeviceInfo& info, bool asked_for) {
   std::cout << fmt::format("{}: {} ({}), driver {}\n", info.index, info.name, info.platform, info.driver);
   if (const std::string lacks = gpu::lacks(info); !lacks.empty()) {
@@ -58,7 +58,7 @@ bool check_one(const gpu::DeviceInfo& info, bool asked_for) {
 
 bool check_devices(const std::string& device_text) {
   const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
-  const size_t chosen = gpu::choose_device(devices, device_text);  // throws where there is none
+  const size_t chosen = gpu::choose_device(devices, device_text);  // throws if there is none
   bool all = true;
   for (const gpu::DeviceInfo& info : devices)
     if (device_text.empty() || info.index == chosen) all &= check_one(info, !device_text.empty());

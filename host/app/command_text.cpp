@@ -1,5 +1,5 @@
-// CLI11 tells a value's type and its choices in one text, `TEXT:{a,b}`, as --help shows them.
-// Choices are read from there, so whatever --help lists is completed.
+// CLI11 gives a value's type and its choices in one text, `TEXT:{a,b}`, as --help shows them.
+// Choices are read from it, so shells complete everything that --help lists.
 #include "app/command_text.hpp"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-// The command line as data, read from CLI11's own description of it: what man pages and completions are made of.
-// Assumes that hidden subcommands have an empty group.
+// The command line as data, read from CLI11's own description of it, for man pages and completions. Hidden subcommands
+// have an empty group.
 #pragma once
 #include <CLI/App.hpp>
 #include <string>
@@ -8,34 +8,35 @@
 namespace wavetracer::app {
 
 struct OptionText {
-  std::vector<std::string> names;  // with their dashes; none of a positional
-  std::string value;               // name of the value: FILE, TEXT, INT; empty of a flag
-  std::string doc, fallback;       // fallback: its default, empty where there is none
+  std::vector<std::string> names;  // names with their dashes; a positional argument has none
+  std::string value;               // name of the value: FILE, TEXT, INT; empty for a flag
+  std::string doc, fallback;       // fallback: its default, empty if there is none
   std::vector<std::string> choices;
   bool required = false, repeats = false;
   bool positional() const { return names.empty(); }
 };
 
 struct CommandText {
-  std::string path;  // "", "run", "scene info"
+  std::string path;  // such as "", "run", "scene info"
   std::string name, doc;
-  std::string footer;  // empty where it is that of the whole program
+  std::string footer;  // empty if it is that of the whole program
   std::vector<OptionText> options;
   std::vector<CommandText> commands;
 };
 
-// What completes the value of an option of the command `path` besides the choices that --help lists; empty: anything.
+// Returns words that complete the value of an option of the command `path`, besides the choices that --help lists;
+// empty if any value is possible.
 std::vector<std::string> known_values(const CLI::App& program, const std::string& path, const CLI::Option& option);
 
 CommandText describe(const CLI::App& program);
 
-// This command and all below it, each before its own.
+// Returns this command and all below it, parents before children.
 std::vector<const CommandText*> all_commands(const CommandText& command);
 
-// wavetracer.1
+// Returns the man page wavetracer.1.
 std::string program_manual(const CommandText& program, const std::string& version);
 
-// The script for "bash", "zsh" or "fish".
+// Returns the script for "bash", "zsh" or "fish".
 std::string completion(const CommandText& program, const std::string& shell);
 
 }  // namespace wavetracer::app

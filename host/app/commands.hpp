@@ -1,5 +1,5 @@
-// The subcommands of the program: each add_ function declares one with its options and what it does.
-// A subcommand throws an Error to fail; the exit code of a success that is not plain stands in Invocation.
+// The subcommands of the program: each add_ function declares one with its options and its action.
+// A subcommand throws an Error to fail; Invocation holds the exit code of a success that is not 0.
 #pragma once
 #include <CLI/App.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 namespace wavetracer::app {
 
 struct Invocation {
-  std::string command_line;  // as typed, quoted where a shell would need it
+  std::string command_line;  // as typed, quoted if a shell needs that
   ExitCode code = ExitCode::ok;
 };
 

@@ -1,5 +1,5 @@
-// Completion scripts. All of them complete commands, options, the words that an option accepts, and after --set the
-// keys of the configuration with the words that a key accepts. Where there are no such words, shells complete files.
+// Makes completion scripts. They complete commands, options, the words that an option accepts, and after --set the keys
+// of the configuration with the words that a key accepts. Where there are no such words, shells complete files.
 #include <fmt/format.h>
 #include <algorithm>
 #include "app/command_text.hpp"
@@ -23,14 +23,14 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::string shell_quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
-// The first sentence or part of it, which is what fits beside an option.
+// Returns the first sentence or part of it, which fits beside an option.
 std::string brief(const std::string& doc) { return doc.substr(0, doc.find(';')); }
 
 bool is_set(const OptionText& option) { return std::ranges::find(option.names, "--set") != option.names.end(); }
 
 // --- bash ---
 
-// One line of a `case`: the words to offer.
+// Returns one line of a `case` with the words to offer.
 std::string bash_case(const std::string& pattern, const std::string& words) {
   return fmt::format("    {}) words={} ;;\n", pattern, shell_quoted(words));
 }
@@ -59,7 +59,7 @@ std::string bash(const CommandText& program) {
   }
   return fmt::format(
       R"(# Completion of wavetracer for bash. Written by `wavetracer documentation --completion bash`: do not edit.
-# Where COMPREPLY stays empty, bash completes files.
+# If COMPREPLY stays empty, bash completes files.
 _wavetracer() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}} path= of= words= i
   COMPREPLY=()
@@ -163,7 +163,7 @@ std::string fish_text(const std::string& text) {
   return "'" + replaced(replaced(brief(text), "\\", "\\\\"), "'", "\\'") + "'";
 }
 
-// True where the words of the path have been typed, and no other command of this one.
+// True if the words of the path have been typed, and no other command below this one.
 std::string fish_condition(const CommandText& command) {
   std::string out;
   for (size_t start = 0; start < command.path.size();) {

@@ -22,8 +22,8 @@ namespace wavetracer::app {
 
 namespace {
 
-// Throws what a run would: for a material that is not known at the frequency, a pattern file or a codebook that is
-// none, a cache that is too small for its transmitters.
+// Throws the errors of a run: for a material that is unknown at the frequency, an invalid pattern file or codebook, a
+// cache that is too small for its transmitters.
 void check_run(const Config& config, const Scene& scene, const World& world) {
   Config radio = config;
   radio.transmitters = world.transmitters();
@@ -38,7 +38,7 @@ void check_run(const Config& config, const Scene& scene, const World& world) {
   check_cache(radio, world);
 }
 
-// What a run would say of the scene and of who stands and drives in it, which has to be loaded for that.
+// Returns the warnings of a run about the scene, fixed ends and vehicles, which it loads for that.
 std::vector<std::string> world_warnings(const Config& config) {
   const Scene scene = load_scene(config);
   const World world(config, scene);

@@ -1,5 +1,5 @@
 // `wavetracer convert`: a run in the format of another program, or a map as a scene.
-// What INPUT is decides its content; what is written decides --to, or the suffix of -o where it says enough.
+// The content of INPUT decides which of the two it is; --to, or a sufficient suffix of -o, decides what is written.
 #include "convert/convert.hpp"
 #include <fmt/format.h>
 #include <fstream>
@@ -66,7 +66,7 @@ const Exporter& chosen_exporter(const ConvertOptions& options) {
   return exporter;
 }
 
-// OUT is made of one kind; what stands there must not be of another.
+// An output is a file or a folder; an existing OUT must be of the same kind.
 void check_output(const Exporter& exporter, const fs::path& output) {
   std::error_code ignored;
   if (!fs::exists(output, ignored)) return;
@@ -80,7 +80,7 @@ void check_output(const Exporter& exporter, const fs::path& output) {
                                   output.string(), exporter.name));
 }
 
-// Rows of the frames that --frames names by their numbers.
+// Chooses the rows of the frames that --frames names by their numbers.
 void choose_rows(const SavedRun& run, const std::string& text, ExportOptions& options) {
   const size_t count = run.frame_count();
   options.first_row = 0;
@@ -118,12 +118,12 @@ void export_run(const ConvertOptions& options) {
   out << "\n";
 }
 
-// Where the vehicles of a file are: the ground has to reach below them.
+// Returns the area of a file's vehicles, which the ground must cover.
 Extent extent_of_traffic(const ConvertOptions& options) {
   if (options.map.net.empty() && fs::path(options.input).extension() != ".xml")
     throw ConfigError(
-        fmt::format("--traffic {}: needs --net with the network that the vehicles drive on, since only "
-                    "then map and vehicles have the same coordinates",
+        fmt::format("--traffic {}: needs --net with the network that the vehicles drive on, since only then map "
+                    "and vehicles have the same coordinates",
                     options.traffic));
   Extent out;
   for (const Track& track : read_trajectories(options.traffic).tracks)
@@ -174,11 +174,11 @@ void add_map_options(CLI::App& command, ConvertOptions& options) {
   add("--levels", map.levels_field,
       "For maps that GDAL opens: the field with numbers of storeys; \"levels\" if there is one");
   add("--lod", map.lod,
-      "For CityJSON and CityGML: the highest level of detail to build, 1, 2 or 3, or one of CityJSON's, such as 1.2; 2 "
-      "if not given");
+      "For CityJSON and CityGML: the highest level of detail to build, 1, 2 or 3, or one of CityJSON's, "
+      "such as 1.2; 2 if not given");
   add("--terrain", map.terrain,
-      "Heights of the ground in metres, a raster that GDAL opens (GeoTIFF and others): the ground follows it, and "
-      "houses stand on it");
+      "Heights of the ground in metres, a raster that GDAL opens (GeoTIFF and others): the ground follows it, "
+      "and houses stand on it");
   add("--terrain-error", map.terrain_error_m, "The most by which the ground may miss a post of the terrain, in metres")
       ->capture_default_str();
   add("--level-height", map.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
@@ -202,17 +202,16 @@ void add_convert(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("convert", "Convert a run to the format of another program, or a city map to a scene");
   const auto options = std::make_shared<ConvertOptions>();
-  command->add_option(
-      "INPUT", options->input,
-      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml, CityJSON, CityGML, or what GDAL "
-      "opens: .gpkg, .shp, .geojson, .fgb and many more)");
+  command->add_option("INPUT", options->input,
+                      "The folder of a run, its paths.h5, or a map (.osm, .osm.pbf, .poly.xml, CityJSON, CityGML, "
+                      "or what GDAL opens: .gpkg, .shp, .geojson, .fgb and many more)");
   command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
   command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
   command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
   command->add_option("--projection", options->projection,
-                      "PROJ string: for kml and osi, of the scene's coordinates, if there is no georeference.json that "
-                      "contains it; for a map, of the coordinates that the scene shall have, instead of metres about "
-                      "its middle");
+                      "PROJ string: for kml and osi, of the scene's coordinates, if there is no georeference.json "
+                      "that contains it; for a map, of the coordinates that the scene shall have, "
+                      "instead of metres about its middle");
   command->add_flag("--list", options->list, "List the formats for --to");
   add_map_options(*command, *options);
   command->callback([options] {

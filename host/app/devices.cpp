@@ -1,5 +1,5 @@
-// `wavetracer devices`: what OpenCL offers, which device a run would take and, with --check, what they compute.
-// The list is in the order of the ICD; its index is what --device accepts.
+// `wavetracer devices` lists OpenCL devices and the one that a run would use and, with --check, checks what they
+// compute. The list is in the order of the ICD; --device accepts its index.
 #include <fmt/format.h>
 #include <algorithm>
 #include <iostream>
@@ -14,7 +14,7 @@ namespace {
 
 std::string gibibytes(uint64_t bytes) { return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1 << 30)); }
 
-// Columns as wide as their widest cell.
+// Columns are as wide as their widest cell.
 std::string table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
@@ -57,7 +57,7 @@ void add_devices(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<DevicesOptions>();
   CLI::Option* const check =
       command->add_flag("--check", options->check,
-                        "Check what each device computes, whatever earlier checks have found, and say what is wrong");
+                        "Check the computations of each device, even if it was checked before, and report errors");
   command
       ->add_option("--device", options->device,
                    "Check only this one: its index, or a part of its name or of its platform's name")

@@ -1,5 +1,5 @@
-// `wavetracer documentation`: man pages, completions and the configuration reference, from the program's own tables.
-// Hidden: it serves the build, which installs what it writes.
+// `wavetracer documentation` writes man pages, completions and the configuration reference, from the program's own
+// tables. It is hidden: the build uses it and installs what it writes.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>

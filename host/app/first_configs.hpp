@@ -1,5 +1,5 @@
-// First configuration files of `wavetracer init --minimal`, `--sumo` and `--coverage`: short ones, to be changed.
-// Defaults do the rest; tests run them as they are.
+// First configuration files of `wavetracer init --minimal`, `--sumo` and `--coverage`: short ones, to be changed. Other
+// keys have their defaults; tests run the files unchanged.
 #pragma once
 
 namespace wavetracer::app {

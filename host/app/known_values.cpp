@@ -1,4 +1,5 @@
-// Words that options take without CLI11 knowing them: what is listed elsewhere, and would fill the screen in --help.
+// Words that options accept but CLI11 does not list: other commands list them, and they would fill the screen in
+// --help.
 #include <algorithm>
 #include "app/command_text.hpp"
 #include "config/field_table.hpp"

@@ -1,6 +1,6 @@
-// `wavetracer serve --page FILE`: the live world as a page that is written anew while frames are solved.
-// Written by a thread of its own, at most once per second: no frame waits for the page, and a newer frame replaces one
-// that waits. A browser that shows the page loads it again by itself.
+// `wavetracer serve --page FILE`: writes the live world as a page again and again while frames are solved. A thread of
+// its own writes, at most once per second: no frame waits for the page, and a newer frame replaces a waiting one. The
+// page reloads itself in the browser.
 #pragma once
 #include <chrono>
 #include <condition_variable>
@@ -20,19 +20,19 @@ class LivePage {
  public:
   using Tell = std::function<void(const std::string&)>;
 
-  // tell: what goes wrong is said once, and frames go on; called on the thread of the page. Throws RuntimeError where
-  // the page cannot be written at all.
+  // tell: called on the thread of the page with the first error; frames continue. Throws RuntimeError if the page
+  // cannot be written at all.
   LivePage(const std::filesystem::path& file, Tell tell);
-  // After the page of the last frame.
+  // Returns after the page of the last frame was written.
   ~LivePage();
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
-  // A frame of this simulation was solved. Copies it.
+  // Takes a copy of a frame that this simulation has solved.
   void show(const Simulation& simulation, const LiveFrame& frame);
 
  private:
-  // What a page says besides its frame; the simulation may be gone while the last page is written.
+  // The content of a page besides its frame; the simulation may be gone while the last page is written.
   struct World {
     Config config;
     Scene scene;
@@ -49,7 +49,7 @@ class LivePage {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<World> world_;
-  std::optional<SavedWorld> drawn_;  // of the thread of the page: the same, as the page draws it
+  std::optional<SavedWorld> drawn_;  // used by the page's thread: the same world in the form that the page draws
   std::optional<LiveFrame> newest_;
   bool ends_ = false, failed_ = false;
   std::thread thread_;

@@ -38,11 +38,11 @@ int run_program(int argc, char** argv) {
   CLI::App program{"Radio channels between moving vehicles by ray tracing on OpenCL"};
   program.name("wavetracer");
   program.set_version_flag("--version", wavetracer::app::build_info);
-  program.require_subcommand(0, 1);  // none is reported below, after a misspelt one
+  program.require_subcommand(0, 1);  // a missing subcommand is reported below, after a misspelt one
   program.footer(
-      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` explains a key of configuration files such "
-      "as trace.rays, and `wavetracer help config` explains all keys. `wavetracer init --minimal` prints a first "
-      "file.");
+      "`wavetracer help COMMAND` explains a command, `wavetracer help KEY` explains a key of configuration files "
+      "such as trace.rays, and `wavetracer help config` explains all keys. "
+      "`wavetracer init --minimal` prints a first file.");
   wavetracer::app::Invocation invocation{command_line(argc, argv)};
   wavetracer::app::add_run(program, invocation);
   wavetracer::app::add_devices(program, invocation);
@@ -62,7 +62,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) return program.exit(e);  // it was --help or --version
     return fail(ExitCode::usage, wavetracer::app::usage_problem(program, e));
   }
   if (program.get_subcommands().empty()) {
@@ -75,7 +75,8 @@ int run_program(int argc, char** argv) {
 int run_and_report(int argc, char** argv) {
   try {
     return run_program(argc, argv);
-  } catch (const wavetracer::Error& e) {  // of a device or a library that found no memory and may not say so, or others
+  } catch (const wavetracer::Error& e) {
+    // A device or a library may have run out of memory and report something else.
     const bool may_lack_memory = e.code() == ExitCode::device || e.code() == ExitCode::runtime;
     return fail(e.code(), e.what() + (may_lack_memory ? wavetracer::app::limit_hint() : ""));
   } catch (const std::bad_alloc&) {
@@ -84,15 +85,15 @@ int run_and_report(int argc, char** argv) {
   } catch (const std::system_error& e) {
     if (e.code() != std::errc::resource_unavailable_try_again) return fail(ExitCode::runtime, e.what());
     return fail(ExitCode::runtime,
-                "no thread can be started: the memory or the number of threads of this process (`ulimit -u`) is used "
-                "up; raise the limit, or lower trace.batch_rays or trace.rays" +
+                "no thread can be started: the memory or the number of threads of this process (`ulimit -u`) "
+                "is used up; raise the limit, or lower trace.batch_rays or trace.rays" +
                     wavetracer::app::limit_hint());
   } catch (const std::exception& e) {
     return fail(ExitCode::runtime, e.what() + wavetracer::app::limit_hint());
   }
 }
 
-// Makes the program fail where its output has not arrived.
+// Makes the program fail if its output has not arrived.
 int flush_and_report(int code) {
   const std::string problem = wavetracer::app::output_problem();
   if (problem.empty() || code == static_cast<int>(ExitCode::runtime)) return code;

@@ -1,5 +1,5 @@
-// wavetracer(1): every subcommand with its options, as CLI11 describes them, and what the program says to its
-// surroundings. Assumes that footers of subcommands are laid out as they are to be shown.
+// wavetracer(1): every subcommand with its options, as CLI11 describes them, environment variables, files and exit
+// codes. Footers of subcommands are laid out as they are shown.
 #include <fmt/format.h>
 #include <algorithm>
 #include "app/command_text.hpp"
@@ -42,7 +42,7 @@ std::string section(const CommandText& command) {
   return out;
 }
 
-// Each item is a tag and what it means.
+// Each item is a tag and its meaning.
 std::string list(std::initializer_list<std::pair<const char*, const char*>> items) {
   std::string out;
   for (const auto& [name, meaning] : items) out += fmt::format(".TP\n.B {}\n{}\n", roff(name), roff(meaning));
@@ -54,9 +54,9 @@ std::string list(std::initializer_list<std::pair<const char*, const char*>> item
 std::string program_manual(const CommandText& program, const std::string& version) {
   std::string out = fmt::format(
       ".TH WAVETRACER 1 \"\" \"wavetracer {}\" \"User commands\"\n.SH NAME\nwavetracer \\- {}\n.SH SYNOPSIS\n{}"
-      ".SH DESCRIPTION\nA city and the positions of antennas go in, in a configuration file; every propagation path "
-      "between them comes out, with its geometry, delay, complex gain and angles. Results go to standard output or to "
-      "files, messages and progress to standard error.\n",
+      ".SH DESCRIPTION\nA city and the positions of antennas go in, in a configuration file; "
+      "every propagation path between them comes out, with its geometry, delay, complex gain and angles. "
+      "Results go to standard output or to files, messages and progress to standard error.\n",
       version, roff(program.doc), synopsis(program));
   for (const OptionText& option : program.options) out += entry(option);
   out += ".SH COMMANDS\n";
@@ -70,21 +70,21 @@ std::string program_manual(const CommandText& program, const std::string& versio
                {"4", "No OpenCL device, no memory on it, or a kernel that does not build."},
                {"5", "A part of the request could not be done; the rest is written."},
                {"130", "Interrupted; the written files are complete."}});
-  out += ".SH FILES\n" +
-         list({{"paths.h5", "Every path of a run (HDF5); each dataset says its units and meaning."},
-               {"links.csv", "One line per link and frame: path gain, delay spread, line of sight."},
-               {"summary.json", "Device, counts, seconds of each stage, warnings."},
-               {"shards/", "Finished parts of a drive, from which run --resume goes on."},
-               {"$XDG_CACHE_HOME/wavetracer/programs", "Compiled kernels; may be removed at any time."},
-               {"$XDG_CACHE_HOME/pocl/kcache",
-                "Kernels that PoCL has compiled. PoCL aborts the program where one of them is damaged, as a full disk "
-                "leaves it: remove the folder then."}});
+  out += ".SH FILES\n" + list({{"paths.h5", "Every path of a run (HDF5); each dataset says its units and meaning."},
+                               {"links.csv", "One line per link and frame: path gain, delay spread, line of sight."},
+                               {"summary.json", "Device, counts, seconds of each stage, warnings."},
+                               {"shards/", "Finished parts of a drive, from which run --resume goes on."},
+                               {"$XDG_CACHE_HOME/wavetracer/programs", "Compiled kernels; may be removed at any time."},
+                               {"$XDG_CACHE_HOME/pocl/kcache",
+                                "Kernels that PoCL has compiled. PoCL aborts the program where one of them is damaged, "
+                                "as a full disk leaves it: remove the folder then."}});
   out += ".SH ENVIRONMENT\n" +
          list({{"NO_COLOR", "No colours in messages."},
                {"OCL_ICD_VENDORS", "Folder of the OpenCL drivers, of the OpenCL loader."},
                {"POCL_CACHE_DIR",
-                "PoCL's cache of kernels, without which it offers no device. Where it is not set and PoCL's own choice "
-                "cannot be written to, a folder in the temporary one is used."},
+                "PoCL's cache of kernels, without which it offers no device. "
+                "Where it is not set and PoCL's own choice cannot be written to, a folder in the temporary one "
+                "is used."},
                {"WAVETRACER_NO_CACHE", "1: kernels are compiled anew at every start."},
                {"WAVETRACER_KERNEL_DIR", "Folder of kernel sources to use instead of the built-in ones."},
                {"XDG_CACHE_HOME", "Where caches are kept, instead of ~/.cache."}});

@@ -1,4 +1,4 @@
-// What laws give is computed here by the code that the fields use, so that the page cannot differ from the program.
+// The values of laws are computed by the same code as fields, so that the page cannot differ from the program.
 #include "app/materials.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,16 +14,16 @@ namespace wavetracer::app {
 namespace {
 
 constexpr ItuEdition older = "P.2040-3", newest = "P.2040-4";
-constexpr double d_band_ghz = 140;  // where the page compares the laws of both editions
+constexpr double d_band_ghz = 140;  // frequency at which the page compares the laws of both editions
 
-// Without its range, to see what the law itself gives.
+// Ignores the range, to see the value of the law itself.
 std::complex<double> permittivity_of(Material law, double ghz) {
   law.min_ghz = 0;
   law.max_ghz = ghz;
   return complex_permittivity(law, ghz * 1e9);
 }
 
-// Decibels of a reflection or loss; nothing reflects off vacuum.
+// Returns decibels of a reflection or loss; vacuum reflects nothing.
 std::string decibels(double db) {
   if (!std::isfinite(db)) return "none";
   return fmt::format("{:.1f}", std::abs(db) < 0.05 ? 0.0 : db);
@@ -31,13 +31,13 @@ std::string decibels(double db) {
 
 double conductivity_of(const Material& law, double ghz) { return law.c * std::pow(ghz, law.d); }
 
-// Of a half space, at normal incidence.
+// Returns the reflection of a half space at normal incidence.
 double reflected_db(const std::complex<double>& permittivity) {
   const std::complex<double> n = std::sqrt(permittivity);
   return 20 * std::log10(std::abs((1.0 - n) / (1.0 + n)));
 }
 
-// Of a plane wave in the material, per centimetre.
+// Returns the loss of a plane wave in the material, per centimetre.
 double loss_db_cm(const std::complex<double>& permittivity, double ghz) {
   const double nepers_m =
       2 * std::numbers::pi * ghz * 1e9 / speed_of_light_m_s * std::abs(std::sqrt(permittivity).imag());
@@ -76,7 +76,8 @@ struct LargestChange {
   }
 };
 
-// The law that the newest edition has at the frequency, beside the older edition's nearest one carried on to it.
+// Compares the law that the newest edition has at the frequency with the older edition's nearest law, extrapolated to
+// it.
 std::string difference_row(const Material& law, double ghz, LargestChange& most) {
   const auto before = find_itu_law(older, law.name, ghz);
   const std::complex<double> now = permittivity_of(law, ghz);

@@ -1,4 +1,4 @@
-// The library of radio materials as people read it.
+// The library of radio materials as text for people.
 #pragma once
 #include <string>
 
@@ -6,10 +6,10 @@
 
 namespace wavetracer::app {
 
-// docs/materials.md: both editions of ITU-R P.2040, each law with its range, and what they differ in.
+// Returns docs/materials.md: both editions of ITU-R P.2040, each law with its range, and the differences.
 std::string materials_page();
 
-// A line per law of an edition, with what it is at a frequency, where it is known there.
+// Returns a line per law of an edition, with its values at a frequency where the law is valid.
 std::string materials_table(ItuEdition edition, double frequency_hz);
 
 }  // namespace wavetracer::app

@@ -1,4 +1,4 @@
-// A handler of signals would not do: compilers inside of drivers replace it.
+// A signal handler would not work: compilers inside of drivers replace it.
 #include "app/memory_limit.hpp"
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -17,7 +17,7 @@ namespace {
 
 volatile sig_atomic_t child = 0;
 
-// The lower of the limits, in bytes; RLIM_INFINITY without one.
+// Returns the lower of the limits, in bytes; RLIM_INFINITY without one.
 rlim_t limit_bytes() {
   rlimit address_space{RLIM_INFINITY, RLIM_INFINITY}, data{RLIM_INFINITY, RLIM_INFINITY};
   getrlimit(RLIMIT_AS, &address_space);
@@ -29,7 +29,7 @@ std::string limit_words(rlim_t bytes) {
   return fmt::format("this process may take {} MiB of memory (`ulimit -v` or `-d`)", bytes >> 20);
 }
 
-// Ctrl-C reaches the child by itself; what was sent to this process alone does not.
+// Ctrl-C reaches the child directly; a signal sent to this process alone does not.
 void forward_signals() {
   struct sigaction action = {};
   action.sa_sigaction = [](int number, siginfo_t* info, void*) {
@@ -48,7 +48,7 @@ int exit_code_of(int status) {
     return 128 + number;
   }
   std::cerr << "\nwavetracer: a library ended the program (signal " << number
-            << "), most likely for want of memory: " << limit_words(limit_bytes())
+            << "), most likely because it ran out of memory: " << limit_words(limit_bytes())
             << ". Raise the limit, lower trace.batch_rays or trace.rays, or use a smaller scene\n";
   return static_cast<int>(ExitCode::runtime);
 }
@@ -60,7 +60,7 @@ int explained(const std::function<int()>& program) {
   const pid_t parent = getpid();
   sigset_t all, before;
   sigfillset(&all);
-  sigprocmask(SIG_BLOCK, &all, &before);  // until both know what to do with them
+  sigprocmask(SIG_BLOCK, &all, &before);  // until both processes have set their handlers
   const pid_t forked = fork();
   if (forked <= 0) {
     if (forked == 0) prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,4 +1,4 @@
-// `wavetracer merge`: parts of a run that several processes or machines have written, made one.
+// `wavetracer merge` joins the parts of a run that several processes or machines have written.
 // It needs no device and none of the run's input files.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ struct MergeOptions {
   bool partial = false;
 };
 
-// The folder that the outputs go to; in another one than the parts' no shards may lie that do not belong to them.
+// Returns the folder of the outputs; if it is not that of the parts, it must not have shards of another run.
 fs::path target_of(const MergeOptions& options) {
   if (options.output.empty()) {
     if (options.directories.size() > 1)
@@ -48,7 +48,7 @@ std::string missing_words(const FoundParts& found) {
   return out;
 }
 
-// Nobody else may write to the folders meanwhile. Parts may lie where this process cannot write.
+// Reserves the folders against other writers. Parts may lie in folders where this process cannot write.
 std::vector<std::unique_ptr<FolderHold>> hold_all(const std::vector<std::string>& directories, const fs::path& target) {
   const ProcessInfo process = this_process("", 0);
   std::vector<std::unique_ptr<FolderHold>> held;

@@ -1,5 +1,5 @@
-// Existence and permissions of the files and folders that a config names.
-// What is checked here may change before it is used; the code that opens a file reports that again.
+// Checks existence and permissions of the files and folders that a config names.
+// A file may change between the check and its use; the code that opens it reports that.
 #include "app/named_files.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,9 +25,8 @@ void check_file(const std::string& file, const std::string& key, const std::stri
     throw InputError(fmt::format("{}{} is \"{}\", a folder: name the file in it", where, key, file));
   if (access(file.c_str(), R_OK) != 0)
     throw InputError(
-        fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's "
-                    "folder",
-                    where, key, file, std::strerror(errno)));
+        fmt::format("{}{} is \"{}\", which cannot be read: {}; relative paths start at the config file's folder", where,
+                    key, file, std::strerror(errno)));
   check_input_file(file, key.c_str());
 }
 
@@ -41,15 +40,15 @@ void check_streets(const Config& config) {
                     traffic = words(parse_traffic_options(config.trajectories.generate).grid);
   if (city != traffic)
     throw ConfigError(
-        fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: vehicles "
-                    "would drive through houses; give both the same",
+        fmt::format("{}trajectories.generate has the streets of {}, scene.generate those of {}: "
+                    "vehicles would drive through houses; give both the same",
                     config.file.empty() ? "" : config.file + ": ", traffic, city));
 }
 
 }  // namespace
 
 void check_inputs(const Config& config) {
-  Config values = config;  // what names files may be written to
+  Config values = config;  // a copy, since slots point to values that may be written
   for (const config::NamedFile& file : config::input_files(values)) check_file(*file.path, file.key, config.file);
   if (!config.scene.generate.empty()) parse_city_options(config.scene.generate);
   if (!config.trajectories.generate.empty()) parse_traffic_options(config.trajectories.generate);

@@ -1,5 +1,5 @@
-// `wavetracer plot`: figures of a run, each with its data and the gnuplot script that drew it.
-// Needs no device; without gnuplot data and scripts are still written.
+// `wavetracer plot` makes figures of a run, each with its data and the gnuplot script that drew it.
+// It needs no device; without gnuplot, data and scripts are still written.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <filesystem>
@@ -50,8 +50,8 @@ void add_plot(CLI::App& program) {
   command->add_option("--rx", options->choice.link.rx, "Name of a receiver");
   command->add_option("--grid", options->choice.grid, "Name of a [[receiver_grid]], for --what coverage");
   command->add_option("--frame", options->frame,
-                      "Number of the frame for figures that show one frame; if not given, the frame of the strongest "
-                      "link, and the first frame for coverage and rays");
+                      "Number of the frame for figures that show one frame; if not given, "
+                      "the frame of the strongest link, and the first frame for coverage and rays");
   command->add_option("--format", options->format, "svg, png or pdf")->check(CLI::IsMember({"svg", "png", "pdf"}));
   command->callback([options] { plot(*options); });
 }

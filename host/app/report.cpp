@@ -17,13 +17,13 @@
 namespace wavetracer::app {
 namespace {
 
-constexpr size_t shown_pairs = 3;  // of the strongest, and of the weakest
+constexpr size_t shown_pairs = 3;  // number of the strongest pairs, and of the weakest
 
 std::string duration(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
 }
 
-// Of one frame, how it was timed; of many, how they follow each other.
+// For one frame it says how it was timed; for many, how their times are distributed.
 std::string frame_line(const Run& run, const Totals& totals) {
   const double median_s = median_seconds(totals, "frame"), sum_s = sum_seconds(totals, "frame");
   const uint32_t repeats = run.summary.repeat_count;
@@ -41,7 +41,7 @@ std::string frame_line(const Run& run, const Totals& totals) {
   return line + "\n";
 }
 
-// How much the ray cache answered, and how full it is.
+// Says how much the ray cache answered, and how full it is.
 std::string cache_line(const CacheSummary& cache) {
   if (!cache.on) return "";
   const auto percent = [](uint64_t part, uint64_t whole) {
@@ -56,7 +56,7 @@ std::string cache_line(const CacheSummary& cache) {
   return line;
 }
 
-// What became of sequences: paths are solved for, or are what the spheres of receivers caught.
+// Says what sequences were used for: paths were solved from them, or the spheres of receivers caught the paths.
 std::string sequence_line(const Run& run, const FrameCounts& n) {
   if (run.config.trace.reception == "sphere")
     return fmt::format("sequences  {} distinct, {} segments passed receivers\n", grouped(n.sequences),
@@ -65,14 +65,14 @@ std::string sequence_line(const Run& run, const FrameCounts& n) {
                      grouped(n.solved));
 }
 
-// line_of_sight -> line of sight
+// Turns "line_of_sight" into "line of sight".
 std::string spaced(std::string_view key) {
   std::string words(key);
   std::ranges::replace(words, '_', ' ');
   return words;
 }
 
-// What was computed, and of what the configuration asks for beyond that, why not.
+// Says what was computed, and why other features that the configuration asks for were not.
 std::string feature_line(const Run& run) {
   const TraceConfig& trace = run.config.trace;
   std::vector<std::pair<std::string, bool>> features;
@@ -94,7 +94,7 @@ std::string feature_line(const Run& run) {
   return fmt::format("features   {}{}\n", on.empty() ? "line of sight alone" : on, off);
 }
 
-// By their most special interaction, see path_kinds.hpp.
+// Paths are counted by their most special interaction, see path_kinds.hpp.
 std::string path_line(const Totals& totals) {
   std::string kinds;
   for (size_t i = 0; i < path_kinds.size(); ++i)
@@ -104,7 +104,7 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
-// What rays may have missed; nothing where that is not known.
+// Says what rays may have missed; empty if unknown.
 std::string missed_line(const Run& run, const Totals& totals) {
   if (totals.missed.frames == 0) return "";
   const Missed missed = estimate_missed(totals.missed);
@@ -120,7 +120,7 @@ std::string missed_line(const Run& run, const Totals& totals) {
                                              : ": a higher trace.recall finds more of them");
 }
 
-// What tracing did, for whoever tunes it.
+// Says what tracing did, for users who tune it.
 std::string tracing_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
   const uint64_t traced = traced_segments(totals);
@@ -157,7 +157,7 @@ std::string pair_lines(const char* title, std::span<const PairSummary> pairs, bo
   return out;
 }
 
-// Links, their gains and delay spreads, and the ends of the list.
+// Describes links, their gains and delay spreads, and the strongest and weakest pairs.
 std::string link_lines(const LinkStatistics& links, bool drive) {
   std::string out =
       fmt::format("links      {} asked for{}, {} with a path ({}), {} in line of sight ({})\n", grouped(links.asked),
@@ -180,7 +180,7 @@ std::string grid_lines(const LinkStatistics& links) {
   return out;
 }
 
-// What paths.h5 does not have, by the configuration.
+// Says which paths the configuration leaves out of paths.h5.
 std::string left_out_line(const Totals& totals) {
   const LeftOutPaths& gone = totals.left_out;
   if (gone.paths == 0) return "";
@@ -190,7 +190,7 @@ std::string left_out_line(const Totals& totals) {
       grouped(gone.paths), grouped(totals.counts.paths), 100 * gone.power / gone.all);
 }
 
-// Where the device had to prove itself, that has compiled most kernels.
+// If the device had to be checked, that has compiled most kernels.
 std::string compile_line(const Run& run) {
   const StageSeconds& seconds = run.summary.setup_seconds;
   if (!seconds.contains("compile")) return "";
@@ -198,7 +198,7 @@ std::string compile_line(const Run& run) {
                      duration(stage_seconds(seconds, "compile") + stage_seconds(seconds, "device check")));
 }
 
-// What frames without rays may lack.
+// Says what frames without rays may lack.
 std::string late_line(const Run& run, const Totals& totals) {
   const LateCounts& late = totals.late;
   if (late.discoveries == 0) return "";
@@ -206,8 +206,7 @@ std::string late_line(const Run& run, const Totals& totals) {
       fmt::format("new when rays were launched again, every {} s", run.config.trace.discover_every_s);
   if (late.paths == 0) return fmt::format("late       no path was {}\n", when);
   return fmt::format(
-      "late       {} paths with {:.1g} of the power (at most {:.1g}) were {}: frames before that may lack "
-      "them\n",
+      "late       {} paths with {:.1g} of the power (at most {:.1g}) were {}: frames before that may lack them\n",
       grouped(late.paths), late.power_share(), late.largest_share, when);
 }
 

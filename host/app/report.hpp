@@ -1,5 +1,5 @@
-// The closing words of a run, for people: what ran where, how fast, what was found and where it is.
-// Everything in it stands in summary.json and links.csv, too.
+// The closing report of a run, for people: what ran where, how fast, what was found and where it is.
+// Everything in it is in summary.json and links.csv, too.
 #pragma once
 #include <string>
 #include "jobs/results.hpp"
@@ -7,7 +7,7 @@
 
 namespace wavetracer::app {
 
-// At least one frame. verbose: what tracing did, too: rays, sequences, how they were ordered, what a cache answered.
+// There must be a frame. verbose: adds what tracing did: rays, sequences, their order, the cache's answers.
 std::string report(const Run& run, const Results& results, bool verbose);
 
 }  // namespace wavetracer::app

@@ -1,5 +1,5 @@
-// `wavetracer run`: config in, paths out.
-// The checks that need no device come first, so that a mistake costs no time.
+// `wavetracer run` turns a config into paths.
+// The checks that need no device come first, so that a mistake is reported at once.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <signal.h>
@@ -42,7 +42,7 @@ bool has_vehicles(const Config& config) {
          !config.parked.empty();
 }
 
-// shared: by several processes, in parts that can be resumed even where there is one frame.
+// shared: by several processes, in parts that can be resumed even if there is one frame.
 Config configuration(const RunOptions& options, bool shared) {
   Config config = load_config(options.file, options.sets);
   if (!config.live_vehicles.empty())
@@ -53,14 +53,14 @@ Config configuration(const RunOptions& options, bool shared) {
     parse_frames(options.frames, 1);
     if (options.resume && !shared)
       throw ConfigError(
-          "--resume: a run without trajectories has only one frame, so there is nothing to resume; leave the option "
-          "out");
+          "--resume: a run without trajectories has only one frame, so there is nothing to resume; "
+          "leave the option out");
   }
   if (!options.directory.empty()) config.output.directory = fs::absolute(options.directory).lexically_normal().string();
   return config;
 }
 
-// What an interrupt left undone, and how to go on.
+// Says what an interrupt left undone, and how to continue.
 std::string unfinished(const Run& run, const Results& results, const RunOptions& options, bool moving) {
   if (results.totals.frames == 0) return "interrupted before the first frame; nothing was written";
   if (moving)
@@ -71,7 +71,7 @@ std::string unfinished(const Run& run, const Results& results, const RunOptions&
                      options.repeat);
 }
 
-// The shards' job of `run --shard`: parts of one run may be written side by side.
+// Returns the common job of `run --shard`: parts of one run may be written side by side.
 std::string job_of(const ShardChoice& part, const RunIdentity& identity) {
   return fmt::format("{} shards of {}", part.count, identity.config);
 }
@@ -89,7 +89,7 @@ void check_options(const RunOptions& options, const Ranks& ranks) {
                     ranks.rank, ranks.size));
 }
 
-// Children do the work; their options are these, but for those that made them children.
+// Children do the work; they get these options, without those that ask for children.
 void start_children(const RunOptions& options, const Config& config, Invocation& invocation, Progress& progress) {
   ProcessPlan plan;
   plan.arguments = {"run", "-c", options.file, "-o", config.output.directory};
@@ -111,14 +111,14 @@ void start_children(const RunOptions& options, const Config& config, Invocation&
   invocation.code = start_processes(plan, progress);
 }
 
-// The device of a rank: ranks of one host take turns.
+// Returns the device of a rank: ranks of one host take devices in turn.
 std::string device_of(const RunOptions& options, const Ranks& ranks) {
   if (ranks.size == 1) return options.device;
   const std::vector<size_t> devices = choose_devices(gpu::list_devices(), options.devices, options.device);
   return std::to_string(devices[ranks.local_rank % devices.size()]);
 }
 
-// Part of a run that others compute, too.
+// Computes a part of a run that other processes compute, too.
 std::optional<Results> run_shared(const DriveTask& task, const RunOptions& options, const Ranks& ranks,
                                   const ProcessInfo* me, Invocation& invocation, Progress& progress) {
   if (me) {
@@ -138,8 +138,8 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
                               shared.missing, options.shard));
   } else {
     progress.line(
-        fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, of several "
-                    "folders `wavetracer merge -o OUT DIR...`",
+        fmt::format("--shard {} is done{}; when all are, `wavetracer merge {}` writes the results, "
+                    "of several folders `wavetracer merge -o OUT DIR...`",
                     options.shard, shared.units == 0 ? ", and it is empty, because the run has fewer parts than N" : "",
                     directory));
   }
@@ -171,7 +171,7 @@ void say_results(const Run& run, const Results& results, bool verbose, Progress&
 
 void run(const RunOptions& options, Invocation& invocation) {
   const Ranks ranks = ranks_of_this_process();
-  if (ranks.started) prctl(PR_SET_PDEATHSIG, SIGTERM);  // who is nobody's child any more stops after its frame
+  if (ranks.started) prctl(PR_SET_PDEATHSIG, SIGTERM);  // a child whose parent has ended stops after its frame
   check_options(options, ranks);
   const Sharing sharing = sharing_of(options, ranks);
   const Config config = configuration(options, sharing != Sharing::alone);
@@ -241,12 +241,12 @@ void add_run(CLI::App& program, Invocation& invocation) {
                    "Compute each frame N times and report the median times; what is written stays the same")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--devices", options->devices,
-                      "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. With "
-                      "mpirun or srun: the devices that the ranks of each host use in turn");
+                      "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. "
+                      "With mpirun or srun: the devices that the ranks of each host use in turn");
   command
       ->add_option("--processes", options->processes,
-                   "Number of processes that share the run and the CPU cores; they are distributed over --devices, or "
-                   "all use --device")
+                   "Number of processes that share the run and the CPU cores; they are distributed over --devices, "
+                   "or all use --device")
       ->check(CLI::Range(1, 1024));
   command->add_option(
       "--shard", options->shard,

@@ -1,5 +1,5 @@
 // `wavetracer scene info`, `wavetracer scene materials` and `wavetracer scene city`.
-// Neither needs a device.
+// None needs a device.
 #include <fmt/format.h>
 #include <filesystem>
 #include <iostream>
@@ -24,7 +24,7 @@ void add_info(CLI::App& scene) {
     double scale = 1;
     bool edges = false;
   };
-  CLI::App* command = scene.add_subcommand("info", "Print what a scene file contains");
+  CLI::App* command = scene.add_subcommand("info", "Print the contents of a scene file");
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "Scene file (XML, OBJ, GLB, glTF, PLY)")->required();
   command->add_option("--scale", options->scale, "Metres per file unit, like the key scene.scale")
@@ -51,7 +51,7 @@ void add_materials(CLI::App& scene) {
     std::string edition = ItuEdition{}.text();
   };
   CLI::App* command = scene.add_subcommand(
-      "materials", "List the radio materials that are known by name, with what they are at a frequency");
+      "materials", "List the radio materials that are known by name, with their values at a frequency");
   const auto options = std::make_shared<Options>();
   command->add_option("--frequency", options->frequency_hz, "Frequency in Hz, like the key radio.frequency_hz")
       ->check(CLI::Range(1e6, 1e12))
@@ -63,7 +63,7 @@ void add_materials(CLI::App& scene) {
       [options] { std::cout << materials_table(ItuEdition::named(options->edition), options->frequency_hz); });
 }
 
-// The configuration beside drive.fcd.xml; {} are the road-side unit's x, y and z.
+// The configuration beside drive.fcd.xml; {} stand for the road-side unit's x, y and z.
 constexpr const char* drive_config =
     R"(# Every vehicle of drive.fcd.xml to every other within 300 m, and to a road-side unit.
 # Run it with `wavetracer run -c drive.toml`; `wavetracer init` prints every key there is.
@@ -99,7 +99,7 @@ void write_drive(const CityOptions& city, const TrafficOptions& options, const s
   const Trajectories drive = generate_traffic(options);
   write_city(city, folder);
   write_file(folder / "drive.fcd.xml", format_fcd(drive));
-  const auto rsu = example_positions(city).front().position_m;  // a copy: the list lives for this line
+  const auto rsu = example_positions(city).front().position_m;  // a copy: the list exists for this line only
   write_file(folder / "drive.toml", fmt::format(drive_config, rsu[0], rsu[1], rsu[2]));
   std::cout << fmt::format("{0}/drive.fcd.xml: written, {1} vehicles for {2:g} s\n", folder.string(),
                            drive.tracks.size(), drive.last_time_s)
@@ -114,7 +114,7 @@ void add_city(CLI::App& scene) {
   };
   struct Options {
     std::string directory = "city";
-    // Each is handed on as it is: city_options.cpp, which serves the configuration too, is the one parser of them.
+    // Each option is passed on unchanged: city_options.cpp, which serves the configuration too, is the one parser.
     std::vector<Option> given = {
         {"--seed", "Seed of the random numbers; the same seed gives the same city and drive", false},
         {"--blocks", "Number of blocks in x and y, such as 6x6", false},

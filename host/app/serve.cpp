@@ -1,5 +1,5 @@
-// `wavetracer serve`: poses in, channels out, over a socket, until a signal ends it.
-// Standard output says where it listens, once it does; everything else goes to standard error.
+// `wavetracer serve`: poses come in over a socket, channels go out, until a signal ends it.
+// Standard output gets the address once it listens; everything else goes to standard error.
 #include "live/serve.hpp"
 #include <fmt/format.h>
 #include <iostream>
@@ -64,8 +64,8 @@ void add_serve(CLI::App& program, Invocation&) {
   command->add_option("--token-file", options->serve.token_file,
                       "File with the secret that clients must send; required unless the address is a loopback address");
   command->add_option("--page", options->page,
-                      "Page that shows the newest frame, written at most once per second; open it in a browser, which "
-                      "loads it again by itself");
+                      "Page that shows the newest frame, written at most once per second; open it in a browser, "
+                      "which loads it again by itself");
   command->callback([options] { serve(*options); });
 }
 

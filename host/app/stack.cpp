@@ -1,4 +1,4 @@
-// The limit is that of the first thread alone; memory for the stacks of other threads is asked for like any other.
+// The limit applies to the first thread alone; stacks of other threads are allocated like any memory.
 #include "app/stack.hpp"
 #include <pthread.h>
 #include <sys/resource.h>
@@ -9,7 +9,7 @@
 namespace wavetracer::app {
 namespace {
 
-constexpr size_t enough_bytes = size_t{8} << 20;  // what Linux gives by default
+constexpr size_t enough_bytes = size_t{8} << 20;  // the default of Linux
 
 struct Task {
   const std::function<int()>& program;

@@ -1,5 +1,5 @@
-// std::cout forgets why a write failed, so it writes through a buffer of ours, which notes the reason.
-// Linux only.
+// std::cout does not keep the reason of a failed write, so it writes through our buffer, which does.
+// This is for Linux only.
 #include "app/standard_streams.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,10 +14,10 @@
 namespace wavetracer::app {
 namespace {
 
-// The reason of the first write that failed: std::cout writes through it.
+// Keeps the reason of the first write that failed; std::cout writes through it.
 class CheckedOutput : public std::streambuf {
  public:
-  // 0 while all is well.
+  // 0 if no write has failed.
   int error() const { return error_; }
 
  protected:
@@ -41,7 +41,7 @@ class CheckedOutput : public std::streambuf {
 };
 
 CheckedOutput& checked_output() {
-  static auto* const output = new CheckedOutput;  // std::cout uses it to the end of the process
+  static auto* const output = new CheckedOutput;  // std::cout uses it until the process ends
   return *output;
 }
 
@@ -50,7 +50,7 @@ CheckedOutput& checked_output() {
 void keep_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
-      ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number that is free
+      ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // open() takes the lowest free number
   std::cout.rdbuf(&checked_output());
 }
 

@@ -1,4 +1,4 @@
-// Standard output of the program: where it leads, and whether all that was printed has arrived there.
+// Standard output of the program: where it leads, and whether everything printed has arrived there.
 #pragma once
 #include <filesystem>
 #include <iosfwd>
@@ -6,15 +6,16 @@
 
 namespace wavetracer::app {
 
-// To be called first: descriptors 0 to 2 that the caller has closed are opened so that using them fails. Else the first
-// file that is written would get their numbers, and messages would be printed into it.
+// Must be called first: if the caller has closed one of the descriptors 0 to 2, it is opened in a way that makes its
+// use fail. Otherwise the first written file would get its number, and messages would be printed into that file.
 void keep_standard_streams();
 
-// Flushes standard output. What went wrong with it since the program began, in words; empty where all has arrived.
+// Flushes standard output, and returns its first problem since the program began, or an empty text if everything has
+// arrived.
 std::string output_problem();
 
-// For a word about a file that was written: standard output, or standard error where that very file is standard output
-// (-o /dev/stdout).
+// Returns the stream for a message about a written file: standard output, or standard error if that file is standard
+// output itself (-o /dev/stdout).
 std::ostream& word_about(const std::filesystem::path& written);
 
 }  // namespace wavetracer::app

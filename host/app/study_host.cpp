@@ -1,4 +1,4 @@
-// Figures have a clock of their own: the bar's begins anew with each.
+// Each figure has its own clock: the bar's clock starts again with each.
 #include "app/study_host.hpp"
 #include <fmt/format.h>
 #include <chrono>

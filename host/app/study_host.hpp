@@ -1,12 +1,12 @@
-// What the program lends to `bench` and `accuracy`.
+// Services of the program for `bench` and `accuracy`.
 #pragma once
 #include "jobs/progress.hpp"
 #include "study/run.hpp"
 
 namespace wavetracer::app {
 
-// Says lines, and shows how far a task is: its parts by a bar, or lines where there is no terminal; of many figures,
-// each of which has parts, a line for each. progress must outlive it.
+// Prints lines, and shows the progress of a task's parts by a bar, or by lines if there is no terminal; if there are
+// many figures, each with parts, by a line for each. progress must outlive it.
 study::Host study_host(Progress& progress);
 
 }  // namespace wavetracer::app

@@ -1,5 +1,5 @@
-// Words that are not known come before options that are missing, since one is often the reason for the other.
-// Assumes that what a command could not place is what CLI11 keeps as its remaining words.
+// Unknown words are reported before missing options, since the one is often the reason for the other. CLI11 keeps words
+// that a command could not use as its remaining words.
 #include "app/usage.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,10 +22,10 @@ constexpr const char* config_topic = "config";
 
 struct Command {
   const CLI::App* app;
-  std::string path;  // "", "run", "scene info"
+  std::string path;  // such as "", "run", "scene info"
 };
 
-// The innermost command that was named.
+// Returns the innermost command that was named.
 Command named(const CLI::App& program) {
   Command at{&program, ""};
   while (!at.app->get_subcommands().empty()) {
@@ -61,7 +61,7 @@ std::string unknown_word(const CLI::App& command, const std::string& word) {
   return fmt::format("\"{}\" is not expected here", word);
 }
 
-// CLI11 says "--format: svh not in {svg,png,pdf}".
+// Handles CLI11's "--format: svh not in {svg,png,pdf}".
 std::string choice_hint(const std::string& message) {
   const size_t colon = message.find(": "), list = message.find(" not in {");
   if (colon == std::string::npos || list == std::string::npos || list < colon + 2) return "";
@@ -81,7 +81,7 @@ std::string problem(const CLI::App& command, const CLI::ParseError& error) {
   if (const std::vector<std::string> names = command_names(command);
       error.get_name() == "RequiredError" && !names.empty())
     return fmt::format("name one of them: {}", fmt::join(names, " or "));
-  // CLI11 says "--config: 1 required TEXT missing".
+  // Handles CLI11's "--config: 1 required TEXT missing".
   if (const size_t missing = what.find(": 1 required "); missing != std::string::npos && what.ends_with(" missing"))
     return what.substr(0, missing) + " needs a value";
   return what + choice_hint(what);
@@ -162,8 +162,8 @@ void add_help(CLI::App& program) {
   CLI::App* command = program.add_subcommand("help", "Explain a command, or the keys of configuration files");
   const auto topic = std::make_shared<std::vector<std::string>>();
   command->add_option("topic", *topic,
-                      "A command; or config for all keys of configuration files; or one key or table such as "
-                      "trace.rays, rays or trace. If not given, all commands are listed");
+                      "A command; or config for all keys of configuration files; "
+                      "or one key or table such as trace.rays, rays or trace. If not given, all commands are listed");
   command->callback([topic, &program] { help(program, *topic); });
 }
 

@@ -1,5 +1,5 @@
-// `wavetracer view`: a run as one HTML page.
-// Needs no device.
+// `wavetracer view` writes a run as one HTML page.
+// It needs no device.
 #include "viewer/view.hpp"
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

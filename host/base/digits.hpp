@@ -7,14 +7,14 @@
 
 namespace wavetracer {
 
-// 1234567 -> 1,234,567
+// Example: 1234567 gives 1,234,567.
 inline std::string grouped(uint64_t number) {
   std::string out = std::to_string(number);
   for (size_t end = out.size(); end > 3; end -= 3) out.insert(end - 3, ",");
   return out;
 }
 
-// Ready for a unit: "12.3 G", "45.6 M", "789 k", "12 ".
+// Returns the number with an SI prefix, ready for a unit: "12.3 G", "45.6 M", "789 k", "12 ".
 inline std::string short_number(double x) {
   for (const auto& [limit, letter] : {std::pair{1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
     if (x >= limit) return fmt::format("{:.3g} {}", x / limit, letter);

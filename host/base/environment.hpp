@@ -1,11 +1,11 @@
-// Variables of the environment.
+// Reads environment variables.
 #pragma once
 #include <cstdlib>
 #include <string>
 
 namespace wavetracer {
 
-// Empty where the variable is not set.
+// Returns the value, or an empty string where the variable is not set.
 inline std::string environment(const char* variable) {
   const char* const value = std::getenv(variable);
   return value ? value : "";

@@ -1,5 +1,5 @@
-// Whole files in and out of memory.
-// Assumes that a scene file fits into memory; sizes are taken from the file system, never from file content.
+// Reads whole files into memory and writes them.
+// It assumes that a scene file fits into memory; sizes are taken from the file system, never from file content.
 #include "base/file.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace wavetracer {
 
 std::string read_file(const std::filesystem::path& path) {
-  check_input_file(path, "the file", uint64_t{4} << 30);  // bytes; parsers take several times as much
+  check_input_file(path, "the file", uint64_t{4} << 30);  // in bytes; parsers need several times as much memory
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
   std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

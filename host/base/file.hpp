@@ -1,5 +1,5 @@
-// Whole files in and out of memory, with errors that name the file and the system's reason.
-// Writing goes to a temporary name first and is renamed when complete, so a failure leaves no partial file.
+// Reads whole files into memory and writes them; errors name the file and give the system's reason.
+// A file is written under a temporary name first and renamed when it is complete, so a failure leaves no partial file.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// Throws InputError when the file is missing, no plain file, larger than 4 GiB, or unreadable.
+// Throws InputError when the file is missing, is not a plain file, is larger than 4 GiB, or cannot be read.
 std::string read_file(const std::filesystem::path& path);
 // Throws RuntimeError when the file cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);

@@ -1,4 +1,4 @@
-// Sets that are joined, as a forest (union-find): the lowest number of each set stands for it.
+// A union-find forest: sets of numbers that can be joined; the lowest number of a set represents it.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace wavetracer {
 
 class Forest {
  public:
-  // Each of so many numbers, from 0 on, is a set of its own.
+  // At first each of the numbers 0 .. count - 1 is a set of its own.
   explicit Forest(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
   size_t size() const { return parent_.size(); }
   uint32_t root(uint32_t i) {

@@ -1,5 +1,5 @@
-// FNV-1a of 128 bits, a splitmix64 fold, and XXH64.
-// Assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
+// Implements FNV-1a of 128 bits, a fold by splitmix64, and XXH64.
+// It assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
 #include "base/hash.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -52,7 +52,8 @@ uint64_t mix64(std::string_view bytes) {
 }
 
 std::optional<FileHash> hash_of_file(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would wait for its writer
+  // Without O_NONBLOCK, opening a pipe would wait for a writer.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return std::nullopt;
   struct stat status {};
   std::optional<FileHash> out;
@@ -114,7 +115,8 @@ std::optional<uint64_t> content_hash(const std::filesystem::path& path) {
   bool whole = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
   ContentHash hash;
   std::vector<std::byte> block(size_t{1} << 20);
-  for (ssize_t read = 1; whole && read != 0;) {  // no mapping: a disk that cannot be read would end the process
+  // The file is read, not mapped: a read error of a mapped file would end the process.
+  for (ssize_t read = 1; whole && read != 0;) {
     read = ::read(file, block.data(), block.size());
     if (read > 0) hash.add(std::span(block).first(static_cast<size_t>(read)));
     if (read < 0 && errno != EINTR) whole = false;

@@ -1,6 +1,7 @@
-// Nice 19: of a core that others want, such a thread has a seventieth. It cannot get its priority back, so stop() may
-// wait 70 times as long for a task as that takes; SCHED_IDLE would make it 340 times.
-// Linux only: threads there have nice values of their own.
+// The threads have nice value 19: beside a thread of normal priority, such a thread gets about a seventieth of a core.
+// Its priority cannot be raised again, so stop() may wait 70 times as long as the running task needs; with SCHED_IDLE
+// it would be 340 times.
+// This is for Linux only, where each thread has a nice value of its own.
 #include "base/idle_threads.hpp"
 #include <sys/resource.h>
 #include <unistd.h>
@@ -11,7 +12,8 @@ namespace wavetracer {
 IdleThreads::IdleThreads(unsigned count) {
   try {
     for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
-  } catch (...) {  // no memory for another one: those that were started must end before this does
+  } catch (...) {
+    // There is no memory for another thread: those that were started must end before the exception leaves.
     stop();
     throw;
   }

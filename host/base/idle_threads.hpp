@@ -1,4 +1,4 @@
-// Threads of the lowest priority: work that may wait, beside work that must not, where cores have nothing else to do.
+// Threads of the lowest priority: they do work that may wait, on cores that have nothing more urgent to do.
 #pragma once
 #include <condition_variable>
 #include <deque>
@@ -16,9 +16,10 @@ class IdleThreads {
   IdleThreads(const IdleThreads&) = delete;
   IdleThreads& operator=(const IdleThreads&) = delete;
 
-  // May not throw. Tasks begin in their order.
+  // The task must not throw. Tasks begin in the order in which they were added.
   void enqueue(std::function<void()> task);
-  // Waits for tasks that have begun, which should take milliseconds; the others are dropped, and nothing runs then.
+  // Waits for the tasks that have begun, which should take milliseconds, and drops the others. No task runs after it
+  // returns.
   void stop();
 
  private:
@@ -26,7 +27,7 @@ class IdleThreads {
   std::condition_variable changed_;
   std::deque<std::function<void()>> tasks_;
   bool stopped_ = false;
-  std::vector<std::thread> threads_;  // last: they use all the others
+  std::vector<std::thread> threads_;  // declared last, since the threads use all other members
 
   void work();
 };

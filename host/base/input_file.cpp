@@ -1,4 +1,4 @@
-// The file is looked at, not opened: opening a pipe waits for its writer.
+// The file's status is read without opening it: opening a pipe would wait for its writer.
 #include "base/input_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,7 +24,7 @@ const char* kind_of(std::filesystem::file_type type) {
 }  // namespace
 
 std::string backslash_hint(const std::filesystem::path& path) {
-  // "\t" of a folder "\town" is a tab to TOML, and so are four others.
+  // TOML reads the "\t" of a folder "\town" as a tab; four other letters have the same problem.
   constexpr std::string_view coded = "\\\t\b\n\f\r", letters = "\\tbnfr";
   std::string text;
   for (const char c : path.string()) {

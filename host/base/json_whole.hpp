@@ -1,5 +1,5 @@
-// Reads whole numbers of JSON from files of others: nlohmann turns numbers into other ones without a word, even where
-// that is undefined.
+// Reads whole numbers from JSON files that other programs wrote: nlohmann converts a number silently, even where the
+// conversion is undefined.
 #pragma once
 #include <fmt/format.h>
 #include <cmath>
@@ -14,10 +14,11 @@
 
 namespace wavetracer {
 
-// The number as a T; empty where it is none that T holds. 3.0 is whole, as JSON has one kind of numbers only.
+// Returns the number as a T, or nothing if T cannot hold it. 3.0 counts as whole, since JSON has only one kind of
+// number.
 template <std::integral T, typename Json>
 std::optional<T> whole_number(const Json& value) {
-  constexpr double exact = 0x1p53;  // up to here a double holds each whole number
+  constexpr double exact = 0x1p53;  // a double holds every whole number up to this one
   if (value.is_number_unsigned()) {
     const auto number = value.template get<uint64_t>();
     if (std::in_range<T>(number)) return static_cast<T>(number);
@@ -32,8 +33,8 @@ std::optional<T> whole_number(const Json& value) {
   return std::nullopt;
 }
 
-// Throws nlohmann's type_error where the value is no whole number that T holds. key: its name, for that message;
-// where: the name of the object around it, for the message too; empty if the caller adds it.
+// Throws nlohmann's type_error if the value is not a whole number that T can hold. key: name of the value, for the
+// message. where: name of the object around it, for the message; empty if the caller adds it.
 template <std::integral T, typename Json>
 T whole(const Json& value, std::string_view key, std::string_view where = {}) {
   if (const std::optional<T> number = whole_number<T>(value)) return *number;
@@ -45,19 +46,19 @@ T whole(const Json& value, std::string_view key, std::string_view where = {}) {
       &value);
 }
 
-// The member of an object as a whole number. Throws as above, and nlohmann's error where the member is not there.
+// Returns a member of an object as a whole number. Throws as above, and nlohmann's error if the member is missing.
 template <std::integral T, typename Json>
 T whole_at(const Json& object, const char* key, std::string_view where = {}) {
   return whole<T>(object.at(key), key, where);
 }
 
-// The same; absent where the member is not there.
+// Does the same, but returns nothing if the member is missing.
 template <std::integral T, typename Json>
 T whole_or(const Json& object, const char* key, T absent, std::string_view where = {}) {
   return object.contains(key) ? whole_at<T>(object, key, where) : absent;
 }
 
-// A member that is a list of whole numbers. Throws as above.
+// Returns a member that is a list of whole numbers. Throws as above.
 template <std::integral T, typename Json>
 std::vector<T> whole_list(const Json& object, const char* key) {
   std::vector<T> out;

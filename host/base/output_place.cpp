@@ -1,5 +1,5 @@
-// stat() follows links, also those of /proc, such as /dev/stdout, which name no file.
-// Linux only.
+// stat() follows links, including links in /proc, such as /dev/stdout, that do not lead to a file name.
+// This is for Linux only.
 #include "base/output_place.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as Linux has it
+constexpr int most_links = 40;  // the limit of Linux
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw RuntimeError(fmt::format("cannot write {}: {}; choose another name with -o", path.string(), why));
@@ -29,7 +29,8 @@ const char* words_for(mode_t mode) {
   return "it is neither a file nor a device";
 }
 
-// A descriptor, or -1 and errno. Some file systems know no files without a name: there it has one for an instant.
+// Returns a descriptor, or -1 with errno set. Some file systems have no files without a name; there the file has a name
+// for a moment.
 int open_unnamed(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL && errno != ENOENT)) return file;
@@ -39,7 +40,7 @@ int open_unnamed(const fs::path& folder) {
   return named;
 }
 
-// Do both names lead to one file?
+// Tells whether both names lead to the same file.
 bool is_same(const struct stat& status, const fs::path& other) {
   struct stat there {};
   return ::stat(other.c_str(), &there) == 0 && there.st_dev == status.st_dev && there.st_ino == status.st_ino;

@@ -1,5 +1,5 @@
-// Whole files or none: temporary name, fsync, rename, fsync of the folder.
-// Assumes that the folder is on a file system whose rename() is atomic.
+// Makes files appear completely or not at all: temporary name, fsync, rename, fsync of the folder.
+// It assumes a file system whose rename() is atomic.
 #include "base/pending_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ std::string advice(int error) {
   throw RuntimeError(fmt::format("cannot {} {}: {}; {}", doing, path.string(), std::strerror(error), advice(error)));
 }
 
-// 0, or the errno of the call that failed.
+// Returns 0, or the errno of the call that failed.
 int write_all(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), std::min<size_t>(bytes.size(), size_t{1} << 30));
@@ -54,13 +54,14 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
   return 0;
 }
 
-// close() is where network file systems report what they could not write.
+// Network file systems report failed writes in close().
 int sync_and_close(int descriptor) {
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   return ::close(descriptor) == 0 || error != 0 ? error : errno;
 }
 
-// While it lives, a pipe that nobody reads any more is an error of write() for this thread and ends no process.
+// While it exists, writing to a pipe without a reader is an error of write() for this thread and does not end the
+// process.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -89,7 +90,7 @@ PendingDirectory::PendingDirectory(fs::path path) : path_(path.empty() ? fs::pat
   std::error_code error;
   for (fs::path p = path_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
     if (error) fail(path_, "create the folder", error.value());
-    if (p.has_filename()) missing.push_back(p);  // not "a/", whose parent is "a"
+    if (p.has_filename()) missing.push_back(p);  // for "a/", whose parent is "a", nothing is added
   }
   std::reverse(missing.begin(), missing.end());
   for (const fs::path& p : missing) {
@@ -97,7 +98,7 @@ PendingDirectory::PendingDirectory(fs::path path) : path_(path.empty() ? fs::pat
     if (fs::create_directory(p, error)) {
       created_.push_back(p);
     } else if (error) {
-      remove_created();  // no destructor runs after a throw from here
+      remove_created();  // the constructor throws from here on, so the destructor will not run
       fail(path_, "create the folder", error.value());
     }
   }
@@ -111,7 +112,7 @@ PendingDirectory::PendingDirectory(fs::path path) : path_(path.empty() ? fs::pat
 PendingDirectory::~PendingDirectory() { remove_created(); }
 
 void PendingDirectory::remove_created() noexcept {
-  std::error_code ignored;  // a folder that someone else filled meanwhile stays
+  std::error_code ignored;  // a folder that somebody else has put files into stays
   for (auto p = created_.rbegin(); p != created_.rend(); ++p) fs::remove(*p, ignored);
 }
 
@@ -131,7 +132,7 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)) {
 }
 
 PendingFile::PendingFile(fs::path path, std::span<const std::byte> bytes) : PendingFile(std::move(path)) {
-  write(bytes);  // the object lives since the other constructor is done: a throw destroys it
+  write(bytes);  // the delegated constructor is done, so the destructor runs if this throws
   sync();
 }
 
@@ -169,7 +170,7 @@ void PendingFile::reserve(uint64_t size) {
 }
 
 void PendingFile::sync() {
-  if (stream_) return;  // its temporary file goes with the descriptor
+  if (stream_) return;  // its nameless temporary file disappears when the descriptor is closed
   if (const int error = sync_and_close(std::exchange(descriptor_, -1))) fail(path_, "write", error);
 }
 
@@ -181,7 +182,7 @@ void PendingFile::rename() {
   ++final_names();
 }
 
-// Nobody waits for this with hold_pending(), as a pipe may take for ever.
+// This does not hold hold_pending(), since a pipe may block for ever.
 void PendingFile::pour() {
   const int out = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (out < 0) fail(path_, "write", errno);
@@ -237,7 +238,7 @@ void append_to_file(const fs::path& path, std::span<const std::byte> bytes) {
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) fail(folder, "sync the folder", errno);
-  // EINVAL: this file system does not sync folders, so there is nothing to wait for.
+  // EINVAL means that this file system cannot sync folders, so there is nothing to wait for.
   const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
   ::close(descriptor);
   if (error != 0) fail(folder, "sync the folder", error);

@@ -1,6 +1,6 @@
-// Files that appear whole or not at all: written beside their place, synced, then renamed. Links are followed. A device
-// or a pipe stays what it is and gets the bytes once they are complete.
-// POSIX only: rename() replaces atomically within one folder.
+// Files that appear completely or not at all: they are written beside their final place, synced, then renamed. Links
+// are followed. A device or a pipe is not replaced: it gets the bytes once they are complete.
+// This is for POSIX only, where rename() replaces a file atomically within a folder.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace wavetracer {
 
-// Creates a folder with its parents; removes again what it created unless keep() is called.
+// Creates a folder and its missing parents, and removes them again unless keep() is called.
 class PendingDirectory {
  public:
-  // Throws RuntimeError when the folder cannot be made or the path names something else.
+  // Throws RuntimeError if the folder cannot be made or the path is not a folder.
   explicit PendingDirectory(std::filesystem::path path);
   ~PendingDirectory();
   PendingDirectory(const PendingDirectory&) = delete;
@@ -29,13 +29,14 @@ class PendingDirectory {
   std::vector<std::filesystem::path> created_;  // outermost first
 };
 
-// One file on its way to its place. Every failure is a RuntimeError that names the file.
+// A file that is being written and not yet in its place. Every failure is a RuntimeError that names the file.
 class PendingFile {
  public:
-  // An empty temporary file beside the place, which goes away unless it is committed. The place is where links lead to.
-  // For a pipe or a device the temporary file has no name and lies in TMPDIR. Folders, sockets and disks are refused.
+  // Creates an empty temporary file beside the final place, with links followed; it is removed unless commit() is
+  // called. For a pipe or a device the temporary file has no name and lies in TMPDIR. Folders, sockets and disks are
+  // refused.
   explicit PendingFile(std::filesystem::path path);
-  // The same with these bytes in it, synced; leaves nothing if that fails.
+  // Does the same, then writes and syncs the bytes. It leaves no file behind if that fails.
   PendingFile(std::filesystem::path path, std::span<const std::byte> bytes);
   ~PendingFile();
   PendingFile(PendingFile&& other) noexcept;
@@ -43,24 +44,25 @@ class PendingFile {
 
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& temporary() const { return temporary_; }
-  // Appends.
+  // Appends the bytes.
   void write(std::span<const std::byte> bytes);
-  // At a place of its own, from any thread.
+  // Writes the bytes at an offset. It may be called from any thread.
   void write_at(uint64_t offset, std::span<const std::byte> bytes) const;
-  // Makes the file so long, on the disk too: who writes into it afterwards meets no full disk.
+  // Extends the file to this size and reserves the disk space, so that later writes do not fail because the disk is
+  // full.
   void reserve(uint64_t size);
-  // Waits for the disk; nothing is written after it.
+  // Waits until the file is on the disk. Nothing may be written after it.
   void sync();
-  // Renames the synced temporary file to its name and syncs the folder. A pipe or a device gets the bytes instead,
-  // which waits until somebody reads the pipe.
+  // Renames the synced temporary file to its name and syncs the folder. A pipe or a device gets the bytes instead; for
+  // a pipe that waits until somebody reads it.
   void commit();
 
  private:
-  std::filesystem::path path_;       // as the caller named it
-  std::filesystem::path target_;     // where links lead to
-  std::filesystem::path temporary_;  // empty once committed or moved from
-  bool stream_ = false;              // a pipe or a device
-  int descriptor_ = -1;              // closed by sync(), of a stream by commit()
+  std::filesystem::path path_;       // the name as the caller gave it
+  std::filesystem::path target_;     // the name with links followed
+  std::filesystem::path temporary_;  // empty after commit() or a move
+  bool stream_ = false;              // it is a pipe or a device
+  int descriptor_ = -1;              // closed by sync(), or by commit() for a pipe or device
 
   friend void commit_together(std::vector<PendingFile>& files);
   void rename();
@@ -68,14 +70,14 @@ class PendingFile {
   void undo() const noexcept;
 };
 
-// Commits all or none: if one fails, those already in place are removed and the error goes on. Each folder is synced
-// once, after the last.
+// Commits all files or none: if one fails, those that are in place already are removed and the error is rethrown. Each
+// folder is synced once, at the end.
 void commit_together(std::vector<PendingFile>& files);
 
-// Appends to a file that is there and waits for the disk. Throws RuntimeError.
+// Appends to an existing file and waits for the disk. Throws RuntimeError.
 void append_to_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-// Waits until names that appeared in the folder or went are on the disk. Throws RuntimeError.
+// Waits until added and removed names of the folder are on the disk. Throws RuntimeError.
 void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// One syncfs() for the whole folder: thousands of small files are synced together.
-// Assumes that rename() replaces an empty folder, as POSIX has it; a link to a folder stays a link.
+// One syncfs() syncs all files of the folder together, which matters for thousands of small ones.
+// It assumes that rename() replaces an empty folder, as POSIX says; a link to a folder stays a link.
 #include "base/pending_folder.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ void PendingFolder::move_into_place() {
   ++final_names();
 }
 
-// Files whose names are links, pipes or devices in the folder: a rename would replace those.
+// Handles files whose names are links, pipes or devices in the target folder: a rename would replace those.
 void PendingFolder::write_through_links() const {
   for (const fs::directory_entry& file : fs::directory_iterator(temporary_)) {
     const fs::path place = path_ / file.path().filename();

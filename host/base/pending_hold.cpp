@@ -1,4 +1,4 @@
-// One mutex for all of a process: names appear seldom.
+// There is one mutex for the process, since files get their final names seldom.
 #include "base/pending_hold.hpp"
 
 namespace wavetracer {

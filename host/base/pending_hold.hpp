@@ -1,5 +1,5 @@
-// Who removes what a process has not finished, because it is told to end, holds this meanwhile: no temporary file or
-// folder begins, grows by a file, or gets its final name.
+// A lock for code that removes unfinished files when the process is told to end. While it is held, no temporary file or
+// folder is created, gets another file, or gets its final name.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -7,10 +7,12 @@
 
 namespace wavetracer {
 
-// Waits for what is being begun or renamed. Not to be asked for twice by one thread.
+// Waits for files that are being created or renamed at the moment. A thread must not call it twice without releasing
+// the lock.
 std::unique_lock<std::mutex> hold_pending();
 
-// How many files and folders have got their final names in this process; counted by who holds hold_pending().
+// The number of files and folders that got their final names in this process. It is changed only while hold_pending()
+// is held.
 std::atomic<uint64_t>& final_names();
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Plain POSIX calls: a stream on a folder throws words of the C++ library.
+// It uses plain POSIX calls: for a folder, a C++ stream would throw an error that users do not understand.
 #include "base/read_text.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>

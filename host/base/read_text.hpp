@@ -1,4 +1,4 @@
-// Small files of the program's own, whole into memory.
+// Reads small files that the program itself wrote.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace wavetracer {
 
-// Throws RuntimeError where the path is a folder or cannot be read, or where the file has more than most_bytes. The
-// message names it, and ends with what to do.
+// Throws RuntimeError if the path is a folder, cannot be read, or has more than most_bytes. The message names the file
+// and ends with what_to_do.
 std::string read_text(const std::filesystem::path& file, uint64_t most_bytes, const std::string& what_to_do);
 
-// The same, and nothing where no such file is there: asked for in one step, as another process may remove it at any
-// time.
+// Does the same, but returns nothing if the file does not exist. That is tested and read in one step, since another
+// process may remove the file at any time.
 std::optional<std::string> read_text_if_there(const std::filesystem::path& file, uint64_t most_bytes,
                                               const std::string& what_to_do);
 

@@ -1,4 +1,4 @@
-// Unlinked as soon as it is open. A process that is killed between the two leaves a temporary file like any other.
+// The file is unlinked as soon as it is open. If the process is killed between the two calls, a temporary file remains.
 #include "base/scratch_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>

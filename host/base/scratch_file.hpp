@@ -1,5 +1,5 @@
-// A file that nobody else sees: it has no name, and goes with this object or the process, however that ends.
-// POSIX only.
+// A temporary file that no other process sees: it has no name, and disappears with this object or with the process,
+// however that ends. POSIX only.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,17 +10,17 @@ namespace wavetracer {
 
 class ScratchFile {
  public:
-  // On the file system of this path, under whose name (and .PROCESS.tmp) it appears for an instant. All throw
+  // Creates the file on the file system of this path; it has the name path.PROCESS.tmp for a moment. All members throw
   // RuntimeError that names the path.
   explicit ScratchFile(std::filesystem::path path);
   ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
 
-  // Both from any thread, at places of their own.
+  // Both may be called from any thread, for ranges that do not overlap.
   void write_at(uint64_t offset, std::span<const std::byte> bytes) const;
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;
-  // Gives the room of these bytes back, where the file system can do that.
+  // Frees the disk space of these bytes, where the file system can do that.
   void forget(uint64_t offset, uint64_t bytes) const noexcept;
 
  private:

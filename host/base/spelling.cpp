@@ -1,5 +1,5 @@
-// Edit distance over three rows, and the choice of the nearest word.
-// Most words differ in too many letters, and cost no table; a table is given up at the first row that is out of reach.
+// Computes edit distances with three rows of the table, and chooses the nearest word.
+// Most words differ in too many letters and need no table; a table is given up at the first row that exceeds the limit.
 #include "base/spelling.hpp"
 #include <algorithm>
 #include <array>
@@ -7,9 +7,10 @@
 namespace wavetracer {
 namespace {
 
-// Letters that one word has and the other lacks must go, come or be replaced, whatever their order.
+// A lower bound of the distance: letters that only one of the words has must be inserted, deleted or substituted,
+// whatever their order.
 size_t least_distance(std::string_view a, std::string_view b) {
-  std::array<int, 256> left{};  // of each letter of a
+  std::array<int, 256> left{};  // number of times that each letter is still unmatched
   for (const char c : a) ++left[static_cast<unsigned char>(c)];
   size_t shared = 0;
   for (const char c : b)
@@ -35,7 +36,7 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
       rows[2][j] = best;
       least = std::min(least, best);
     }
-    // A later row comes from this one, or by a swap from the one before with a step more.
+    // A later row comes from this row, or, by a swap and one step more, from the row before it.
     if (least >= limit && *std::ranges::min_element(rows[1]) + 1 >= limit) return limit;
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
   }
@@ -44,7 +45,7 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   const bool plain = word.find('.') == std::string_view::npos;
-  // A third of the word may be wrong, at least one letter: beyond that a hint misleads.
+  // Up to a third of the word may be wrong, but at least one letter: beyond that a hint would mislead.
   size_t best = std::max<size_t>(1, word.size() / 3) + 1;
   std::string found;
   for (const std::string& candidate : known) {

@@ -9,15 +9,15 @@
 
 namespace wavetracer {
 
-// Insertions, deletions, substitutions and swaps of neighbours that turn a into b
-// (optimal string alignment; F. Damerau, CACM 7(3), 1964); `limit` where they are that many or more.
+// Returns the number of insertions, deletions, substitutions and swaps of neighbours that turn a into b
+// (optimal string alignment; F. Damerau, CACM 7(3), 1964), or `limit` if it is that or more.
 size_t edit_distance(std::string_view a, std::string_view b, size_t limit = SIZE_MAX);
 
-// The known word nearest to `word`, or empty where none is near enough to be what was meant.
+// Returns the known word nearest to `word`, or an empty string if none is near enough.
 // A word without dots is also compared with the last part of dotted known words: `rays` finds `trace.rays`.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
-// `; did you mean "..."?`, or empty.
+// Returns `; did you mean "..."?`, or an empty string.
 std::string spelling_hint(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace wavetracer

@@ -1,6 +1,6 @@
-// The first exception of the stages of a pipeline. Where a stage throws, TBB 2021.8 loses one of the pipeline's items
-// now and then (the address sanitizer sees it). So stages do not throw: they do their work in run(), the first of them
-// ends the pipeline once one has failed, and rethrow() throws behind it.
+// Keeps the first exception of the stages of a TBB pipeline. If a stage throws, TBB 2021.8 sometimes leaks one of the
+// pipeline's items (the address sanitizer reports it). So stages must not throw: they do their work in run(), which
+// records the first exception and ends the pipeline, and rethrow() throws it afterwards.
 #pragma once
 #include <atomic>
 #include <exception>
@@ -12,7 +12,7 @@ class StageFault {
  public:
   bool failed() const { return failed_; }
 
-  // Nothing is done any more once one has failed.
+  // Runs the work, unless a stage has failed already.
   template <typename Work>
   void run(const Work& work) {
     if (failed_) return;

@@ -1,5 +1,5 @@
-// Wall time of host stages.
-// A steady clock; device stages come from profiling events instead.
+// Measures wall time of host stages.
+// It uses a steady clock; times of device stages come from profiling events instead.
 #pragma once
 #include <chrono>
 
@@ -7,7 +7,7 @@ namespace wavetracer {
 
 class Stopwatch {
  public:
-  // Seconds since construction or the last lap.
+  // Returns the seconds since construction or the last lap.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -1,4 +1,4 @@
-// Spacings by std::nextafter, digits by fmt.
+// Spacings come from std::nextafter, digits from fmt.
 #include "base/times.hpp"
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What only the whole configuration shows of arrays and carriers: names that nothing has, keys that exclude each other.
+// Checks of arrays and carriers that need the whole configuration: names that nothing has, keys that exclude each
+// other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace wavetracer::config {
 namespace {
 
-constexpr uint64_t most_elements = 65536;  // of an array
+constexpr uint64_t most_elements = 65536;  // limit of an array
 
 template <class End>
 void check_references(const std::string& table, const std::vector<End>& ends, const std::vector<std::string>& arrays,
@@ -29,13 +30,12 @@ void check_panel(const ArrayConfig& array, const std::string& key, std::vector<C
   const bool panel = array.rows > 1 || array.columns > 1 || array.vertical_spacing_m || array.horizontal_spacing_m;
   if (!array.positions_m.empty() && panel)
     out.push_back({{key, key + ".positions_m"},
-                   named + " has both positions_m and the keys of a panel (rows, columns, spacing): give either of "
-                           "them"});
+                   named + " has both positions_m and the keys of a panel (rows, columns, spacing): "
+                           "give either of them"});
   if (!array.positions_m.empty() && array.codebook == "dft")
     out.push_back({{key, key + ".codebook"},
-                   named +
-                       " has positions_m, but codebook = \"dft\" needs a panel of rows and columns: give a codebook "
-                       "file, or \"none\""});
+                   named + " has positions_m, but codebook = \"dft\" needs a panel of rows and columns: "
+                           "give a codebook file, or \"none\""});
   const uint64_t elements = std::max<uint64_t>(uint64_t{array.rows} * array.columns, array.positions_m.size());
   if (elements > most_elements)
     out.push_back(
@@ -51,7 +51,7 @@ void check_carriers(const RadioConfig& radio, std::vector<Contradiction>& out) {
         {{"radio.frequencies_hz"}, fmt::format("radio.frequencies_hz has {} twice: name each carrier once", *twice)});
 }
 
-// Half of a band lies below its carrier, and there are no frequencies below zero.
+// Half of a band lies below its carrier, and frequencies are positive.
 void check_bands(const Config& config, std::vector<Contradiction>& out) {
   const RadioConfig& radio = config.radio;
   std::vector<double> carriers = radio.frequencies_hz;
@@ -60,8 +60,8 @@ void check_bands(const Config& config, std::vector<Contradiction>& out) {
   const auto check = [&](const char* key, std::optional<double> bandwidth_hz) {
     if (bandwidth_hz && *bandwidth_hz / 2 >= lowest_hz)
       out.push_back({{key, radio.frequencies_hz.empty() ? "radio.frequency_hz" : "radio.frequencies_hz"},
-                     fmt::format("{} = {:g}: half of it is more than the carrier of {:g} Hz, so the band would reach "
-                                 "below 0 Hz: give less than twice the carrier",
+                     fmt::format("{} = {:g}: half of it is more than the carrier of {:g} Hz, "
+                                 "so the band would reach below 0 Hz: give less than twice the carrier",
                                  key, *bandwidth_hz, lowest_hz)});
   };
   check("radio.bandwidth_hz", radio.bandwidth_hz);

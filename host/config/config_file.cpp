@@ -1,5 +1,5 @@
-// Parsing: the TOML tree is flattened into assignments to fields, those of --set replace earlier ones, and only
-// then is each checked and stored, so that a value overridden on the command line cannot fail.
+// Parsing: the TOML tree is flattened into assignments to fields, --set options replace earlier ones, and only then is
+// each checked and stored, so that a value overridden on the command line cannot fail.
 #include "wavetracer/config_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -22,9 +22,9 @@ namespace {
 using namespace config;
 namespace fs = std::filesystem;
 
-// Where something was said: a position in the file, or a --set.
+// The place of an assignment: a position in the file, or a --set.
 struct Place {
-  toml::source_position position{};  // in the file
+  toml::source_position position{};  // position in the file
   size_t set = 0;                    // 1 + the index of the --set, 0 for the file
   bool operator<(const Place& o) const {
     return std::tie(set, position.line, position.column) < std::tie(o.set, o.position.line, o.position.column);
@@ -33,8 +33,8 @@ struct Place {
 
 struct Assignment {
   const Field* field;
-  std::string key;  // as messages name it: trace.rays, transmitter.name
-  size_t element;   // of an array of tables
+  std::string key;  // name in messages: trace.rays, transmitter.name
+  size_t element;   // index in an array of tables
   const toml::node* value;
   Place place;
 };
@@ -60,7 +60,7 @@ std::vector<std::string> known_keys() {
   return keys;
 }
 
-// The nearest key of the same table; where there is none, of all tables.
+// Returns the nearest key of the same table, or else of all tables.
 std::string key_hint(const std::string& key) {
   const size_t dot = key.rfind('.');
   if (const Table* table = dot == key.npos ? nullptr : find_table(key.substr(0, key.find('.')))) {
@@ -76,8 +76,8 @@ std::string key_hint(const std::string& key) {
 std::string whole_table_words(const Table& table) {
   if (table.append)
     return fmt::format(
-        "--set changes one key of a [[{0}]] that the file has: write {0}.INDEX.KEY=VALUE, such as {0}.0.{1}=...; to "
-        "add a [[{0}]], write it into the file",
+        "--set changes one key of a [[{0}]] that the file has: write {0}.INDEX.KEY=VALUE, such as {0}.0.{1}=...; "
+        "to add a [[{0}]], write it into the file",
         table.name, table.fields[0].name);
   return fmt::format("{0} is a table: set one of its keys, {0}.KEY=VALUE, such as {0}.{1}=...", table.name,
                      table.fields[0].name);
@@ -119,14 +119,15 @@ class Parser {
 
  private:
   std::string file_;
-  fs::path folder_;  // where relative paths of the file start
+  fs::path folder_;  // the folder from which relative paths of the file start
   const std::vector<std::string>& sets_;
   toml::table document_;
   std::deque<toml::table> set_documents_;
   Config config_;
   std::map<std::string, Assignment> assignments_;                            // by unique path: transmitter.0.name
   std::map<std::string_view, std::pair<const toml::node*, Place>> retired_;  // by key
-  std::map<std::string, std::vector<toml::source_position>> elements_;       // places of [[transmitter]] and the like
+  // Positions of [[transmitter]] and other arrays of tables.
+  std::map<std::string, std::vector<toml::source_position>> elements_;
   std::vector<std::pair<Place, std::string>> problems_;
 
   static Place place(const toml::source_region& region) { return {region.begin, 0}; }
@@ -138,7 +139,7 @@ class Parser {
                        std::max(p.position.column, 1u));
   }
 
-  // Throws when there are problems, in the order of the file.
+  // Throws if there are problems, in the order of the file.
   void finish() {
     if (problems_.empty()) return;
     std::stable_sort(problems_.begin(), problems_.end(),
@@ -152,7 +153,7 @@ class Parser {
     fail(where, fmt::format("unknown key \"{}\"{}", key, key_hint(key)));
   }
 
-  // What a retired key says last counts: false asks for nothing.
+  // The last value of a retired key counts: false is accepted and has no effect.
   void retired_or_unknown(const Place& where, const std::string& key, const toml::node& value) {
     if (const RetiredKey* const retired = find_retired(key))
       retired_.insert_or_assign(retired->key, std::pair(&value, where));
@@ -209,7 +210,7 @@ class Parser {
     assignments_.insert_or_assign(path, std::move(assignment));
   }
 
-  // --set key=value. Keys of [[transmitter]] and the like carry an index: transmitter.0.position_m.
+  // Reads --set key=value. Keys in arrays of tables carry an index: transmitter.0.position_m.
   void read_set(size_t index) {
     const std::string& text = sets_[index];
     const Place where{{}, index + 1};
@@ -233,7 +234,7 @@ class Parser {
         return fail(where, fmt::format("the file has {} [[{}]], counted from 0", count, table->name));
     }
     const Field* field = find_field(*table, name);
-    if (!field) {  // one entry of a table of strings: scene.material_alias.NAME
+    if (!field) {  // it is one entry of a table of strings: scene.material_alias.NAME
       const Field* aliases = find_field(*table, name.substr(0, name.find('.')));
       if (aliases && name.find('.') != std::string::npos && is_aliases(*aliases)) field = aliases;
     } else if (is_aliases(*field)) {
@@ -247,7 +248,7 @@ class Parser {
       assign_later(key, {field, table->name + "." + name, element, value, where});
   }
 
-  // The value as TOML; text that is none is a string, unless it began as a TOML string, array or table.
+  // Parses the value as TOML; other text is taken as a string, unless it begins like a TOML string, array or table.
   const toml::node* parse_value(const std::string& text, const Place& where) {
     try {
       set_documents_.push_back(toml::parse("value = " + text));
@@ -268,7 +269,7 @@ class Parser {
     if (!problem.empty()) fail(a.place, problem);
   }
 
-  // Of several carriers the first is the one that everything else goes by.
+  // If there are several carriers, the first one is the main carrier.
   void take_first_carrier() {
     RadioConfig& radio = config_.radio;
     if (radio.frequencies_hz.empty()) return;
@@ -280,7 +281,7 @@ class Parser {
     radio.frequency_hz = first_hz;
   }
 
-  // Of a key, transmitter.0.name; else of what holds it, transmitter.0; else the head of the file.
+  // Returns the place of a key (transmitter.0.name), else of its table (transmitter.0), else the head of the file.
   Place place_of(const std::string& path) const {
     const auto found = assignments_.find(path);
     if (found != assignments_.end()) return found->second.place;
@@ -303,7 +304,7 @@ class Parser {
                               field.instead.empty() ? "" : fmt::format(", or give {}", field.instead)));
   }
 
-  // What only the whole shows: keys that are missing, or that exclude each other.
+  // Checks what needs the whole configuration: missing keys, and keys that exclude each other.
   void check_whole() {
     for (const Table& table : tables()) {
       const auto places = elements_.find(table.name);

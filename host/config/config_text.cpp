@@ -1,5 +1,5 @@
-// Texts made of the field table: the commented config of `init`, the key list of `--help`, the resolved config.
-// It assumes that a table without brackets of its own follows the one before it, as TOML reads it.
+// Makes texts from the field table: the commented config of `init`, the key list of `--help`, the resolved config. A
+// table without brackets of its own must follow the one before it, as TOML reads it.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace config;
 
-// Text broken at spaces so that no line is longer than 100 characters, each led by `lead`.
+// Breaks text at spaces so that no line is longer than 100 characters; each line starts with `lead`.
 std::string wrapped(const std::string& text, const std::string& lead) {
   std::string out, line;
   size_t start = 0;
@@ -29,7 +29,7 @@ std::string wrapped(const std::string& text, const std::string& lead) {
   return out + lead + line + "\n";
 }
 
-// Type, range and default, in one sentence.
+// Returns type, range and default, in one sentence.
 std::string facts(const Field& field) {
   Config defaults = prototype();
   const std::string value = literal(field, field.slot(defaults, 0));
@@ -77,11 +77,11 @@ std::string field_help(std::string_view topic) {
 
 namespace {
 
-// which: of a table and a field, whether the text has it.
+// which: tells for a table and a field whether the text has it.
 template <typename Which>
 std::string text_of(const Config& config, const Which& which) {
   std::string out;
-  Config values = config;  // slots point to what may be written to
+  Config values = config;  // a copy, since slots point to values that may be written
   const auto write = [&](const Table& table, size_t element) {
     out += (out.empty() ? "" : "\n") + header(table) + "\n";
     for (const Field& field : table.fields) {

@@ -1,5 +1,5 @@
-// One function a topic, each adding what it finds.
-// Assumes nothing about where keys stand; the parser knows, and names the place.
+// Each topic has one function, which adds the contradictions that it finds.
+// The parser knows where keys stand, and names the place.
 #include "config/contradictions.hpp"
 
 #include <fmt/format.h>
@@ -40,34 +40,36 @@ void check_launch(const Config& config, Found& out) {
   const LaunchDimensions shape = config.launch.shape;
   if (curve > 0 && shape != "auto" && shape.index() != curve)
     out.push_back({{"launch.shape", "order.method"},
-                   fmt::format("order.method = \"{}\" needs a launch of {} dimensions, but launch.shape = \"{}\" is "
-                               "set: remove launch.shape",
+                   fmt::format("order.method = \"{}\" needs a launch of {} dimensions, but launch.shape = \"{}\" "
+                               "is set: remove launch.shape",
                                config.order.method.word(), curve, shape.word())});
 }
 
-// A refined launch splits cells of the hilbert map and goes along its curve, level by level.
+// A refined launch splits cells of the hilbert map and follows its curve, level by level.
 void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.rays) {
     if (trace.directions != "hilbert" && trace.directions != "horizon")
       out.push_back({{"trace.rays", "trace.directions"},
-                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", not "
-                                 "\"{}\": remove trace.directions, or give trace.rays a number",
+                     fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", "
+                                 "not \"{}\": remove trace.directions, or give trace.rays a number",
                                  trace.directions.word())});
     if (const auto method = find_order_method(config.order.method); !method || method->key)
       out.push_back({{"trace.rays", "order.method"},
-                     fmt::format("trace.rays = \"auto\" launches rays in its own order, but order.method = \"{}\" asks "
-                                 "for another one: remove order.method, or give trace.rays a number",
+                     fmt::format("trace.rays = \"auto\" launches rays in its own order, "
+                                 "but order.method = \"{}\" asks for another one: remove order.method, "
+                                 "or give trace.rays a number",
                                  config.order.method.word())});
   } else if (trace.refresh_rays && *trace.refresh_rays > *trace.rays) {
     out.push_back({{"trace.rays", "trace.refresh_rays"},
-                   fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, the number in a frame that "
-                               "reuses nothing: give a number that is not larger, or 0 for a tenth of trace.rays",
+                   fmt::format("trace.refresh_rays = {} is more than trace.rays = {}, the number in a frame "
+                               "that reuses nothing: give a number that is not larger, "
+                               "or 0 for a tenth of trace.rays",
                                *trace.refresh_rays, *trace.rays)});
   }
 }
 
-// Frames without rays have nothing but the sequences of earlier ones.
+// Frames without rays only have the sequences of earlier frames.
 void check_discoveries(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!(trace.discover_every_s > 0)) return;
@@ -95,19 +97,19 @@ void check_reception(const Config& config, Found& out) {
   if (!trace.rays)
     out.push_back(
         {{"trace.reception", "trace.rays"},
-         "trace.reception = \"sphere\" needs rays that are spread evenly, but trace.rays = \"auto\" launches more rays "
-         "where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\""});
+         "trace.reception = \"sphere\" needs rays that are spread evenly, but trace.rays = \"auto\" launches more "
+         "rays where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\""});
 }
 
-// Features that reception by spheres, or the recording of waypoints, cannot be combined with.
+// Checks features that cannot be combined with reception by spheres or with the recording of waypoints.
 void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   for (const InteractionKind& kind : interaction_kinds) {
     const std::string key = fmt::format("trace.{}", kind.word);
     if (trace.*kind.asked_for && kind.code != reflection && trace.reception == "sphere")
       out.push_back({{key, "trace.reception"},
-                     fmt::format("trace.reception = \"sphere\" receives reflected rays only, but {} = true: set it to "
-                                 "false, or use trace.reception = \"exact\"",
+                     fmt::format("trace.reception = \"sphere\" receives reflected rays only, but {} = true: "
+                                 "set it to false, or use trace.reception = \"exact\"",
                                  key)});
   }
   if (trace.transmission && config.output.waypoints > 0)
@@ -118,28 +120,28 @@ void check_features(const Config& config, Found& out) {
                      config.output.waypoints)});
 }
 
-// A signal-to-noise ratio has a signal and a noise.
+// A signal-to-noise ratio needs a signal and a noise.
 void check_link_budget(const RadioConfig& radio, Found& out) {
   if (radio.bandwidth_hz && !radio.transmit_power_dbm)
-    out.push_back(
-        {{"radio.bandwidth_hz"},
-         fmt::format("radio.bandwidth_hz = {} is the bandwidth of the noise in a link budget, which also needs the "
-                     "transmit power: give radio.transmit_power_dbm too, or remove radio.bandwidth_hz",
-                     *radio.bandwidth_hz)});
+    out.push_back({{"radio.bandwidth_hz"},
+                   fmt::format("radio.bandwidth_hz = {} is the bandwidth of the noise in a link budget, "
+                               "which also needs the transmit power: give radio.transmit_power_dbm too, "
+                               "or remove radio.bandwidth_hz",
+                               *radio.bandwidth_hz)});
   if (radio.noise_figure_db > 0 && !radio.bandwidth_hz)
     out.push_back({{"radio.noise_figure_db"},
-                   fmt::format("radio.noise_figure_db = {} needs the bandwidth of the noise: give radio.bandwidth_hz "
-                               "too, or remove radio.noise_figure_db",
+                   fmt::format("radio.noise_figure_db = {} needs the bandwidth of the noise: "
+                               "give radio.bandwidth_hz too, or remove radio.noise_figure_db",
                                radio.noise_figure_db)});
 }
 
 void check_waypoints(const Config& config, Found& out) {
   if (config.output.waypoints > 0 && !config.trace.rays)
-    out.push_back(
-        {{"output.waypoints", "trace.rays"},
-         fmt::format("output.waypoints = {} selects rays evenly from a known number of rays, but with trace.rays = "
-                     "\"auto\" that number is not known: give trace.rays a number, or remove output.waypoints",
-                     config.output.waypoints)});
+    out.push_back({{"output.waypoints", "trace.rays"},
+                   fmt::format("output.waypoints = {} selects rays evenly from a known number of rays, "
+                               "but with trace.rays = \"auto\" that number is not known: give trace.rays a number, "
+                               "or remove output.waypoints",
+                               config.output.waypoints)});
 }
 
 void check_cache(const Config& config, Found& out) {
@@ -159,18 +161,19 @@ void check_cache(const Config& config, Found& out) {
                    "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\""});
   if (cache.key == "exact" && (cache.kind == "thesis" || cache.kind == "thesis-chained"))
     out.push_back({{"cache.key", "cache.kind"},
-                   fmt::format("cache.key = \"exact\" with cache.kind = \"{}\": the tables as the thesis prints them "
-                               "compare no keys, so that no answer is exact: use cache.key = \"quantised\", or "
-                               "another kind",
+                   fmt::format("cache.key = \"exact\" with cache.kind = \"{}\": "
+                               "the tables as the thesis prints them compare no keys, so that no answer is exact: "
+                               "use cache.key = \"quantised\", or another kind",
                                cache.kind.text())});
   if (cache.first_depth > config.trace.max_depth)
     out.push_back({{"cache.first_depth", "trace.max_depth", "cache.kind"},
-                   fmt::format("cache.first_depth = {} is larger than trace.max_depth = {}, so the cache would never "
-                               "be used: lower the first, raise the second, or use cache.kind = \"none\"",
+                   fmt::format("cache.first_depth = {} is larger than trace.max_depth = {}, "
+                               "so the cache would never be used: lower the first, raise the second, "
+                               "or use cache.kind = \"none\"",
                                cache.first_depth, config.trace.max_depth)});
 }
 
-// member: the member that holds the name of an element. Returns seen and the names of all elements.
+// member: the member that holds an element's name. Returns the names of all elements, and adds those that occur twice.
 template <class Element>
 std::set<std::string> check_names(const std::string& table, const std::string& key, const std::vector<Element>& all,
                                   std::string Element::*member, std::set<std::string> seen, Found& out) {
@@ -189,8 +192,8 @@ void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
     const MaterialConfig& m = materials[i];
     if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
       out.push_back({{fmt::format("material.{}", i)},
-                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: give either the first "
-                     "four or the last two"});
+                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: "
+                     "give either the first four or the last two"});
   }
 }
 
@@ -199,8 +202,9 @@ void check_ends(const Config& config, Found& out) {
     const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
     if (none && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
       out.push_back({{},
-                     fmt::format("no [[{0}]]: add one with name and position_m, a [[station]], which sends and "
-                                 "receives, or a [[mount]] with name and role = \"{0}\" or \"both\" for vehicles",
+                     fmt::format("no [[{0}]]: add one with name and position_m, a [[station]], which sends "
+                                 "and receives, or a [[mount]] with name and role = \"{0}\" "
+                                 "or \"both\" for vehicles",
                                  role.word())});
   };
   check("transmitter", config.transmitters.empty() && config.stations.empty());

@@ -1,5 +1,5 @@
-// What the rows of the field table are written with, and the tables that are not in field_table.cpp itself.
-// Included by the files that hold rows, and by nothing else.
+// Helpers for writing rows of the field table, and the tables that are not in field_table.cpp itself. Only files with
+// rows include it.
 #pragma once
 #include "config/field_table.hpp"
 
@@ -55,8 +55,8 @@ Field polarization_field(const Member& member, auto polarization) {
   return {.name = "polarization",
           .slot = member(polarization),
           .doc =
-              "VH (V and H) and cross (+45 and -45 degrees) have two ports. The default is V, as usual for vehicle "
-              "antennas."};
+              "VH (V and H) and cross (+45 and -45 degrees) have two ports. The default is V, "
+              "as usual for vehicle antennas."};
 }
 
 template <class Member>
@@ -64,41 +64,41 @@ Field array_field(const Member& member, auto array) {
   return {.name = "array",
           .slot = member(array),
           .doc =
-              "Name of an [[array]], whose elements are placed around the position and turned by orientation_deg; each "
-              "has the antenna and the polarization that are given here. Empty: one element."};
+              "Name of an [[array]], whose elements are placed around the position and turned by orientation_deg; "
+              "each has the antenna and the polarization that are given here. Empty: one element."};
 }
 
-// Of array_fields.cpp; the first two are keys of [radio].
+// Defined in array_fields.cpp; the first two are keys of [radio].
 Field frequencies_field();
 Field wavefront_field();
 Table array_table();
 Table response_table();
 
-// Of cache_fields.cpp.
+// Defined in cache_fields.cpp.
 Table cache_table();
 
-// Of live_fields.cpp: what comes in at run time.
+// Defined in live_fields.cpp: input at run time.
 Table live_table();
 
-// Of output_fields.cpp.
+// Defined in output_fields.cpp.
 Table output_table();
 Table live_vehicle_table();
 
-// Of scene_fields.cpp: what stands.
+// Defined in scene_fields.cpp: fixed objects.
 Table scene_table();
 Table material_table();
 Table transmitter_table();
 Table receiver_table();
 Table station_table();
 
-// Of grid_fields.cpp.
+// Defined in grid_fields.cpp.
 Table receiver_grid_table();
 
-// Of outdoors_fields.cpp: the air and vegetation.
+// Defined in outdoors_fields.cpp: the air and vegetation.
 Table air_table();
 Table vegetation_table();
 
-// Of vehicle_fields.cpp: what moves.
+// Defined in vehicle_fields.cpp: moving objects.
 Table trajectories_table();
 Table time_table();
 Table links_table();

@@ -1,5 +1,5 @@
 // The rows of the field table, one per key of the config file, in the order in which `init` writes them.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_table.hpp"
 
 #include "config/field_rows.hpp"
@@ -11,21 +11,22 @@ Table trace_table() {
   const auto t = [](auto member) { return at(&Config::trace, member); };
   return {
       .name = "trace",
-      .doc = "How rays discover the surfaces that paths may touch.",
+      .doc = "The search of rays for the surfaces that paths may touch.",
       .fields = {
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays per transmitter",
            .range = {1, 2147483648.0},
            .none = "auto",
-           .doc = "More rays find more of the weak paths; the paths that are found are exact in any case. The default "
-                  "finds more than 99% of the paths of a city quarter at depth 5. auto: as many rays as trace.recall "
-                  "needs, launched along a Hilbert curve."},
+           .doc = "More rays find more of the weak paths; the paths that are found are exact in any case. "
+                  "The default finds more than 99% of the paths of a city quarter at depth 5. "
+                  "auto: as many rays as trace.recall needs, launched along a Hilbert curve."},
           {.name = "recall",
            .slot = t(&TraceConfig::recall),
            .range = {0, 1, true},
-           .doc = "Only with rays = \"auto\": the share of all paths that must be found. It is estimated from what "
-                  "only one ray has met (Good-Turing estimate). The last percent costs more rays than all before it."},
+           .doc = "Only with rays = \"auto\": the share of all paths that must be found. "
+                  "It is estimated from what only one ray has met (Good-Turing estimate). "
+                  "The last percent costs more rays than all before it."},
           {.name = "max_rays",
            .slot = t(&TraceConfig::max_rays),
            .unit = "rays per transmitter",
@@ -33,59 +34,62 @@ Table trace_table() {
            .doc = "Only with rays = \"auto\": the largest number of rays, whatever recall asks for."},
           {.name = "reuse",
            .slot = t(&TraceConfig::reuse),
-           .doc = "Keep the sequences of surfaces that rays of earlier frames of a drive have found. Their paths are "
-                  "computed anew in every frame, so they are exact, and fewer rays find more paths."},
+           .doc = "Keep the sequences of surfaces that rays of earlier frames of a drive have found. "
+                  "Their paths are computed anew in every frame, so they are exact, and fewer rays find more paths."},
           {.name = "refresh_rays",
            .slot = t(&TraceConfig::refresh_rays),
            .unit = "rays per transmitter",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "The largest number of rays in a frame that reuses sequences of earlier frames; each such frame "
-                  "launches other directions. 0: a tenth of trace.rays, because little is new from one frame to the "
-                  "next. With rays = \"auto\" the number is chosen automatically."},
+           .doc = "The largest number of rays in a frame that reuses sequences of earlier frames; "
+                  "each such frame launches other directions. 0: a tenth of trace.rays, "
+                  "because little is new from one frame to the next. "
+                  "With rays = \"auto\" the number is chosen automatically."},
           {.name = "discover_every_s",
            .slot = t(&TraceConfig::discover_every_s),
            .unit = "s",
            .range = {0, 3600},
-           .doc = "Frames that reuse sequences launch rays only this long after the frame that did so before; the "
-                  "frames between compute the paths of the known sequences, exactly, at their own poses. For steps "
-                  "of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter that begins to "
-                  "send launch at once. 0: every frame launches rays. What the frames between may lack is measured "
-                  "each time that rays are launched again: late in summary.json."},
+           .doc = "Frames that reuse sequences launch rays only this long after the frame that did so before; "
+                  "the frames between compute the paths of the known sequences, exactly, at their own poses. "
+                  "For steps of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter "
+                  "that begins to send launch at once. 0: every frame launches rays. "
+                  "What the frames between may lack is measured each time that rays are launched again: "
+                  "late in summary.json."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",
            .range = {1, 4294967295.0},
-           .doc = "A sequence of surfaces is dropped after this many frames in which no ray and no path has followed "
-                  "it; only frames that launch rays are counted. 50 frames are 5 s at 10 Hz."},
+           .doc = "A sequence of surfaces is dropped after this many frames in which no ray "
+                  "and no path has followed it; only frames that launch rays are counted. "
+                  "50 frames are 5 s at 10 Hz."},
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",
            .range = {0, 32},
-           .doc = "The largest number of interactions of one path. 0 computes the line of sight only. Beyond 5, a path "
-                  "in a street canyon carries little power."},
+           .doc = "The largest number of interactions of one path. 0 computes the line of sight only. "
+                  "Beyond 5, a path in a street canyon carries little power."},
           {.name = "reflection", .slot = t(&TraceConfig::reflection), .doc = "Specular reflection."},
           {.name = "diffraction",
            .slot = t(&TraceConfig::diffraction),
-           .doc = "Diffraction at edges, by the uniform theory of diffraction (UTD). It fills the shadows. It also "
-                  "launches rays from every receiver that is not a transmitter too, which costs time."},
+           .doc = "Diffraction at edges, by the uniform theory of diffraction (UTD). It fills the shadows. "
+                  "It also launches rays from every receiver that is not a transmitter too, which costs time."},
           {.name = "max_diffractions",
            .slot = t(&TraceConfig::max_diffractions),
            .unit = "diffractions per path",
            .range = {1, 8},
-           .doc =
-               "2 adds paths over two edges, with a straight line from one edge to the other: the field behind a "
-               "whole building. Pairs of edges that buildings hide from each other are passed over; the others are "
-               "candidates, which cost time: in a city of 36 blocks some ten times as much as one diffraction. With 2 "
-               "and more each link also gets a few paths over up to so many edges: those that a string between its "
-               "ends touches when it is pulled tight over the roofs, those a little under it, and the corners that "
-               "it slips off. They take little time, and reach receivers far behind the houses. Such a path has no "
-               "other interactions, and max_depth, which must be at least 2, does not limit its edges."},
+           .doc = "2 adds paths over two edges, with a straight line from one edge to the other: "
+                  "the field behind a whole building. Pairs of edges that buildings hide from each other "
+                  "are passed over; the others are candidates, which cost time: in a city of 36 blocks some ten times "
+                  "as much as one diffraction. With 2 and more each link also gets a few paths over up to "
+                  "so many edges: those that a string between its ends touches when it is pulled tight over "
+                  "the roofs, those a little under it, and the corners that it slips off. They take little time, "
+                  "and reach receivers far behind the houses. Such a path has no other interactions, and max_depth, "
+                  "which must be at least 2, does not limit its edges."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
-           .doc = "Edges that belong to one face only also diffract, as half planes: screens, signs and the borders of "
-                  "open meshes. The border of the ground never diffracts, because the real ground continues where the "
-                  "map ends."},
+           .doc = "Edges that belong to one face only also diffract, as half planes: screens, "
+                  "signs and the borders of open meshes. The border of the ground never diffracts, "
+                  "because the real ground continues where the map ends."},
           {.name = "diffraction_rays",
            .slot = t(&TraceConfig::diffraction_rays),
            .unit = "rays per receiver",
@@ -95,9 +99,9 @@ Table trace_table() {
                   "a tenth of trace.rays, but at least 100,000, because many rays meet each edge."},
           {.name = "transmission",
            .slot = t(&TraceConfig::transmission),
-           .doc = "Transmission straight through surfaces. Each surface is a slab whose thickness is that of its "
-                  "material. Rays split at every surface, so each transmission that is allowed may double the time of "
-                  "tracing."},
+           .doc = "Transmission straight through surfaces. Each surface is a slab whose thickness is "
+                  "that of its material. Rays split at every surface, so each transmission "
+                  "that is allowed may double the time of tracing."},
           {.name = "max_transmissions",
            .slot = t(&TraceConfig::max_transmissions),
            .unit = "transmissions per path",
@@ -106,53 +110,54 @@ Table trace_table() {
                   "A path through one building or vehicle needs 2."},
           {.name = "scattering",
            .slot = t(&TraceConfig::scattering),
-           .doc =
-               "Diffuse scattering by surfaces and vegetation whose material has a scattering coefficient "
-               "(material.scattering). They are divided into tiles and cells, and a path goes from the transmitter to "
-               "one of them to the receiver."},
+           .doc = "Diffuse scattering by surfaces and vegetation whose material has a scattering coefficient "
+                  "(material.scattering). They are divided into tiles and cells, and a path goes from the transmitter "
+                  "to one of them to the receiver."},
           {.name = "tile_m",
            .slot = t(&TraceConfig::tile_m),
            .unit = "m",
            .range = {0, 1e6, true},
-           .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths and "
-                  "about a quarter of the error; of vegetation, which is cut into cells, eight times as many."},
+           .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths "
+                  "and about a quarter of the error; of vegetation, which is cut into cells, eight times as many."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
-           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, given their "
-                  "heights above the ground and the size of the scene; a quarter of the rays is spread evenly. "
-                  "hilbert: evenly spread over the sphere. Both follow a Hilbert curve, so that neighbours in memory "
-                  "are neighbours in space. fibonacci and random: evenly spread, in other orders."},
+           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "
+                  "given their heights above the ground and the size of the scene; "
+                  "a quarter of the rays is spread evenly. "
+                  "hilbert: evenly spread over the sphere. Both follow a Hilbert curve, "
+                  "so that neighbours in memory are neighbours in space. fibonacci and random: evenly spread, "
+                  "in other orders."},
           {.name = "seed",
            .slot = t(&TraceConfig::seed),
            .range = {0, 9223372036854775807.0},
            .doc = "Only with directions = \"random\": the seed of the random numbers."},
           {.name = "reception",
            .slot = t(&TraceConfig::reception),
-           .doc = "exact: rays only find surfaces, and paths are computed by the image method. sphere: a ray that "
-                  "passes within sphere_radius_m of a receiver is taken as a path, as in the thesis; lengths are a "
-                  "little wrong, some paths are missed, and some are reported that do not exist. Frames then reuse no "
-                  "sequences: each frame is traced completely."},
+           .doc = "exact: rays only find surfaces, and paths are computed by the image method. "
+                  "sphere: a ray that passes within sphere_radius_m of a receiver is taken as a path, "
+                  "as in the thesis; lengths are a little wrong, some paths are missed, and some are reported "
+                  "that do not exist. Frames then reuse no sequences: each frame is traced completely."},
           {.name = "sphere_radius_m",
            .slot = t(&TraceConfig::sphere_radius_m),
            .unit = "m",
            .range = {0, 1e4, true},
-           .doc = "Only with reception = \"sphere\". A larger sphere misses fewer paths and makes larger errors in "
-                  "those that it finds."},
+           .doc = "Only with reception = \"sphere\". A larger sphere misses fewer paths and makes larger errors "
+                  "in those that it finds."},
           {.name = "batch_rays",
            .slot = t(&TraceConfig::batch_rays),
            .unit = "rays",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "The number of rays that are traced at once, which limits the device memory; results do not depend "
-                  "on it. 0: chosen for the device."},
+           .doc = "The number of rays that are traced at once, which limits the device memory; "
+                  "results do not depend on it. 0: chosen for the device."},
           {.name = "batch_receivers",
            .slot = t(&TraceConfig::batch_receivers),
            .unit = "receivers",
            .range = {0, 4294967295.0},
            .none = "0",
-           .doc = "Only with diffraction, in a run of one frame: the number of receivers that are computed at once. It "
-                  "limits the memory of coverage maps, because every receiver keeps what its rays have found; results "
-                  "do not depend on it. 0: 8192."},
+           .doc = "Only with diffraction, in a run of one frame: the number of receivers that are computed "
+                  "at once. It limits the memory of coverage maps, because every receiver keeps what its rays have "
+                  "found; results do not depend on it. 0: 8192."},
       }};
 }
 
@@ -163,20 +168,21 @@ Table order_table() {
           .fields = {
               {.name = "method",
                .slot = o(&OrderConfig::method),
-               .doc = "The method, by its plain name or its mnemonic. none: no sorting; with trace.directions = "
-                      "\"hilbert\" rays are launched in a good order already. direction-origin: by direction first, "
-                      "then by origin; use it with each_depth. auto: the fastest method, found by a short measurement "
-                      "that is kept for later runs."},
+               .doc = "The method, by its plain name or its mnemonic. none: no sorting; "
+                      "with trace.directions = \"hilbert\" rays are launched in a good order already. "
+                      "direction-origin: by direction first, "
+                      "then by origin; use it with each_depth. auto: the fastest method, "
+                      "found by a short measurement that is kept for later runs."},
               {.name = "each_depth",
                .slot = o(&OrderConfig::each_depth),
-               .doc = "Sort before every depth, not only before the first. With method = \"auto\" this is chosen "
-                      "automatically too."},
+               .doc = "Sort before every depth, not only before the first. "
+                      "With method = \"auto\" this is chosen automatically too."},
               {.name = "bin_num",
                .slot = o(&OrderConfig::bin_num),
                .unit = "bins per direction component",
                .range = {1, 1024},
-               .doc = "Only for the histogram methods. 16, as in the thesis, gives keys of 12 bits; more bins give a "
-                      "finer order and need more passes of the sort."},
+               .doc = "Only for the histogram methods. 16, as in the thesis, gives keys of 12 bits; "
+                      "more bins give a finer order and need more passes of the sort."},
           }};
 }
 
@@ -184,13 +190,13 @@ Table launch_table() {
   const auto l = [](auto member) { return at(&Config::launch, member); };
   return {.name = "launch",
           .doc =
-              "The shape of the OpenCL kernel launches that process the rays of one depth. The paths do not depend on "
-              "it, only the time does.",
+              "The shape of the OpenCL kernel launches that process the rays of one depth. "
+              "The paths do not depend on it, only the time does.",
           .fields = {
               {.name = "shape",
                .slot = l(&LaunchConfig::shape),
-               .doc = "auto: 1d, except for the two methods that map the sorted rays along a curve in 2 or 3 "
-                      "dimensions; they need 2d or 3d and accept no other shape."},
+               .doc = "auto: 1d, except for the two methods that map the sorted rays along a curve in 2 "
+                      "or 3 dimensions; they need 2d or 3d and accept no other shape."},
               {.name = "local_size",
                .slot = l(&LaunchConfig::local_size),
                .unit = "work-items per work-group",
@@ -200,7 +206,7 @@ Table launch_table() {
           }};
 }
 
-// With the words of each Choice, and that of an optional that is not set, as choices.
+// Adds the words of each Choice, and the word of an optional that is not set, as choices.
 std::vector<Table> with_words(std::vector<Table> tables) {
   Config sample;
   for (Table& table : tables) {
@@ -230,8 +236,8 @@ const std::vector<Table>& tables() {
                    .slot = at(&Config::radio, &RadioConfig::frequency_hz),
                    .unit = "Hz",
                    .range = {1e6, 1e12},
-                   .doc = "The carrier frequency. 5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). Most "
-                          "materials of ITU-R P.2040 are valid from 1 to 100 GHz."},
+                   .doc = "The carrier frequency. 5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). "
+                          "Most materials of ITU-R P.2040 are valid from 1 to 100 GHz."},
                   frequencies_field(),
                   wavefront_field(),
                   {.name = "transmit_power_dbm",
@@ -250,8 +256,8 @@ const std::vector<Table>& tables() {
                    .slot = at(&Config::radio, &RadioConfig::noise_figure_db),
                    .unit = "dB",
                    .range = {0, 100},
-                   .doc = "The noise figure of each receiver: how far its noise is above k T B. 0 is a receiver "
-                          "without noise of its own; 3GPP assumes 9 dB for vehicles."}}},
+                   .doc = "The noise figure of each receiver: how far its noise is above k T B. "
+                          "0 is a receiver without noise of its own; 3GPP assumes 9 dB for vehicles."}}},
       air_table(),
       trace_table(),
       order_table(),

@@ -1,5 +1,5 @@
 // The field table: every key of the config file, once. Parsing, `validate`, `init`, `--help` and hints all read it.
-// It assumes that defaults stand in config.hpp; a field only says where its member is, so the two cannot disagree.
+// Defaults are in config.hpp; a field only says where its member is, so the two cannot disagree.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@ struct ChoiceSlot {
   ChoiceIndex* chosen;
   std::span<const std::string_view> words;
 };
-// Where the value of a field lives. The alternative held is the type of the field.
+// A pointer to the value of a field. The alternative that it holds is the type of the field.
 using Slot =
     std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*, std::optional<uint64_t>*,
                  std::optional<double>*, std::array<double, 3>*, std::optional<std::array<double, 2>>*,
@@ -31,14 +31,14 @@ using Slot =
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {
-  double lower = -std::numeric_limits<double>::max();  // so that, unless said otherwise, infinity is out of range
+  double lower = -std::numeric_limits<double>::max();  // infinity is out of range by default
   double upper = std::numeric_limits<double>::max();
   bool lower_open = false;
 };
 
-// Ranges of what has no nearer bound. Coordinates of files are 10^7 m at most; antennas are within 10^6 m of
+// Ranges of values that have no tighter bound. Coordinates of files are 10^7 m at most; antennas are within 10^6 m of
 // the middle of their scene, which world.cpp checks. Doppler shifts are of first order in v / c, and no antenna is as
-// fast as light: 10^8 m/s a component. Times since 1970 are 2 10^9 s.
+// fast as light: each component is at most 10^8 m/s. Times since 1970 are about 2 10^9 s.
 constexpr Range places{-1e9, 1e9}, speeds{-1e8, 1e8}, angles{-1e6, 1e6}, instants{-1e12, 1e12};
 
 enum class Form {
@@ -49,25 +49,26 @@ enum class Form {
 };
 
 struct Field {
-  std::string name;                           // without its table
+  std::string name;                           // without the name of its table
   std::function<Slot(Config&, size_t)> slot;  // the index is that of the element of an array of tables
   std::string unit = {};
   Range range = {};
-  std::string none = {};                  // of an optional: "0" or the word by which the file says that it is not set
-  std::vector<std::string> choices = {};  // of a string; those of a Choice, and `none`, come by themselves
+  std::string none = {};                  // for an optional: "0" or the word that means "not set" in the file
+  std::vector<std::string> choices = {};  // for a string; those of a Choice, and `none`, are added automatically
   Form form = Form::plain;
   bool required = false;
-  std::string instead = {};  // of a required field: the key that may be given in its place
+  std::string instead = {};  // for a required field: the key that may be given in its place
   std::string doc = {};
-  std::string example = {};  // TOML that `init` writes instead of the default: a comment, unless required or needed
-  bool needed = false;       // not required, but the config of `init` would not run without its example
+  // TOML that `init` writes instead of the default, as a comment unless the field is required or needed.
+  std::string example = {};
+  bool needed = false;  // not required, but the config of `init` would not run without its example
 };
 
 struct Table {
   std::string name;
   std::string doc;
   std::vector<Field> fields;
-  // Set for an array of tables: adds an element and returns its index; the number of elements.
+  // Set for an array of tables: append adds an element and returns its index; size returns the number of elements.
   size_t (*append)(Config&) = nullptr;
   size_t (*count)(const Config&) = nullptr;
   bool optional = false;  // an array of tables that `init` writes as a comment
@@ -75,18 +76,19 @@ struct Table {
 
 const std::vector<Table>& tables();
 
-// A Config of defaults with one element in each array of tables, so that every slot exists at index 0.
+// Returns a Config of defaults with one element in each array of tables, so that every slot exists at index 0.
 Config prototype();
 
-// The value of the field as TOML; empty for an optional number that is not set, unless the field has a word for that.
+// Returns the value of the field as TOML; empty for an optional number that is not set, unless the field has a word for
+// that.
 std::string literal(const Field& field, const Slot& slot);
-// Whether the key that stands in the place of a required field is set.
+// Tells whether the key that may replace a required field is set.
 bool replaced(const Table& table, const Field& field, Config& config, size_t element);
-// "required", and the key that may stand in its place.
+// Returns "required", and the key that may replace it.
 std::string required_text(const Field& field);
-// A number of this range, in words: `a number from 1 to 3`, `a finite number`.
+// Describes a number of this range: `a number from 1 to 3`, `a finite number`.
 std::string number_of(const Range& range);
-// What a field accepts, in words: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
+// Describes what a field accepts: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);
 
 }  // namespace wavetracer::config

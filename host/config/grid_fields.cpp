@@ -1,5 +1,5 @@
 // Rows of the field table about grids of receivers, for coverage.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {
@@ -33,9 +33,9 @@ Table receiver_grid_table() {
   return {
       .name = "receiver_grid",
       .doc =
-          "Receivers at the centres of square cells, for a coverage map (`wavetracer plot`). They are called "
-          "NAME/IX,IY, counted from 0 towards +x and +y. They follow the [[receiver]] tables, row by row: IX counts "
-          "first.",
+          "Receivers at the centres of square cells, for a coverage map (`wavetracer plot`). "
+          "They are called NAME/IX,IY, counted from 0 towards +x and +y. They follow the [[receiver]] tables, "
+          "row by row: IX counts first.",
       .fields =
           {
               {.name = "name",
@@ -48,12 +48,12 @@ Table receiver_grid_table() {
               grid_border("y_min_m", &ReceiverGridConfig::y_min_m, "Southern", "-100.0"),
               grid_border("y_max_m", &ReceiverGridConfig::y_max_m, "Northern (y_max_m = y_min_m gives a single row)",
                           "100.0"),
-              grid_corner(
-                  "south_west_wgs84", &ReceiverGridConfig::south_west_wgs84,
-                  "Instead of x_min_m and y_min_m: latitude and longitude (WGS84) of that corner, which need a "
-                  "georeference.json beside the scene file (`wavetracer convert` writes one). The borders run along "
-                  "x and y of the scene all the same, and height_m is measured from what `above` says.",
-                  "[48.136, 11.573]"),
+              grid_corner("south_west_wgs84", &ReceiverGridConfig::south_west_wgs84,
+                          "Instead of x_min_m and y_min_m: latitude and longitude (WGS84) of that corner, "
+                          "which need a georeference.json beside the scene file (`wavetracer convert` writes one). "
+                          "The borders run along x and y of the scene all the same, and height_m is measured "
+                          "from what `above` says.",
+                          "[48.136, 11.573]"),
               grid_corner("north_east_wgs84", &ReceiverGridConfig::north_east_wgs84,
                           "Instead of x_max_m and y_max_m: latitude and longitude of that corner.", "[48.138, 11.577]"),
               {.name = "step_m",
@@ -71,10 +71,11 @@ Table receiver_grid_table() {
                    "Height of the receivers. 1.5 m is the height of a phone, and of an antenna on the roof of a car."},
               {.name = "above",
                .slot = of_grid(&ReceiverGridConfig::above),
-               .doc = "What height_m is measured from. zero: height_m is the z coordinate in the scene file. ground: "
-                      "the ground at that place, for hilly terrain; where there is none, the lowest point of the "
-                      "scene. The ground is what spans at least half of the scene, seen from above, or else the "
-                      "lowest surface."},
+               .doc = "The reference of height_m. zero: height_m is the z coordinate in the scene file. "
+                      "ground: "
+                      "the ground at that place, for hilly terrain; where there is none, "
+                      "the lowest point of the scene. The ground is what spans at least half of the scene, "
+                      "seen from above, or else the lowest surface."},
               antenna_field(of_grid, &ReceiverGridConfig::antenna),
               polarization_field(of_grid, &ReceiverGridConfig::polarization),
               array_field(of_grid, &ReceiverGridConfig::array),

@@ -1,4 +1,4 @@
-// By the field table, so that a new key of a file is among them.
+// It uses the field table, so a new key with a file is included automatically.
 #include "config/input_files.hpp"
 #include <algorithm>
 #include "config/field_table.hpp"

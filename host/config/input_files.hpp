@@ -7,11 +7,11 @@
 namespace wavetracer::config {
 
 struct NamedFile {
-  std::string key;    // table and field: "scene.file"
-  std::string* path;  // in the configuration
+  std::string key;    // table and field, such as "scene.file"
+  std::string* path;  // points into the configuration
 };
 
-// In the order of the field table; values that are no files, such as "isotropic", are left out.
+// Returns files in the order of the field table, without values that are no files, such as "isotropic".
 std::vector<NamedFile> input_files(Config& config);
 
 }  // namespace wavetracer::config

@@ -1,5 +1,5 @@
 // Rows of the field table about live coupling: the vehicles that clients of `wavetracer serve` may bring, and limits.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {
@@ -9,25 +9,26 @@ Table live_table() {
   return {
       .name = "live",
       .doc =
-          "Limits on what `wavetracer serve` accepts from its clients. A client that exceeds one gets an error message "
-          "or is disconnected.",
+          "Limits on what `wavetracer serve` accepts from its clients. "
+          "A client that exceeds one gets an error message or is disconnected.",
       .fields = {
           {.name = "margin_m",
            .slot = l(&LiveConfig::margin_m),
            .unit = "m",
            .range = {0, 1e5},
-           .doc = "How far outside the bounding box of the scene vehicles may be, in x, y and z. Farther outside, "
-                  "float32 arithmetic would make ray tracing less accurate for all."},
+           .doc =
+               "The largest distance of vehicles from the bounding box of the scene, in x, y and z. Farther outside, "
+               "float32 arithmetic would make ray tracing less accurate for all."},
           {.name = "max_clients",
            .slot = l(&LiveConfig::max_clients),
            .range = {1, 1000},
-           .doc = "The largest number of clients that have said hello and are connected at the same time. They use the "
-                  "device in turn, frame by frame."},
+           .doc = "The largest number of clients that have said hello and are connected at the same time. "
+                  "They use the device in turn, frame by frame."},
           {.name = "max_strangers",
            .slot = l(&LiveConfig::max_strangers),
            .range = {1, 1000},
-           .doc = "The largest number of connections that have not said hello yet. When one more arrives, the one that "
-                  "has waited longest is closed, so that silent connections keep nobody out."},
+           .doc = "The largest number of connections that have not said hello yet. When one more arrives, the one "
+                  "that has waited longest is closed, so that silent connections keep nobody out."},
           {.name = "max_message_bytes",
            .slot = l(&LiveConfig::max_message_bytes),
            .unit = "bytes per line",
@@ -37,16 +38,16 @@ Table live_table() {
            .slot = l(&LiveConfig::max_queue_bytes),
            .unit = "bytes per client",
            .range = {1024, 1e12},
-           .doc = "The largest amount of answers that a client has not read yet. Above it, no frame of this client is "
-                  "computed until it reads."},
+           .doc = "The largest amount of answers that a client has not read yet. "
+                  "Above it, no frame of this client is computed until it reads."},
           {.name = "max_pending_frames",
            .slot = l(&LiveConfig::max_pending_frames),
            .unit = "frames per client",
            .range = {1, 1000},
-           .doc =
-               "The largest number of frames and instants (\"at\") that are received but not answered yet. Above it, "
-               "the server reads nothing more from this client until it has answered. In the mode \"free\" a frame "
-               "that waits does not count, since a newer one takes its place."},
+           .doc = "The largest number of frames and instants (\"at\") that are received but not answered yet. "
+                  "Above it, "
+                  "the server reads nothing more from this client until it has answered. In the mode \"free\" a frame "
+                  "that waits does not count, since a newer one takes its place."},
           {.name = "max_rate_hz",
            .slot = l(&LiveConfig::max_rate_hz),
            .unit = "messages per second",
@@ -82,8 +83,8 @@ Table live_vehicle_table() {
   const auto v = [](auto member) { return at(&Config::live_vehicles, member); };
   return {.name = "live_vehicle",
           .doc =
-              "Vehicles whose poses a client sends to `wavetracer serve` at run time; one table per type. They cannot "
-              "be combined with trajectories: everything that moves comes from the client.",
+              "Vehicles whose poses a client sends to `wavetracer serve` at run time; one table per type. "
+              "They cannot be combined with trajectories: everything that moves comes from the client.",
           .fields =
               {
                   {.name = "type",
@@ -94,8 +95,8 @@ Table live_vehicle_table() {
                    .slot = v(&LiveVehicleConfig::count),
                    .unit = "vehicles",
                    .range = {1, 100000},
-                   .doc = "The largest number of vehicles of this type at the same time. An unused place costs a "
-                          "little memory and no time."},
+                   .doc = "The largest number of vehicles of this type at the same time. "
+                          "An unused place costs a little memory and no time."},
               },
           .append = append<&Config::live_vehicles>,
           .count = count<&Config::live_vehicles>,

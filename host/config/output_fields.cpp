@@ -1,5 +1,5 @@
 // Rows of the field table about the files that a run writes.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"
 
 namespace wavetracer::config {
@@ -19,9 +19,10 @@ Table output_table() {
            .slot = o(&OutputConfig::shard_frames),
            .unit = "frames per file",
            .range = {1, 1e9},
-           .doc = "The number of frames in each file that a drive is written to while it runs. An interrupted run "
-                  "continues after the last complete file. The first frame of each file cannot reuse sequences of "
-                  "earlier frames, so fewer frames per file cost time, and more frames cost memory."},
+           .doc = "The number of frames in each file that a drive is written to while it runs. "
+                  "An interrupted run continues after the last complete file. "
+                  "The first frame of each file cannot reuse sequences of earlier frames, "
+                  "so fewer frames per file cost time, and more frames cost memory."},
           {.name = "waypoints",
            .slot = o(&OutputConfig::waypoints),
            .unit = "samples per transmitter",
@@ -30,22 +31,22 @@ Table output_table() {
                   "from the launch to the last hit, for study and pictures. The files become large. 0 writes none."},
           {.name = "cache_entries",
            .slot = o(&OutputConfig::cache_entries),
-           .doc = "Write every entry of the ray cache's table to cache_entries.h5 after each frame: where it is, how "
-                  "often it answered, its age, and the cycles of its last answer and write. For study: the whole "
-                  "table is read from the device. Needs cache.statistics = true."},
+           .doc = "Write every entry of the ray cache's table to cache_entries.h5 after each frame: where it is, "
+                  "how often it answered, its age, and the cycles of its last answer and write. "
+                  "For study: the whole table is read from the device. Needs cache.statistics = true."},
           {.name = "min_gain_db",
            .slot = o(&OutputConfig::min_gain_db),
            .unit = "dB",
            .range = {-1000, 1000},
-           .doc = "Weaker paths are left out of paths.h5. What this key and the next two leave out is counted, with "
-                  "its power, in links.csv and summary.json; all other numbers in these files are for all paths. Not "
-                  "given: no limit."},
+           .doc = "Weaker paths are left out of paths.h5. What this key and the next two leave out is counted, "
+                  "with its power, in links.csv and summary.json; all other numbers in these files are "
+                  "for all paths. Not given: no limit."},
           {.name = "dynamic_range_db",
            .slot = o(&OutputConfig::dynamic_range_db),
            .unit = "dB",
            .range = {0, 1000},
-           .doc = "Paths that are weaker than the strongest path of their link and frame by more than this are left "
-                  "out of paths.h5. Not given: no limit."},
+           .doc = "Paths that are weaker than the strongest path of their link and frame by more than this "
+                  "are left out of paths.h5. Not given: no limit."},
           {.name = "max_paths_per_link",
            .slot = o(&OutputConfig::max_paths_per_link),
            .unit = "paths per link and frame",
@@ -58,8 +59,9 @@ Table output_table() {
            .doc = "Compression (deflate) of the columns of HDF5 files, 1 (fast) to 9; 0: none. Shards have none."},
           {.name = "keep_shards",
            .slot = o(&OutputConfig::keep_shards),
-           .doc = "Keep the shards (part files) of a drive that is complete. false: they are removed once the merged "
-                  "files were compared with them, byte by byte. `merge` and interrupted runs always keep them."}}};
+           .doc = "Keep the shards (part files) of a drive that is complete. "
+                  "false: they are removed once the merged files were compared with them, byte by byte. "
+                  "`merge` and interrupted runs always keep them."}}};
 }
 
 }  // namespace wavetracer::config

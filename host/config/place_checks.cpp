@@ -1,4 +1,5 @@
-// What only the whole configuration shows of where things are: places in degrees, and air that waves of a carrier pass.
+// Checks of places that need the whole configuration: places in degrees, and air whose models are valid at each
+// carrier.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 namespace wavetracer::config {
 
-// Ranges of the recommendations. fog: P.840 is Rayleigh scattering.
+// Ranges are those of the recommendations. fog: P.840 assumes Rayleigh scattering.
 void check_air(const Config& config, std::vector<Contradiction>& out) {
   std::vector<double> carriers = config.radio.frequencies_hz;
   carriers.push_back(config.radio.frequency_hz);
@@ -18,8 +19,8 @@ void check_air(const Config& config, std::vector<Contradiction>& out) {
     for (const double hz : carriers)
       if (hz < from_hz || hz > to_hz)
         out.push_back({{std::string("air.") + key, "radio.frequency_hz"},
-                       fmt::format("air.{}: ITU-R {} is known from {:g} to {:g} GHz, but a carrier is {:g} GHz: remove "
-                                   "air.{}",
+                       fmt::format("air.{}: ITU-R {} is known from {:g} to {:g} GHz, but a carrier is {:g} GHz: "
+                                   "remove air.{}",
                                    key, recommendation, from_hz / 1e9, to_hz / 1e9, hz / 1e9, key)});
   };
   check(config.air.rain_mm_h > 0, "rain_mm_h", "P.838-3", 1e9, 1e12);
@@ -30,11 +31,10 @@ void check_air(const Config& config, std::vector<Contradiction>& out) {
 void check_degrees(const Config& config, std::vector<Contradiction>& out) {
   const auto check = [&](const std::string& key, double latitude, double longitude) {
     if (std::abs(latitude) > 90 || std::abs(longitude) > 180)
-      out.push_back(
-          {{key},
-           fmt::format("latitude {} and longitude {} are no place on the earth: give the latitude first, from "
-                       "-90 to 90 degrees, then the longitude, from -180 to 180",
-                       latitude, longitude)});
+      out.push_back({{key},
+                     fmt::format("latitude {} and longitude {} are no place on the earth: give the latitude first, "
+                                 "from -90 to 90 degrees, then the longitude, from -180 to 180",
+                                 latitude, longitude)});
   };
   const auto check_all = [&](const char* table, const std::vector<RadioEnd>& ends) {
     for (size_t i = 0; i < ends.size(); ++i)

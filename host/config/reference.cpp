@@ -1,5 +1,5 @@
-// Pages made of the field table, one entry per key: what it accepts, its default, what it means.
-// Assumes that docs of fields are plain text with at most `code` in it.
+// Makes pages from the field table, one entry per key: accepted values, default, meaning.
+// Docs of fields are plain text with at most `code` in them.
 #include "config/reference.hpp"
 #include <fmt/format.h>
 #include <cctype>
@@ -10,21 +10,21 @@ namespace {
 
 std::string header(const Table& table) { return table.append ? "[[" + table.name + "]]" : "[" + table.name + "]"; }
 
-// The default as TOML, or empty where there is none.
+// Returns the default as TOML, or empty if there is none.
 std::string default_of(const Field& field) {
   Config defaults = prototype();
   const std::string value = literal(field, field.slot(defaults, 0));
   return field.required || value == "\"\"" || value == "{}" ? "" : value;
 }
 
-// Type and range, beginning with a capital letter.
+// Returns type and range, beginning with a capital letter.
 std::string accepts(const Field& field) {
   std::string out = accepted(field);
   out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   return out;
 }
 
-// A cell of a table in Markdown. What stands between backquotes is code and needs no escapes but for the bar.
+// Returns a cell of a table in Markdown. Text between backquotes is code, where only the bar needs an escape.
 std::string cell(std::string_view text) {
   std::string out;
   bool code = false;
@@ -40,12 +40,12 @@ std::string cell(std::string_view text) {
 }
 
 constexpr const char* how_to_read =
-    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. Tables in "
-    "double brackets may be given many times, once per element. Any key can be set on the command line, which "
-    "overrides the file: `--set trace.rays=1000000`. For an element, give its number: `--set "
-    "transmitter.0.antenna=dipole`. A value is TOML, and text that is not valid TOML is a string. Relative paths in a "
-    "file start at the folder of the file, those of --set at the current folder. Unknown keys are errors; the message "
-    "gives file, line, column and the nearest known key.";
+    "A configuration is a TOML file; `wavetracer init` prints one with every key, and it runs as it is. "
+    "Tables in double brackets may be given many times, once per element. Any key can be set on the command line, "
+    "which overrides the file: `--set trace.rays=1000000`. For an element, give its number: "
+    "`--set transmitter.0.antenna=dipole`. A value is TOML, and text that is not valid TOML is a string. "
+    "Relative paths in a file start at the folder of the file, those of --set at the current folder. "
+    "Unknown keys are errors; the message gives file, line, column and the nearest known key.";
 
 }  // namespace
 
@@ -105,8 +105,8 @@ std::string markdown_reference() {
 
 std::string manual_page(std::string_view version) {
   std::string out = fmt::format(
-      ".TH WAVETRACER.TOML 5 \"\" \"wavetracer {}\" \"File formats\"\n.SH NAME\nwavetracer.toml \\- configuration of "
-      "wavetracer\n.SH DESCRIPTION\n{}\n",
+      ".TH WAVETRACER.TOML 5 \"\" \"wavetracer {}\" \"File formats\"\n.SH NAME\n"
+      "wavetracer.toml \\- configuration of wavetracer\n.SH DESCRIPTION\n{}\n",
       version, roff(how_to_read));
   for (const Table& table : tables()) {
     out += fmt::format(".SH \"{}\"\n{}\n", roff(header(table)), roff(table.doc));

@@ -1,4 +1,4 @@
-// A row per key; it stays, as the configurations of old runs do.
+// Each key has a row, which stays, since configurations of old runs stay too.
 #include "config/retired_keys.hpp"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace {
 
 const std::array retired_keys{
     RetiredKey{"trace.join",
-               "trace.join no longer exists, because rays towards the horizon find more paths in the same time: remove "
-               "the key, and keep trace.directions = \"horizon\""},
+               "trace.join no longer exists, because rays towards the horizon find more paths in the same time: "
+               "remove the key, and keep trace.directions = \"horizon\""},
 };
 
 }  // namespace

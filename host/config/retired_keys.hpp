@@ -1,4 +1,4 @@
-// Keys of earlier versions that are no more: what to do instead, in place of "unknown key".
+// Keys of earlier versions that no longer exist, with advice instead of "unknown key".
 #pragma once
 #include <string>
 #include <string_view>
@@ -6,16 +6,17 @@
 
 namespace wavetracer::config {
 
-// All were switches that are off unless asked for. Runs write every key down, so `false` is read and asks for nothing.
+// All were switches that are off by default. Runs write down every key, so `false` is accepted and has no effect.
 struct RetiredKey {
-  std::string_view key;  // trace.join
-  std::string advice;    // what became of it and what to do
+  std::string_view key;  // such as trace.join
+  std::string advice;    // the change of the key, and what to do
 };
 
-// nullptr where there was no such key.
+// Returns nullptr if there was no such key.
 const RetiredKey* find_retired(std::string_view key);
 
-// `key=value` texts by which a configuration that was valid once is read for what its run saw, whatever it asked for.
+// Returns `key=value` texts that make a configuration of an older version valid, for reading what its run saw, even if
+// it asked for a retired feature.
 std::vector<std::string> without_retired_keys();
 
 }  // namespace wavetracer::config

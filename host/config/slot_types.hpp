@@ -1,4 +1,4 @@
-// What code that visits a slot of the field table asks of its type.
+// Type traits for code that visits a slot of the field table.
 #pragma once
 #include <optional>
 #include <type_traits>

@@ -1,4 +1,4 @@
-// Values of the field table as text: TOML literals, and in words what a field accepts.
+// Writes values of the field table as text: TOML literals, and descriptions of what a field accepts.
 #include "config/value_text.hpp"
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Conversions between TOML and the members of Config, one per slot type.
-// A float of integral value (1e6) is taken where an integer is asked for; NaN never is a value.
+// Converts between TOML and the members of Config, one function per slot type.
+// An integer may be given as a float of integral value (1e6); NaN is never accepted.
 #include "config/values.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string out_of_range(const Field& field, const std::string& key, const toml:
   return fmt::format("{} = {} is out of range: it must be {}", key, unquoted(value), accepted(field));
 }
 
-// Whether the value says that an optional is not set.
+// Tells whether the value says that an optional is not set.
 bool says_none(const Field& field, const toml::node& value) {
   if (field.none == "0") return value.is_number() && *value.value<double>() == 0;
   const auto* word = value.as_string();
@@ -67,7 +67,7 @@ std::string assign_integer(const Field& field, const std::string& key, T& to, co
   const auto* x = value.as_floating_point();
   if (!x) return wrong_type(field, key, value);
   if (!inside(x->get(), field.range)) return out_of_range(field, key, value);
-  // Up to 2^53 a double holds every integer, so the text said exactly this one.
+  // Up to 2^53 a double holds every integer, so the text meant exactly this one.
   if (x->get() != std::floor(x->get()) || x->get() > 9007199254740992.0) return wrong_type(field, key, value);
   to = static_cast<typename Number<T>::Type>(x->get());
   return {};
@@ -102,15 +102,15 @@ std::string assign_text(const Field& field, const std::string& key, std::string&
   if (!text) return wrong_type(field, key, value);
   const std::string& given = text->get();
   if (field.required && given.empty()) return key + " is empty: give it a name";
-  if (field.form == Form::plain && has_control_character(given))  // file systems have odder names
+  if (field.form == Form::plain && has_control_character(given))  // names of files may contain such characters
     return fmt::format("{} = {} contains a control character, which tables and plots cannot show: remove it", key,
                        toml_string(given));
   to = given;
   if (field.form == Form::input_file) to = resolved_path(folder, given);
-  if (field.form == Form::output_folder) to = resolved_path("", given);  // as -o: from the current folder
+  if (field.form == Form::output_folder) to = resolved_path("", given);  // relative to the current folder, like -o
   if (field.choices.empty() || std::find(field.choices.begin(), field.choices.end(), given) != field.choices.end())
     return {};
-  // A dot or a slash tells a file from a misspelt name.
+  // A dot or a slash distinguishes a file from a misspelt name.
   if (field.form == Form::choice_or_file && given.find_first_of("./") != std::string::npos) {
     to = resolved_path(folder, given);
     return {};
@@ -166,7 +166,7 @@ std::string assign_numbers(const Field& field, const std::string& key, std::vect
   return {};
 }
 
-// Rows of N numbers; none are allowed where the field is not required.
+// Reads rows of N numbers; the list may be empty if the field is not required.
 template <size_t N>
 std::string assign_rows(const Field& field, const std::string& key, std::vector<std::array<double, N>>& to,
                         const toml::node& value, const char* count, const char* row) {

@@ -1,5 +1,5 @@
-// Values of the field table: from a TOML node into a member, checked.
-// The only header of this folder that names toml++; the way back, to TOML text, is literal() in field_table.hpp.
+// Checks a value of a TOML node against the field table and stores it in a member.
+// This is the only header of this folder that names toml++; literal() in field_table.hpp writes TOML text.
 #pragma once
 #include <toml++/toml.h>
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace wavetracer::config {
 
-// Checks the value against the field and stores it; relative paths are taken from `folder`.
-// Returns what is wrong, without the place, in words that name `key`; empty when all is well.
+// Checks the value against the field and stores it; relative paths start at `folder`.
+// Returns what is wrong, without the place, in words that name `key`; empty if the value is valid.
 std::string assign(const Field& field, const std::string& key, const Slot& slot, const toml::node& value,
                    const std::filesystem::path& folder);
 
-// An absolute path without . and .. parts; a relative one starts at `folder`. Empty stays empty.
+// Returns an absolute path without . and .. parts; a relative one starts at `folder`. Empty stays empty.
 std::string resolved_path(const std::filesystem::path& folder, const std::string& path);
 
 }  // namespace wavetracer::config

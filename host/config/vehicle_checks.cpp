@@ -1,4 +1,4 @@
-// What only the whole configuration shows of vehicles: where they come from, what they carry, when they drive.
+// Checks of vehicles that need the whole configuration: their sources, their antennas, the times of the drive.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ void check_trajectories(const Config& config, std::vector<Contradiction>& out) {
   if (t.file.empty() && t.generate.empty() && config.tracks.empty() && config.live_vehicles.empty() && !carried &&
       !config.mounts.empty())
     out.push_back({{"mount.0"},
-                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, for "
-                   "`wavetracer serve`, a [[live_vehicle]]"});
+                   "[[mount]] needs vehicles: give trajectories.file, trajectories.generate, a [[track]] or, "
+                   "for `wavetracer serve`, a [[live_vehicle]]"});
   for (size_t i = 0; i < config.tracks.size(); ++i) {
     check_times("waypoints", config.tracks[i].waypoints, i, out);
     check_times("waypoints_wgs84", config.tracks[i].waypoints_wgs84, i, out);
@@ -38,8 +38,8 @@ void check_trajectories(const Config& config, std::vector<Contradiction>& out) {
   for (size_t i = 0; i < config.mounts.size(); ++i)
     if (!config.mounts[i].node.empty() && config.mounts[i].above == "ground")
       out.push_back({{fmt::format("mount.{}.node", i), fmt::format("mount.{}.above", i)},
-                     fmt::format("[[mount]] \"{}\": node says how high the antenna is, so above = \"ground\" cannot "
-                                 "say it, too: leave one of them out",
+                     fmt::format("[[mount]] \"{}\": node says how high the antenna is, "
+                                 "so above = \"ground\" cannot say it, too: leave one of them out",
                                  config.mounts[i].name)});
   for (size_t i = 0; i < config.parked.size(); ++i)
     if (config.parked[i].places.empty() == config.parked[i].file.empty())

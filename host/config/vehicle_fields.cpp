@@ -1,5 +1,5 @@
-// Rows of the field table about vehicles: their trajectories, bodies and antennas, the frames and links of a drive.
-// The reason for each default stands in the doc of its row; the default itself is the initialiser in config.hpp.
+// Rows of the field table about vehicles: their trajectories, bodies and antennas, the frames and links of a drive. The
+// doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include <utility>
 
 #include "config/field_rows.hpp"
@@ -11,17 +11,16 @@ Table trajectories_table() {
   return {
       .name = "trajectories",
       .doc =
-          "How vehicles move: from a file, generated, or by [[track]] tables. Without any of them there are no "
-          "vehicles.",
+          "The motion of vehicles: from a file, generated, or by [[track]] tables. "
+          "Without any of them there are no vehicles.",
       .fields = {
           {.name = "file",
            .slot = t(&TrajectoriesConfig::file),
            .form = Form::input_file,
-           .doc =
-               "Floating car data of SUMO (--fcd-output, XML or CSV), a GPX track, or CSV with a header that names the "
-               "columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; plain or "
-               "compressed with gzip. Positions in degrees need a georeference.json beside the scene file, and "
-               "their heights are above the ground. docs/scenarios.md lists the other formats."},
+           .doc = "Floating car data of SUMO (--fcd-output, XML or CSV), a GPX track, or CSV with a header "
+                  "that names the columns time, id, x, y (or lat, lon in degrees) and optionally z, yaw, speed, type; "
+                  "plain or compressed with gzip. Positions in degrees need a georeference.json beside "
+                  "the scene file, and their heights are above the ground. docs/scenarios.md lists the other formats."},
           {.name = "generate",
            .slot = t(&TrajectoriesConfig::generate),
            .doc = "Generated traffic instead of a file, in the streets of the city that scene.generate makes: "
@@ -31,17 +30,17 @@ Table trajectories_table() {
            .slot = t(&TrajectoriesConfig::offset_m),
            .unit = "m",
            .range = places,
-           .doc = "Scene file coordinates = scale * coordinates of trajectories.file + offset_m. SUMO moves its "
-                  "networks by a netOffset; its negative value here moves them back."},
+           .doc = "Scene file coordinates = scale * coordinates of trajectories.file + offset_m. "
+                  "SUMO moves its networks by a netOffset; its negative value here moves them back."},
           {.name = "scale",
            .slot = t(&TrajectoriesConfig::scale),
            .range = {0, 1e6, true},
            .doc = "Factor for the positions in trajectories.file only: SUMO's sizes and speeds are in metres."},
           {.name = "above",
            .slot = t(&TrajectoriesConfig::above),
-           .doc = "What z in trajectories.file is measured from. zero: the zero of the scene file. ground: the "
-                  "ground of the scene, so that vehicles of a flat network drive over hills; slopes in the file "
-                  "are then not used."},
+           .doc = "The reference of z in trajectories.file. zero: the zero of the scene file. "
+                  "ground: the ground of the scene, so that vehicles of a flat network drive over hills; "
+                  "slopes in the file are then not used."},
           {.name = "persons",
            .slot = t(&TrajectoriesConfig::persons),
            .doc = "Read the persons of the file too, as person:ID, with the body of a pedestrian."},
@@ -50,9 +49,9 @@ Table trajectories_table() {
            .doc = "Read the containers of the file too, as container:ID."},
           {.name = "default_type",
            .slot = t(&TrajectoriesConfig::default_type),
-           .doc = "Vehicle type of vehicles whose own type is neither a [[vehicle_type]] nor a vehicle class of "
-                  "SUMO. If this is empty, such a vehicle is an error, because a guess of its size could be wrong "
-                  "without anybody noticing."},
+           .doc = "Vehicle type of vehicles whose own type is neither a [[vehicle_type]] nor a vehicle class "
+                  "of SUMO. If this is empty, such a vehicle is an error, because a guess of its size could be "
+                  "wrong without anybody noticing."},
       }};
 }
 
@@ -78,8 +77,8 @@ Table time_table() {
                .unit = "s",
                .range = {0, 1e9},
                .none = "0",
-               .doc = "Time between frames; poses between samples are interpolated smoothly. 0: the time step of the "
-                      "trajectories."},
+               .doc = "Time between frames; poses between samples are interpolated smoothly. "
+                      "0: the time step of the trajectories."},
           }};
 }
 
@@ -88,19 +87,19 @@ Table links_table() {
   return {
       .name = "links",
       .doc =
-          "Which links (pairs of a transmitter and a receiver) are computed. Two ends at the same place on a vehicle, "
+          "Selects the links (pairs of a transmitter and a receiver) that are computed. Two ends at the same place on a vehicle, "
           "such as the two roles of one antenna, are never linked, nor is a [[station]] to itself.",
       .fields = {
           {.name = "max_distance_m",
            .slot = l(&LinksConfig::max_distance_m),
            .unit = "m",
            .range = {0, infinity, true},
-           .doc = "The largest straight distance between the two ends. The default is inf, because only the user knows "
-                  "what is too far."},
+           .doc = "The largest straight distance between the two ends. The default is inf, "
+                  "because only the user knows what is too far."},
           {.name = "transmitters",
            .slot = l(&LinksConfig::transmitters),
-           .doc = "Names of transmitters, with * for any text and ? for any character; the antennas of vehicles are "
-                  "called VEHICLE/MOUNT."},
+           .doc = "Names of transmitters, with * for any text and ? for any character; "
+                  "the antennas of vehicles are called VEHICLE/MOUNT."},
           {.name = "receivers", .slot = l(&LinksConfig::receivers), .doc = "Names of receivers, in the same way."},
           {.name = "v2v", .slot = l(&LinksConfig::v2v), .doc = "Links between two vehicles."},
           {.name = "v2i",
@@ -109,8 +108,8 @@ Table links_table() {
           {.name = "i2i", .slot = l(&LinksConfig::i2i), .doc = "Links between fixed antennas."},
           {.name = "same_vehicle",
            .slot = l(&LinksConfig::same_vehicle),
-           .doc = "Links between two antennas of the same vehicle, whatever v2v says. false, because they are normally "
-                  "connected by a cable."},
+           .doc = "Links between two antennas of the same vehicle, whatever v2v says. "
+                  "false, because they are normally connected by a cable."},
       }};
 }
 
@@ -130,7 +129,7 @@ Table mount_table() {
                    .doc = "Id or type of the vehicles that carry it, with * for any text and ? for any character."},
                   {.name = "role",
                    .slot = m(&MountConfig::role),
-                   .doc = "Whether it sends, receives or does both, as the radios of vehicles do."},
+                   .doc = "The role of the antenna: it sends, receives or does both, as the radios of vehicles do."},
                   {.name = "offset_m",
                    .slot = m(&MountConfig::offset_m),
                    .unit = "m",
@@ -139,12 +138,12 @@ Table mount_table() {
                    .example = "[0.0, 0.0, 1.6]"},
                   {.name = "above",
                    .slot = m(&MountConfig::above),
-                   .doc = "What the third number of offset_m is measured from. zero: the footprint of the vehicle, "
+                   .doc = "The reference of the third number of offset_m. zero: the footprint of the vehicle, "
                           "along its own axes. ground: the ground of the scene below the antenna."},
                   {.name = "node",
                    .slot = m(&MountConfig::node),
-                   .doc = "A named point of the vehicle's body from which offset_m counts: a node of its glTF or OBJ "
-                          "file; built-in bodies have roof_antenna, front_antenna and rear_antenna.",
+                   .doc = "A named point of the vehicle's body from which offset_m counts: a node of its glTF "
+                          "or OBJ file; built-in bodies have roof_antenna, front_antenna and rear_antenna.",
                    .example = "\"roof_antenna\""},
                   antenna_field(m, &MountConfig::antenna),
                   polarization_field(m, &MountConfig::polarization),
@@ -169,46 +168,47 @@ Table vehicle_type_table() {
             .range = {0, 1000},
             .none = "0",
             .doc = std::move(along) +
-                   ". 0: the size of the mesh file, or else the size of SUMO's vehicle class of this name., else that "
-                   "of SUMO's vehicle class of this name."};
+                   ". 0: the size of the mesh file, or else the size of SUMO's vehicle class of this name., "
+                   "else that of SUMO's vehicle class of this name."};
   };
-  return {
-      .name = "vehicle_type",
-      .doc =
-          "What a vehicle type of the trajectories looks like; one table per type. Types that are vehicle classes "
-          "of SUMO need no table.",
-      .fields =
-          {
-              {.name = "name",
-               .slot = v(&VehicleTypeConfig::name),
-               .required = true,
-               .doc = "The name that the trajectories use; unique.",
-               .example = "\"passenger\""},
-              {.name = "model",
-               .slot = v(&VehicleTypeConfig::model),
-               .choices = {NamedBody::words.begin(), NamedBody::words.end()},
-               .form = Form::choice_or_file,
-               .doc = "A built-in body, or a mesh file in metres (x ahead, z up, origin on the ground below the "
-                      "centre), which is stretched to the sizes that are given. auto: chosen by the name of the type; "
-                      "two-wheelers have a motorcycle with a rider. A vehicle without a body can carry antennas too."},
-              size("length_m", &VehicleTypeConfig::length_m, "Length"),
-              size("width_m", &VehicleTypeConfig::width_m, "Width"),
-              size("height_m", &VehicleTypeConfig::height_m, "Height"),
-              {.name = "material",
-               .slot = v(&VehicleTypeConfig::material),
-               .doc = "Radio material of those meshes in the model file that name none."},
-          },
-      .append = append<&Config::vehicle_types>,
-      .count = count<&Config::vehicle_types>,
-      .optional = true};
+  return {.name = "vehicle_type",
+          .doc =
+              "The body of a vehicle type of the trajectories; one table per type. "
+              "Types that are vehicle classes of SUMO need no table.",
+          .fields =
+              {
+                  {.name = "name",
+                   .slot = v(&VehicleTypeConfig::name),
+                   .required = true,
+                   .doc = "The name that the trajectories use; unique.",
+                   .example = "\"passenger\""},
+                  {.name = "model",
+                   .slot = v(&VehicleTypeConfig::model),
+                   .choices = {NamedBody::words.begin(), NamedBody::words.end()},
+                   .form = Form::choice_or_file,
+                   .doc = "A built-in body, or a mesh file in metres (x ahead, z up, origin on the ground below "
+                          "the centre), which is stretched to the sizes that are given. "
+                          "auto: chosen by the name of the type; "
+                          "two-wheelers have a motorcycle with a rider. "
+                          "A vehicle without a body can carry antennas too."},
+                  size("length_m", &VehicleTypeConfig::length_m, "Length"),
+                  size("width_m", &VehicleTypeConfig::width_m, "Width"),
+                  size("height_m", &VehicleTypeConfig::height_m, "Height"),
+                  {.name = "material",
+                   .slot = v(&VehicleTypeConfig::material),
+                   .doc = "Radio material of those meshes in the model file that name none."},
+              },
+          .append = append<&Config::vehicle_types>,
+          .count = count<&Config::vehicle_types>,
+          .optional = true};
 }
 
 Table parked_table() {
   const auto p = [](auto member) { return at(&Config::parked, member); };
   return {.name = "parked",
           .doc =
-              "Vehicles that stand in all frames, called NAME/0, NAME/1, ...; one table per group. They reflect and "
-              "block as others do.",
+              "Vehicles that stand in all frames, called NAME/0, NAME/1, ...; one table per group. "
+              "They reflect and block as others do.",
           .fields =
               {
                   {.name = "name",
@@ -220,8 +220,8 @@ Table parked_table() {
                    .slot = p(&ParkedConfig::places),
                    .unit = "m, m, m, degrees",
                    .range = places,
-                   .doc = "Each place is [x, y, z, yaw] in the coordinates of the scene file: the centre of the "
-                          "footprint, on the ground, and the heading, counter-clockwise from +x.",
+                   .doc = "Each place is [x, y, z, yaw] in the coordinates of the scene file: "
+                          "the centre of the footprint, on the ground, and the heading, counter-clockwise from +x.",
                    .example = "[[-20.0, 4.2, 0.0, 180.0], [-26.0, 4.2, 0.0, 180.0]]"},
                   {.name = "file",
                    .slot = p(&ParkedConfig::file),
@@ -233,7 +233,7 @@ Table parked_table() {
                    .doc = "A [[vehicle_type]], or a vehicle class of SUMO; of places that name none."},
                   {.name = "mounts",
                    .slot = p(&ParkedConfig::mounts),
-                   .doc = "Whether [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
+                   .doc = "true: [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
               },
           .append = append<&Config::parked>,
           .count = count<&Config::parked>,
@@ -245,8 +245,8 @@ Table track_table() {
   return {
       .name = "track",
       .doc =
-          "A vehicle that moves through waypoints on a smooth curve; one table per vehicle, with or without other "
-          "trajectories.",
+          "A vehicle that moves through waypoints on a smooth curve; one table per vehicle, "
+          "with or without other trajectories.",
       .fields =
           {
               {.name = "id",
@@ -268,13 +268,13 @@ Table track_table() {
                .slot = t(&TrackConfig::waypoints_wgs84),
                .unit = "s, degrees, degrees, m",
                .range = instants,
-               .doc = "Instead of waypoints: each is [time, latitude, longitude, height above the ground] (WGS84); the "
-                      "vehicle follows the ground between them, too.",
+               .doc = "Instead of waypoints: each is [time, latitude, longitude, height above the ground] (WGS84); "
+                      "the vehicle follows the ground between them, too.",
                .example = "[[0.0, 48.137, 11.575, 0.0], [5.0, 48.137, 11.576, 0.0]]"},
               {.name = "above",
                .slot = t(&TrackConfig::above),
-               .doc = "What the z of waypoints is measured from. zero: it is that of the scene file. ground: the "
-                      "ground of the scene, which the vehicle follows between waypoints, too."},
+               .doc = "The reference of the z of waypoints. zero: it is that of the scene file. "
+                      "ground: the ground of the scene, which the vehicle follows between waypoints, too."},
           },
       .append = append<&Config::tracks>,
       .count = count<&Config::tracks>,

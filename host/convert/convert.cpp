@@ -1,5 +1,4 @@
-// The list of formats.
-// Assumes nothing of the run.
+// Holds the list of formats.
 #include "convert/convert.hpp"
 #include <array>
 

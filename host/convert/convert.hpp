@@ -1,5 +1,5 @@
-// Runs in the formats of other programs: one function per format, and the list that `wavetracer convert --to` offers.
-// Each writes what its readers expect, whole or not at all, and says in its own file which conventions that means.
+// Exports of runs to the formats of other programs: one function per format, and the list that `wavetracer convert
+// --to` offers. Each writes what its readers expect, completely or not at all; its own file describes the conventions.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -15,20 +15,20 @@ struct ExportOptions {
   std::filesystem::path output;        // a file or a folder, by the format; its parent folder must exist
   size_t first_row = 0, last_row = 0;  // frames of the run, both included
   std::string projection =
-      {};  // kml, osi: PROJ string of the scene's coordinates; empty: that of its georeference.json
-  // How far it is: asked before each frame, with the number of those that are done, of all. May be left out.
+      {};  // for kml and osi: PROJ string of the scene's coordinates; empty: that of its georeference.json
+  // Reports progress: called before each frame with the number of frames done and the number of all. It may be empty.
   std::function<void(uint64_t done, uint64_t total)> at = {};
-  // row: of the frame that is next.
+  // row: row of the next frame
   void tell(size_t row) const {
     if (at) at(row - first_row, last_row - first_row + 1);
   }
 };
 
 struct Exporter {
-  const char* name;    // of --to
-  const char* suffix;  // of the output, such as ".npz"; empty where it is a folder
-  const char* doc;     // one line: what it is, who reads it
-  // Returns the files that it wrote, the main one first. Warnings go to `warnings`. Throws InputError, RuntimeError.
+  const char* name;    // name that --to takes
+  const char* suffix;  // suffix of the output, such as ".npz"; empty if it is a folder
+  const char* doc;     // one line: what the format is, and who reads it
+  // Returns the files that it wrote, the main one first. Adds warnings to `warnings`. Throws InputError, RuntimeError.
   std::vector<std::filesystem::path> (*write)(const SavedRun&, const ExportOptions&,
                                               std::vector<std::string>& warnings);
 };

@@ -1,5 +1,6 @@
-// A scenario folder of DeepMIMO 4: a transmitter has one .npz an array, (receiver, path), NaN where there is no path.
-// Its phase is that of the channel at the carrier, arg(a) - 2 pi f delay; its channels are h(f), subcarrier 0 at f.
+// Writes a scenario folder of DeepMIMO 4: each transmitter has one .npz per array, (receiver, path), NaN where there is
+// no path. Its phase is that of the channel at the carrier, arg(a) - 2 pi f delay; its channels are h(f), with
+// subcarrier 0 at f.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -18,9 +19,9 @@ namespace wavetracer {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr uint32_t tx_set = 0, rx_set = 1;  // of the scenario: all transmitters, all receivers
-constexpr size_t default_paths = 25;        // that dm.load() takes of a link unless it is told otherwise
-constexpr uint32_t most_digits = 15;        // of an interaction code that a double holds exactly
+constexpr uint32_t tx_set = 0, rx_set = 1;  // the scenario's sets: all transmitters, all receivers
+constexpr size_t default_paths = 25;        // number of paths of each link that dm.load() loads by default
+constexpr uint32_t most_digits = 15;        // digits of an interaction code that a double holds exactly
 
 struct Sizes {
   size_t paths = 1, depth = 1;
@@ -28,10 +29,10 @@ struct Sizes {
 
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
-// DeepMIMO's digits of interactions, from 1 on.
+// DeepMIMO's digits of interactions start at 1.
 constexpr std::array<uint8_t, 4> interaction_digits{reflection, diffraction, scattering, transmission};
 
-// A digit an interaction, from the transmitter on.
+// Returns the code with one digit per interaction, from the transmitter on.
 double interaction_code(const Paths& paths, size_t row) {
   double code = 0;
   for (uint64_t v = paths.vertex_offset[row]; v < paths.vertex_offset[row + 1]; ++v) {
@@ -44,7 +45,8 @@ double interaction_code(const Paths& paths, size_t row) {
   return code;
 }
 
-// Line of sight first, because DeepMIMO looks for it there; then the strongest, because it loads the first ones.
+// The line of sight comes first, because DeepMIMO looks for it there; then come the strongest paths, because it loads
+// the first ones.
 void order_rows(const Paths& paths, std::span<uint32_t> rows) {
   std::stable_sort(rows.begin(), rows.end(), [&](uint32_t a, uint32_t b) {
     const bool los_a = paths.depth[a] == 0, los_b = paths.depth[b] == 0;
@@ -52,7 +54,7 @@ void order_rows(const Paths& paths, std::span<uint32_t> rows) {
   });
 }
 
-// The arrays of one transmitter in one frame, (receiver, path) but for inter_pos.
+// The arrays of one transmitter in one frame; all are (receiver, path) except inter_pos.
 struct TransmitterArrays {
   Sizes sizes;
   std::vector<double> power, phase, delay, aoa_az, aoa_el, aod_az, aod_el, inter, inter_pos, doppler;
@@ -135,7 +137,7 @@ void write_frame(const PendingFolder& folder, const std::filesystem::path& where
   }
 }
 
-// The channels of each transmitter in the order of DeepMIMO's, (receiver, rx antenna, tx antenna, subcarrier, time).
+// Writes the channels of each transmitter in DeepMIMO's order: (receiver, rx antenna, tx antenna, subcarrier, time).
 void write_channels(const PendingFolder& folder, const SavedRun& run, const ExportOptions& options,
                     const ResponseArray& all, size_t digits) {
   const size_t per_receiver = all.rx_antennas * all.tx_antennas * all.frequencies * all.times;
@@ -149,7 +151,7 @@ void write_channels(const PendingFolder& folder, const SavedRun& run, const Expo
       for (size_t i = 0; i < all.rx * per_receiver; ++i) {
         const size_t time = i % all.times, k = i / all.times % all.frequencies,
                      t = i / all.times / all.frequencies % all.tx_antennas,
-                     receiver = i / all.times / all.frequencies / all.tx_antennas;  // and its antenna
+                     receiver = i / all.times / all.frequencies / all.tx_antennas;  // receiver and its antenna
         const size_t pair = ((frame * all.rx * all.rx_antennas + receiver) * all.tx + tx) * all.tx_antennas + t;
         const size_t cell = (pair * all.times + time) * all.frequencies + k;
         re.push_back(all.re[cell]);
@@ -161,7 +163,7 @@ void write_channels(const PendingFolder& folder, const SavedRun& run, const Expo
     }
 }
 
-// Sizes of the arrays, and how many receivers have a path at all.
+// Returns the sizes of the arrays, and the number of receivers that have a path.
 Sizes measure(const SavedRun& run, const ExportOptions& options, size_t& active_receivers) {
   Sizes sizes;
   std::vector<bool> active(run.receivers().size());
@@ -265,7 +267,7 @@ Written export_deepmimo(const SavedRun& run, const ExportOptions& options, Warni
   for (size_t row = options.first_row; row <= options.last_row; ++row) {
     options.tell(row);
     const SavedFrame frame = run.frame(row);
-    // Snapshots are loaded in the order of the names of their folders.
+    // DeepMIMO loads snapshots in the order of the names of their folders.
     const std::filesystem::path where = frames > 1 ? fmt::format("frame_{:0{}}", frame.number, digits) : "";
     write_frame(folder, where, frame, sizes, run.frequency_hz());
     scene_size = scene.write(folder, where, frame);
@@ -273,8 +275,8 @@ Written export_deepmimo(const SavedRun& run, const ExportOptions& options, Warni
   if (const auto responses = response_array(run, options, "deepmimo")) {
     write_channels(folder, run, options, *responses, digits);
     warnings.push_back(
-        "deepmimo: it computes channels itself and loads none; channel_*.npz beside its arrays hold those of "
-        "responses.h5, (receiver, rx antenna, tx antenna, subcarrier, time)");
+        "deepmimo: it computes channels itself and loads none; channel_*.npz beside its arrays hold those "
+        "of responses.h5, (receiver, rx antenna, tx antenna, subcarrier, time)");
   }
   nlohmann::ordered_json params;
   params["version"] = "4.0.0";

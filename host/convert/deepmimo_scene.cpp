@@ -1,5 +1,5 @@
-// Objects of the scene keep their names and are buildings to DeepMIMO; vehicles are objects, where the frame has them.
-// An object that owns no triangle is left out: DeepMIMO cannot say where it is.
+// Objects of the scene keep their names and are buildings for DeepMIMO; vehicles are objects if the frame has them. An
+// object without triangles is left out: DeepMIMO cannot say where it is.
 #include "convert/deepmimo_scene.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace wavetracer {
 namespace {
 
-// Meshes in the making: one list of vertices, and of each object its triangles and their materials.
+// The meshes so far: one list of vertices, and the triangles and materials of each object.
 struct Meshes {
   std::vector<double> vertices;
   std::vector<std::vector<uint32_t>> faces, materials;
@@ -22,7 +22,7 @@ struct Meshes {
     faces.push_back(std::move(triangles));
     materials.push_back(std::move(material));
   }
-  // Returns the index of the first.
+  // Returns the index of the first vertex.
   template <typename Place>
   uint32_t add_vertices(const Scene& scene, Place place) {
     const auto first = static_cast<uint32_t>(vertices.size() / 3);

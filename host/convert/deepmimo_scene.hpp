@@ -1,5 +1,5 @@
-// The city and the vehicles of a run as DeepMIMO's Scene: a triangle mesh an object, and a list of materials.
-// What can no longer be loaded is left out with a warning; the channels do not need it.
+// Writes the city and the vehicles of a run as DeepMIMO's Scene: one triangle mesh per object, and a list of materials.
+// Files that can no longer be loaded are left out with a warning; the channels do not need them.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -18,17 +18,18 @@ class DeepmimoScene {
   DeepmimoScene(const SavedRun& run, Warnings& warnings);
   const Config& config() const { return world_.config; }
   nlohmann::ordered_json materials() const;
-  // vertices.npz, faces.npz, materials.npz and objects.json in a folder of the scenario.
+  // Writes vertices.npz, faces.npz, materials.npz and objects.json into a folder of the scenario.
   SceneSize write(const PendingFolder& folder, const std::filesystem::path& where, const SavedFrame& frame) const;
 
  private:
   SavedWorld world_;
-  std::vector<std::string> vehicles_;     // names, a row of /instances each
-  std::vector<uint32_t> first_material_;  // of the scene and of each model, in the list of all of them
+  std::vector<std::string> vehicles_;  // names, one for each row of /instances
+  // Index of the first material of the scene and of each model in the list of all materials.
+  std::vector<uint32_t> first_material_;
   double frequency_hz_ = 0;
 };
 
-// What is not UTF-8 in names is replaced.
+// Replaces bytes of names that are not UTF-8.
 std::string json_text(const nlohmann::ordered_json& value);
 
 }  // namespace wavetracer

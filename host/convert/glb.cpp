@@ -1,6 +1,7 @@
-// glTF 2.0: the scene object by object, vehicles, paths and sampled rays of the first frame, ends; with several frames
-// an animation. The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it are in file
-// axes: a reader that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay near zero.
+// Writes glTF 2.0: the scene object by object, vehicles, paths and sampled rays of the first frame, and ends; several
+// frames make an animation. The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it
+// are in file axes: a reader that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay
+// near zero.
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
@@ -36,7 +37,7 @@ class GlbWriter {
   void add_ends(const std::vector<NodeTrack>& transmitters, const std::vector<NodeTrack>& receivers);
   void add_paths(const SavedFrame& frame, Warnings& warnings);
   void add_rays(const WaypointRows& rays);
-  // times_s: of the frames that all tracks have keys of.
+  // times_s: times of the frames at which all tracks have keys
   void set_times(std::vector<float> times_s) { times_s_ = std::move(times_s); }
   void write(const std::filesystem::path& path) { file_.write(path); }
 
@@ -66,7 +67,7 @@ class GlbWriter {
   std::optional<size_t> line_material_, all_times_;
 };
 
-// One a radio material, under its name.
+// Makes one glTF material per radio material, with its name.
 size_t GlbWriter::material(const Material& material) {
   for (const auto& [known, index] : materials_)
     if (known == material) return index;
@@ -75,7 +76,8 @@ size_t GlbWriter::material(const Material& material) {
   return index;
 }
 
-// One node a material, whose mesh is all of its volumes: translucent, and closed, so that they can be read back.
+// Adds one node per material, whose mesh contains all of its volumes: translucent, and closed, so that they can be read
+// back.
 void GlbWriter::add_vegetation() {
   const Scene& scene = world_.scene;
   if (scene.volumes.empty()) return;
@@ -99,7 +101,7 @@ void GlbWriter::add_vegetation() {
   }
 }
 
-// Of paths and markers: the colours of their vertices, whatever the light.
+// Makes the material of paths and markers: it shows the colours of their vertices without lighting.
 size_t GlbWriter::line_material() {
   if (!line_material_) {
     file_.root()["extensionsUsed"] = {"KHR_materials_unlit"};
@@ -110,7 +112,8 @@ size_t GlbWriter::line_material() {
   return *line_material_;
 }
 
-// Triangles of one material. They name each vertex once; normals are left out, which means flat shading.
+// Makes a primitive of the triangles of one material. Each vertex is stored once; normals are left out, which means
+// flat shading.
 json GlbWriter::primitive(const Scene& scene, const std::vector<uint32_t>& triangles, const glm::dvec3& offset_m) {
   std::vector<uint32_t> used;
   for (const uint32_t t : triangles) used.insert(used.end(), scene.triangles[t].begin(), scene.triangles[t].end());
@@ -128,7 +131,7 @@ json GlbWriter::primitive(const Scene& scene, const std::vector<uint32_t>& trian
           {"material", material(scene.materials[of])}};
 }
 
-// One a material, in the order in which they are first met.
+// Makes one primitive per material, in the order in which materials first appear.
 json GlbWriter::primitives(const Scene& scene, std::vector<uint32_t> triangles, const glm::dvec3& offset_m) {
   const auto material_of = [&](uint32_t t) { return scene.surfaces[scene.triangle_surface[t]].material; };
   std::ranges::stable_sort(triangles, {}, material_of);
@@ -168,7 +171,7 @@ void GlbWriter::channel(size_t target, const char* path, size_t times, size_t va
       {{"sampler", samplers.size() - 1}, {"target", {{"node", target}, {"path", path}}}});
 }
 
-// Positions and rotations where they change; what is absent has the size 0.
+// Stores positions and rotations where they change; an absent object gets size 0.
 void GlbWriter::animate(size_t target, const NodeTrack& track) {
   if (!all_times_) all_times_ = file_.add_times(times_s_);
   std::vector<float> times_s;
@@ -179,7 +182,8 @@ void GlbWriter::animate(size_t target, const NodeTrack& track) {
     const auto& key = track.keys[i];
     scales.emplace_back(key ? 1.0f : 0.0f);
     if (!key) continue;
-    const glm::dquat q = glm::dot(key->rotation, last) < 0 ? -key->rotation : key->rotation;  // the short way round
+    // Turns the shorter way round.
+    const glm::dquat q = glm::dot(key->rotation, last) < 0 ? -key->rotation : key->rotation;
     times_s.push_back(times_s_[i]);
     positions.emplace_back(key->position_m - world_.scene.origin_m);
     rotations.emplace_back(q.x, q.y, q.z, q.w);

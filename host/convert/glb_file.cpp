@@ -1,5 +1,5 @@
-// The layout of .glb: a header of 12 bytes, then chunks of JSON and of the buffer, each padded to 4 bytes.
-// Names that are not UTF-8 get U+FFFD in place of what is not.
+// The layout of .glb: a header of 12 bytes, then chunks of JSON and of the buffer, each padded to 4 bytes. In names,
+// bytes that are not UTF-8 become U+FFFD.
 #include "convert/glb_file.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -88,8 +88,8 @@ void GlbFile::write(const std::filesystem::path& path) {
   const size_t size = 12 + 8 + text.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
   if (size > std::numeric_limits<uint32_t>::max())
     throw RuntimeError(
-        fmt::format("{}: would be {:.1f} GiB, and a .glb file holds 4 at most; convert fewer frames, or "
-                    "to vtk, which has no such limit",
+        fmt::format("{}: would be {:.1f} GiB, and a .glb file holds 4 at most; convert fewer frames, or to vtk, "
+                    "which has no such limit",
                     path.string(), static_cast<double>(size) * 0x1p-30));
   PendingFile file(path);
   const auto words = [&file](std::array<uint32_t, 2> values) { file.write(std::as_bytes(std::span(values))); };

@@ -21,12 +21,12 @@ class GlbFile {
   using Colour = std::array<uint8_t, 4>;  // linear, not sRGB
 
   GlbFile();
-  // Each adds an accessor of its own and returns its index. None may be empty.
+  // Each function adds an accessor and returns its index. Arrays must not be empty.
   size_t add_positions(const std::vector<glm::vec3>& values);
   size_t add_colours(const std::vector<Colour>& values);
   size_t add_indices(const std::vector<uint32_t>& values);
-  size_t add_times(const std::vector<float>& values);             // of the keyframes of an animation
-  size_t add_translations(const std::vector<glm::vec3>& values);  // or scales
+  size_t add_times(const std::vector<float>& values);             // times of an animation's keyframes
+  size_t add_translations(const std::vector<glm::vec3>& values);  // also used for scales
   size_t add_rotations(const std::vector<glm::vec4>& values);     // quaternions (x, y, z, w)
 
   // Appends to the array of that name ("nodes", "meshes", ...) and returns its index there.

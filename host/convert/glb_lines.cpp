@@ -1,5 +1,5 @@
-// Colours are those of the vertices, linear as glTF wants them.
-// A position is named by two legs where a line goes on, so that lines share their corners.
+// Colours belong to vertices and are linear, as glTF requires.
+// If a line continues, both legs use the same position, so that lines share their corners.
 #include "convert/glb_lines.hpp"
 #include <algorithm>
 #include <cmath>

@@ -20,10 +20,10 @@ json base_colour(const Material& material) {
   if (material.vegetation) return {0.08, 0.32, 0.09, 0.4};
   for (const auto& entry : known)
     if (material.name == entry.name) return {entry.colour[0], entry.colour[1], entry.colour[2], 1.0};
-  return {0.32, 0.32, 0.31, 1.0};  // as concrete
+  return {0.32, 0.32, 0.31, 1.0};  // the colour of concrete
 }
 
-// What the configuration gives of a law of vegetation.
+// Returns the configuration's values of a vegetation law.
 json law_of(const VegetationLaw& vegetation) {
   json law{{"vegetation", vegetation.deciduous ? "deciduous" : "mixed"}, {"in_leaf", vegetation.in_leaf}};
   if (vegetation.attenuation_db_m) law["attenuation_db_m"] = *vegetation.attenuation_db_m;

@@ -1,5 +1,5 @@
-// Radio materials as those of a glTF file: their names, colours as people expect them, and their laws in extras, so
-// that a custom one is not lost.
+// Writes radio materials as materials of a glTF file: their names, the colours that people expect, and their laws in
+// "extras", so that a custom law is not lost.
 #pragma once
 #include <nlohmann/json.hpp>
 #include "wavetracer/scene.hpp"

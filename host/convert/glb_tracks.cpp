@@ -1,5 +1,5 @@
-// Rotations as quaternions, which is how glTF has them.
-// Assumes indices as SavedRun checks them.
+// Rotations are quaternions, as in glTF.
+// Indices must be valid, as SavedRun checks them.
 #include "convert/glb_tracks.hpp"
 #include <cmath>
 #include "convert/vtk_glb_kml.hpp"

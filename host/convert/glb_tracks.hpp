@@ -1,5 +1,5 @@
-// Where vehicles and ends are in the chosen frames, as keys of an animation.
-// Frames whose time does not go on, or is none, have no key.
+// The places of vehicles and ends in the chosen frames, as keys of an animation.
+// A frame whose time does not increase, or is not a number, has no key.
 #pragma once
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-// Where a node is, frame by frame; nothing while it is absent.
+// The place of a node in each frame; nothing while it is absent.
 struct NodeTrack {
   struct Key {
     glm::dvec3 position_m{0};
@@ -26,7 +26,7 @@ struct NodeTrack {
 };
 
 struct NodeTracks {
-  std::vector<float> times_s;  // since the first frame
+  std::vector<float> times_s;  // times since the first frame
   std::vector<NodeTrack> vehicles, transmitters, receivers;
 
   // Reads the rows after the first one, a frame at a time. first: the frame of options.first_row.

@@ -1,6 +1,6 @@
-// KML 2.2: ends, vehicles and paths, frame by frame. Longitudes and latitudes are those of WGS 84; heights are those of
-// the scene, taken as heights above the ground of the earth there. The run's 0 s is the first second of the year 2000,
-// and times from 1e9 s on count from 1970.
+// Writes KML 2.2: ends, vehicles and paths, frame by frame. Longitudes and latitudes are those of WGS 84; heights of
+// the scene count as heights above the real ground. The run's 0 s is the first second of the year 2000; times from 1e9
+// s on are seconds since 1970.
 #include <fmt/format.h>
 #include <chrono>
 #include <cmath>
@@ -17,9 +17,10 @@
 namespace wavetracer {
 namespace {
 
-// Google Earth shows some ten thousand lines and stops being of use: so many paths are written, evenly by frame.
+// Google Earth becomes too slow beyond some ten thousand lines, so at most this many paths are written, spread evenly
+// over the frames.
 constexpr size_t max_paths_frame = 1000, max_paths = 50000;
-constexpr size_t gain_classes = 12;   // of 5 dB
+constexpr size_t gain_classes = 12;   // steps of 5 dB
 constexpr double since_1970_s = 1e9;  // from this time on, in 2001, times are taken as seconds since 1970
 constexpr double latest_s = 2e11;     // the year 8307
 
@@ -47,7 +48,7 @@ std::string date(double time_s) {
                      clock.subseconds().count());
 }
 
-// A first look at all chosen frames: the strongest path, and which ends stay where they are.
+// A first pass over all chosen frames: it finds the strongest path, and the ends that do not move.
 struct Survey {
   GainScale gains;
   std::vector<uint8_t> transmitter_stays, receiver_stays;
@@ -65,7 +66,7 @@ struct Survey {
     }
   }
   static void compare(std::vector<uint8_t>& stays, const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
-    for (size_t i = 0; i < stays.size(); ++i) stays[i] &= a[i] == b[i];  // absent: NaN, equal to nothing
+    for (size_t i = 0; i < stays.size(); ++i) stays[i] &= a[i] == b[i];  // NaN for an absent end, which equals nothing
   }
 };
 
@@ -89,7 +90,7 @@ class KmlWriter {
   void put(const std::string& text) { file_.write(std::as_bytes(std::span(text))); }
   void put_styles();
   std::string coordinates(const glm::dvec3& p) const;
-  // Heights of scenes with a terrain are above sea level, those of others above their flat ground.
+  // Heights of scenes with a terrain are above sea level, those of other scenes above their flat ground.
   std::string altitude_mode() const {
     return fmt::format("<altitudeMode>{}</altitudeMode>", place_.elevation_m ? "absolute" : "relativeToGround");
   }
@@ -108,17 +109,17 @@ class KmlWriter {
   Projection projection_;
   Survey survey_;
   PendingFile file_;
-  size_t limit_ = 0;        // paths per frame
-  uint64_t left_out_ = 0;   // by the limit
-  uint64_t not_drawn_ = 0;  // points that are not finite
+  size_t limit_ = 0;        // largest number of paths per frame
+  uint64_t left_out_ = 0;   // paths left out because of the limit
+  uint64_t not_drawn_ = 0;  // paths left out because of points that are not finite
 };
 
 std::string KmlWriter::coordinates(const glm::dvec3& p) const {
   const glm::dvec2 earth = projection_.geographic({p.x, p.y});
   if (!(std::abs(earth.x) <= 180 && std::abs(earth.y) <= 90))
     throw InputError(
-        fmt::format("kml: x = {} m, y = {} m is not on the earth in \"{}\": is that the projection of the "
-                    "scene's coordinates?",
+        fmt::format("kml: x = {} m, y = {} m is not on the earth in \"{}\": is that the projection of "
+                    "the scene's coordinates?",
                     p.x, p.y, place_.projection));
   return fmt::format("{:.9f},{:.9f},{:.4f}", earth.x, earth.y, p.z + place_.elevation_m.value_or(0));
 }
@@ -127,7 +128,8 @@ std::string KmlWriter::point(const glm::dvec3& p) const {
   return "<Point>" + altitude_mode() + "<coordinates>" + coordinates(p) + "</coordinates></Point>";
 }
 
-// From a frame to the next one; the last is as long as the one before it. A single frame has no times.
+// Returns the time span up to the next frame; the last frame is as long as the one before it. A single frame has no
+// times.
 std::string KmlWriter::times(size_t row) const {
   if (options_.first_row == options_.last_row) return "";
   const double begin_s = run_.time_s(row);
@@ -145,7 +147,7 @@ std::string data_of(const char* name, const std::string& value) {
   return fmt::format("<Data name=\"{}\"><value>{}</value></Data>", name, xml_text(value));
 }
 
-// Colours of KML are alpha, blue, green, red.
+// Colours in KML are alpha, blue, green, red.
 void KmlWriter::put_styles() {
   for (size_t k = 0; k < gain_classes; ++k) {
     const Rgb c = gain_colour((static_cast<double>(k) + 0.5) / gain_classes);
@@ -162,7 +164,7 @@ void KmlWriter::put_styles() {
       "</Style>\n");
 }
 
-// A radio that sends and receives, under one name, is one placemark.
+// A radio that sends and receives under one name becomes one placemark.
 void KmlWriter::put_ends(const SavedFrame& frame, const std::string& span, bool staying) {
   std::map<std::string_view, const char*> styles;
   for (const RadioEnd& end : run_.transmitters()) styles[end.name] = "transmitter";
@@ -182,7 +184,8 @@ void KmlWriter::put_ends(const SavedFrame& frame, const std::string& span, bool 
   put_kind(true, run_.receivers(), frame.receiver_position_m, survey_.receiver_stays);
 }
 
-// As boxes: the footprint of the body's bounding box, at the height of its roof, with walls down to the ground.
+// Writes vehicles as boxes: the footprint of the body's bounding box, at the height of its roof, with walls down to the
+// ground.
 void KmlWriter::put_vehicles(const SavedFrame& frame, const std::string& span) {
   for (const SavedPose& pose : frame.poses) {
     if (!is_finite(pose)) continue;
@@ -263,8 +266,8 @@ void KmlWriter::write(Warnings& warnings) {
   file_.commit();
   if (left_out_ > 0)
     warnings.push_back(
-        fmt::format("kml: the {} strongest paths of each frame are written, {} are left out: Google Earth "
-                    "shows no more than some {} lines",
+        fmt::format("kml: the {} strongest paths of each frame are written, {} are left out: "
+                    "Google Earth shows no more than some {} lines",
                     limit_, left_out_, max_paths));
   if (not_drawn_ > 0)
     warnings.push_back(fmt::format("kml: {} paths with points that are not finite are left out", not_drawn_));

@@ -1,5 +1,4 @@
-// Characters of XML 1.0, section 2.2; all of them except for these are written as they are.
-// Assumes nothing of its input.
+// Characters of XML 1.0, section 2.2, are written unchanged, except for those below.
 #include "convert/kml_text.hpp"
 #include "convert/unicode.hpp"
 

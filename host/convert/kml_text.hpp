@@ -6,7 +6,7 @@
 
 namespace wavetracer {
 
-// With <, >, &, " and ' escaped; what is not UTF-8, and characters that XML forbids, become U+FFFD.
+// Escapes <, >, &, " and '; bytes that are not UTF-8, and characters that XML forbids, become U+FFFD.
 std::string xml_text(std::string_view utf8);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// A run as one MATLAB struct of arrays, with the groups and names of paths.h5; complex coefficients.
+// Writes a run as one MATLAB struct of arrays, with the groups and names of paths.h5 and complex coefficients.
 // Rows count from 1, as MATLAB's do: tx, rx, instance, first_path and first_vertex can be used as indices.
 #include <functional>
 #include "base/pending_file.hpp"
@@ -11,10 +11,11 @@ namespace wavetracer {
 namespace {
 
 constexpr const char* conventions =
-    "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). Angles are those of the global "
-    "frame: theta from +z, phi from +x towards +y. tx, rx and instance are rows of transmitters, receivers and "
-    "instances, counted from 1; instance 0 is the static scene. The vertices of path i are rows first_vertex(i) to "
-    "first_vertex(i + 1) - 1, the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: ";
+    "h(f) = sum over paths of a exp(-j 2 pi f delay_s). a is (path, rx port, tx port). "
+    "Angles are those of the global frame: theta from +z, phi from +x towards +y. "
+    "tx, rx and instance are rows of transmitters, receivers and instances, counted from 1; "
+    "instance 0 is the static scene. The vertices of path i are rows first_vertex(i) to first_vertex(i + 1) - 1, "
+    "the paths of frame i rows first_path(i) to first_path(i + 1) - 1. interaction: ";
 
 std::string conventions_text() {
   return conventions + interaction_legend() +
@@ -23,7 +24,7 @@ std::string conventions_text() {
          "(time, rx antenna, tx antenna), the last of which goes fastest.";
 }
 
-// rows x width values in MATLAB's order.
+// Writes rows x width values in MATLAB's order.
 template <typename T, typename Value>
 std::vector<T> by_column(size_t rows, size_t width, Value value) {
   std::vector<T> out;
@@ -33,7 +34,7 @@ std::vector<T> by_column(size_t rows, size_t width, Value value) {
   return out;
 }
 
-// All frames one below the other.
+// Puts the columns of all frames one below the other.
 class Columns {
  public:
   Columns(MatlabFile& file, const std::vector<SavedFrame>& frames) : file_(file), frames_(frames) {}
@@ -46,7 +47,7 @@ class Columns {
     file_.add(path, {all.size(), 1}, all);
   }
 
-  // points(frame) yields the vectors of a frame.
+  // points(frame) returns the vectors of a frame.
   template <typename Points>
   void add_points(const std::string& path, Points points) const {
     std::vector<glm::dvec3> all;
@@ -90,7 +91,7 @@ void add_paths(MatlabFile& file, const std::vector<SavedFrame>& frames, const Sa
   }
   const auto coefficients =
       by_column<std::complex<double>>(a.size(), rx_ports * tx_ports, [&](size_t i, size_t column) {
-        return a[i][column % rx_ports * tx_ports + column / rx_ports];  // in a the tx port goes fastest
+        return a[i][column % rx_ports * tx_ports + column / rx_ports];  // in a, the tx port varies fastest
       });
   file.add("/run/paths/a", {a.size(), rx_ports, tx_ports}, coefficients);
   file.add("/run/paths/first_vertex", {first_vertex.size(), 1}, first_vertex);
@@ -99,7 +100,7 @@ void add_paths(MatlabFile& file, const std::vector<SavedFrame>& frames, const Sa
   columns.add_points("/run/vertices/position_m", [](const SavedFrame& frame) { return frame.paths.vertex_position_m; });
   columns.add("/run/vertices/interaction", &Paths::vertex_interaction);
   columns.add("/run/vertices/surface", &Paths::vertex_surface);
-  static_assert(no_instance + 1u == 0);  // so the scene is 0
+  static_assert(no_instance + 1u == 0);  // so no_instance becomes 0, the scene
   columns.add("/run/vertices/instance", &Paths::vertex_instance, 1u);
 }
 
@@ -115,7 +116,7 @@ void add_frames(MatlabFile& file, const std::vector<SavedFrame>& frames) {
   file.add("/run/frames/frame", {number.size(), 1}, number);
   file.add("/run/frames/time_s", {time_s.size(), 1}, time_s);
   file.add("/run/frames/first_path", {first_path.size(), 1}, first_path);
-  // (frame, end, coordinate)
+  // The order is (frame, end, coordinate).
   const auto motion = [&](const char* name, std::vector<glm::dvec3> SavedFrame::*member) {
     const size_t ends = (frames.front().*member).size();
     file.add(std::string("/run/frames/") + name, {frames.size(), ends, 3},
@@ -180,7 +181,7 @@ void add_vehicles(MatlabFile& file, const std::vector<SavedFrame>& frames, const
   file.add("/run/poses/instance", {instance.size(), 1}, instance);
   vectors("position_m", &SavedPose::position_m);
   vectors("velocity_m_s", &SavedPose::velocity_m_s);
-  // (pose, row, column): glm's matrices and MATLAB's have their columns one after the other.
+  // The order is (pose, row, column): both glm and MATLAB store matrices column by column.
   file.add("/run/poses/rotation", {rotation.size(), 3, 3},
            by_column<double>(rotation.size(), 9, [&](size_t i, size_t k) {
              return rotation[i][static_cast<glm::length_t>(k / 3)][static_cast<glm::length_t>(k % 3)];
@@ -201,8 +202,8 @@ void add_links(MatlabFile& file, const std::vector<SavedFrame>& frames) {
   file.add("/run/links/rx", {rx.size(), 1}, rx);
 }
 
-// h is (response, frequency); the responses of link i of these rows are first_response(i) to first_response(i + 1) - 1,
-// one for each time, receiving and transmitting antenna, the last of which goes fastest.
+// h is (response, frequency). The responses of link i of these rows are first_response(i) to first_response(i + 1) - 1,
+// one for each time, receiving antenna and transmitting antenna, the last of which varies fastest.
 void add_responses(MatlabFile& file, const SavedRun& run, const ExportOptions& options) {
   const std::optional<SavedResponses> saved = saved_responses(run);
   if (!saved) return;

@@ -57,7 +57,7 @@ void MatlabFile::add_struct(const std::string& path) {
   name_class(group, "struct");
 }
 
-// Of an array without elements the dataset holds the shape.
+// The dataset of an array without elements holds its shape.
 void MatlabFile::write(const std::string& path, const char* type_name, hid_t file_type, hid_t memory_type,
                        const Shape& shape, const void* values, bool text) {
   const bool empty = std::ranges::count(shape, hsize_t{0}) > 0;
@@ -121,13 +121,13 @@ void MatlabFile::add_texts(const std::string& path, const std::vector<std::strin
 
 std::vector<std::byte> MatlabFile::image(const std::string& description) const {
   checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "finish a file in memory");
-  // HDF5 counts and copies the bytes behind the user block.
+  // HDF5 counts and copies the bytes after the user block.
   const ssize_t bytes = H5Fget_file_image(file_, nullptr, 0);
   checked(bytes < 0 ? -1 : 0, "finish a file in memory");
   std::vector<std::byte> out(header_bytes + static_cast<size_t>(bytes));
   checked(H5Fget_file_image(file_, out.data() + header_bytes, static_cast<size_t>(bytes)) < 0 ? -1 : 0,
           "finish a file in memory");
-  // 116 bytes of text, 8 of an offset that 7.3 does not use, version 2.0, and the byte order.
+  // The header has 116 bytes of text, 8 of an offset that 7.3 does not use, version 2.0, and the byte order.
   std::string header = ("MATLAB 7.3 MAT-file, " + description).substr(0, 116);
   header.resize(116, ' ');
   header += std::string(8, '\0') + std::string("\0\x02IM", 4);

@@ -1,5 +1,5 @@
-// NumPy's format 1.0 (numpy.lib.format) inside PKWARE's zip (APPNOTE 6.3), entries deflated at the fastest level:
-// padding is most of many arrays, and costs next to nothing then.
+// Writes NumPy's format 1.0 (numpy.lib.format) inside PKWARE's zip (APPNOTE 6.3). Entries are deflated at the fastest
+// level, since many arrays are mostly padding.
 #include "convert/npz.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,7 +32,7 @@ std::string npy_header(const std::string& type, const Npz::Shape& shape) {
   return out + text;
 }
 
-// A raw deflate stream of both parts.
+// Returns both parts as one raw deflate stream.
 std::string deflated(std::span<const std::byte> head, std::span<const std::byte> body) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -40,7 +40,7 @@ std::string deflated(std::span<const std::byte> head, std::span<const std::byte>
   std::string out;
   std::vector<Bytef> chunk(size_t{1} << 18);
   const auto feed = [&](std::span<const std::byte> bytes, int flush) {
-    // zlib does not write to its input, but says so only where ZLIB_CONST is defined.
+    // zlib does not write to its input, but declares that only if ZLIB_CONST is defined.
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
     stream.avail_in = static_cast<uInt>(bytes.size());
     do {
@@ -56,8 +56,8 @@ std::string deflated(std::span<const std::byte> head, std::span<const std::byte>
   return out;
 }
 
-// The fields that an entry's own header and the directory share. 20: needs version 2.0; 0x800: names are UTF-8;
-// 8: deflated; the first day that the format knows, for files that are the same whenever they are written.
+// The fields that an entry's own header and the directory share. 20: needs version 2.0; 0x800: names are UTF-8; 8:
+// deflated. The date is the first day of the format, so that files are the same whenever they are written.
 std::string common_fields(uint32_t checksum, uint32_t stored_bytes, uint32_t bytes, size_t name_bytes) {
   std::string out;
   for (const int field : {20, 0x800, 8, 0, 0x21}) put(out, static_cast<uint16_t>(field));
@@ -86,7 +86,7 @@ void Npz::add_array(const std::string& name, const std::string& type, const Shap
                                    static_cast<double>(npz_limit_bytes) / 1e9));
   const std::string body = deflated(head, values);
   const auto crc = [](uLong sum, std::span<const std::byte> bytes) {
-    // Of no bytes at no address crc32_z() forgets the sum.
+    // With a null pointer, crc32_z() would reset the sum.
     return bytes.empty() ? sum : crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
   };
   Entry entry{name + ".npy", static_cast<uint32_t>(crc(crc(0, head), values)), static_cast<uint32_t>(body.size()),
@@ -131,7 +131,7 @@ void Npz::add_flags(const std::string& name, const Shape& shape, std::span<const
   add_array(name, "|b1", shape, std::as_bytes(values));
 }
 
-// Texts are of one length, filled up with zeros, four bytes a character.
+// Texts are padded with zeros to one length, with four bytes per character.
 void Npz::add_texts(const std::string& name, const std::vector<std::string>& texts) {
   std::vector<std::u32string> decoded;
   size_t length = 1;

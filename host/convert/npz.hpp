@@ -1,5 +1,5 @@
-// NumPy's .npz: a zip archive of arrays in C order, written one array after the other.
-// Assumes a little-endian machine; an archive stays below 4 GiB, so that it needs no extension of the zip format.
+// Writes NumPy's .npz: a zip archive of arrays in C order, one array after the other.
+// The machine must be little-endian; an archive stays below 4 GiB, so that it needs no extension of the zip format.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,25 +10,26 @@
 
 namespace wavetracer {
 
-// What an archive can hold before it is compressed, with room for names and headers.
+// Largest uncompressed size of an archive; this leaves room for names and headers.
 constexpr uint64_t npz_limit_bytes = uint64_t{4'000'000'000};
 
 class Npz {
  public:
-  using Sink = std::function<void(std::span<const std::byte>)>;  // appends bytes to the file
+  using Sink = std::function<void(std::span<const std::byte>)>;  // a function that appends bytes to the file
   using Shape = std::vector<size_t>;
 
   explicit Npz(Sink sink) : sink_(std::move(sink)) {}
 
-  // values: as many as the product of the shape. Throws RuntimeError beyond npz_limit_bytes.
+  // values: their number is the product of the shape. Throws RuntimeError beyond npz_limit_bytes.
   void add(const std::string& name, const Shape& shape, std::span<const double> values);
   void add(const std::string& name, const Shape& shape, std::span<const uint32_t> values);
-  void add_flags(const std::string& name, const Shape& shape, std::span<const uint8_t> values);  // 0 or 1, read as bool
+  // Values are 0 or 1, and are read as bool.
+  void add_flags(const std::string& name, const Shape& shape, std::span<const uint8_t> values);
   void add_number(const std::string& name, double value) { add(name, {}, std::span<const double>(&value, 1)); }
   void add_texts(const std::string& name, const std::vector<std::string>& texts);  // UTF-8
   void add_text(const std::string& name, const std::string& text);
 
-  // The directory of the archive; nothing may be added after it.
+  // Writes the directory of the archive; no array may be added after it.
   void finish();
 
  private:

@@ -1,5 +1,6 @@
-// A scenario of ns-3's QdChannelModel (https://github.com/signetlabdei/qd-channel), as its reader of
-// NodesPosition.csv parses it: a channel between every two nodes, a step per frame, in degrees but for the phase.
+// Writes a scenario of ns-3's QdChannelModel (https://github.com/signetlabdei/qd-channel), in the form that its reader
+// of NodesPosition.csv parses: a channel between every two nodes, a step per frame; angles are in degrees, phases are
+// not.
 #include <fmt/format.h>
 #include <cmath>
 #include <map>
@@ -16,21 +17,23 @@ namespace {
 
 using Rows = std::vector<uint32_t>;
 
-// A channel is a file, so files grow as the square of the nodes: a thousand nodes are what file systems bear.
+// Each channel is a file, so the number of files grows as the square of the nodes: file systems cope with about a
+// thousand nodes.
 constexpr uint64_t most_files = 1'000'000;
 
 void check_files(size_t nodes) {
   const uint64_t files = uint64_t{nodes} * (nodes - 1);
   if (files > most_files)
     throw InputError(
-        fmt::format("ns3: {} nodes would be {} files, one for every two of them and direction, and at most {} are "
-                    "written: make a run of fewer transmitters and receivers, each of which is a node",
+        fmt::format("ns3: {} nodes would be {} files, one for every two of them and direction, "
+                    "and at most {} are written: make a run of fewer transmitters and receivers, each of "
+                    "which is a node",
                     nodes, files, most_files));
 }
 
 double in_degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
-// One line of comma-separated values, each read back as the same double.
+// Returns one line of comma-separated values, each of which reads back as the same double.
 template <typename Value>
 std::string line(const Rows& rows, Value value) {
   std::string out;
@@ -38,8 +41,8 @@ std::string line(const Rows& rows, Value value) {
   return out + "\n";
 }
 
-// The model forms 10^(gain / 20) exp(j (phase - 2 pi f delay)): its phase is that of `a`, without the carrier's.
-// reversed: the same paths walked from the receiver to the transmitter.
+// The model computes 10^(gain / 20) exp(j (phase - 2 pi f delay)), so its phase is that of `a`, without the carrier's
+// phase. reversed: the same paths followed from the receiver to the transmitter.
 std::string step_text(const Paths& paths, const Rows& rows, bool reversed) {
   if (rows.empty()) return "0\n";
   const auto angle = [&](const std::vector<double>& radians) {
@@ -53,7 +56,8 @@ std::string step_text(const Paths& paths, const Rows& rows, bool reversed) {
          (reversed ? arrival + departure : departure + arrival);
 }
 
-// The paths between all pairs of nodes in one frame. A coefficient of exactly zero has no gain in decibels and is none.
+// The paths between all pairs of nodes in one frame. A coefficient of exactly zero has no gain in decibels and is left
+// out.
 class FrameLinks {
  public:
   explicit FrameLinks(const Paths& paths) : paths_(paths) {
@@ -66,7 +70,7 @@ class FrameLinks {
     }
   }
 
-  // Of the link from one node to another; of the link back where that one was not computed.
+  // Returns the link from one node to another, or the reverse link if the forward one was not computed.
   std::string text(const Ns3Node& from, const Ns3Node& to, bool forward_known) const {
     return forward_known ? step_text(paths_, rows(from, to), false) : step_text(paths_, rows(to, from), true);
   }
@@ -82,7 +86,7 @@ class FrameLinks {
   std::map<std::pair<size_t, size_t>, Rows> rows_;
 };
 
-// Whether the link from one node to another, row by row, was asked for in any of the frames.
+// Tells, row by row, whether the link from one node to another was computed in any of the frames.
 std::vector<bool> known_links(const SavedRun& run, const ExportOptions& options, const std::vector<Ns3Node>& nodes) {
   std::map<size_t, size_t> node_of_tx, node_of_rx;
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -104,7 +108,8 @@ double step_s(const SavedRun& run, const ExportOptions& options, Warnings& warni
     warnings.push_back("ns3: one frame is one step, of 1 s");
     return 1;
   }
-  const double last_s = run.time_s(options.last_row), rounding_s = 2 * time_spacing_s(last_s);  // of differences
+  // Rounding of time differences.
+  const double last_s = run.time_s(options.last_row), rounding_s = 2 * time_spacing_s(last_s);
   const double step = simplest_decimal((last_s - run.time_s(options.first_row)) / static_cast<double>(steps),
                                        rounding_s / static_cast<double>(steps));
   if (!(step > 0)) throw InputError("ns3: the times of the frames do not go up");

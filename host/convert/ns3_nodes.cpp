@@ -1,4 +1,4 @@
-// Twins are found by where they are in every frame, and by name where several are there.
+// Twins are found by their positions in every frame, and by name if several share those.
 // Velocities are not compared: they follow from the positions.
 #include "convert/ns3_nodes.hpp"
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace wavetracer {
 namespace {
 
-// The positions of each end, frame by frame.
+// The positions of each end in every frame.
 struct Tracks {
   std::vector<std::vector<glm::dvec3>> transmitters, receivers;
 };

@@ -1,5 +1,5 @@
-// The traffic of a run as a trace of ASAM OSI 3: a GroundTruth message a frame, each after its length (four bytes, the
-// lowest first). Only what moves is in it: vehicles with a body, by their bounding boxes.
+// Writes the traffic of a run as a trace of ASAM OSI 3: one GroundTruth message per frame, each after its length (four
+// bytes, the lowest first). It contains only moving objects: vehicles with a body, by their bounding boxes.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -34,12 +34,12 @@ std::string identifier(uint64_t value) {
   return out;
 }
 
-// The box of a vehicle in its own axes, from the ground on.
+// The box of a vehicle in its own axes, starting at the ground.
 struct VehicleBox {
   glm::dvec3 centre_m, size_m;
 };
 
-// Of a vehicle whose body is not known any more: that of its class.
+// Returns the box of a vehicle class, for vehicles whose body is not known any more.
 std::optional<VehicleBox> box_of_class(const std::string& type) {
   const auto known = sumo_type(type);
   if (!known) return {};
@@ -56,7 +56,7 @@ class OsiWriter {
  public:
   OsiWriter(const SavedRun& run, const SavedWorld& world, const ExportOptions& options)
       : run_(run), world_(world), file_(options.output) {
-    // Coordinates of the scene are those of the projection only where nothing has moved them.
+    // The scene's coordinates are those of the projection only if no option has moved them.
     if (!options.projection.empty())
       projection_ = options.projection;
     else if (const auto found = find_georeference(world.config.scene.file); found && found->offset_m == glm::dvec2(0))
@@ -135,7 +135,7 @@ class OsiWriter {
     return out;
   }
 
-  // Angles are those of ISO 8855: about z, then y, then x, so that a positive pitch is nose down.
+  // Angles follow ISO 8855: rotations about z, then y, then x, so a positive pitch is nose down.
   std::string base_of(const SavedPose& pose) {
     const uint32_t model = world_.instance_model[pose.instance];
     const bool loaded = model != no_instance && !world_.models[model].triangles.empty();

@@ -1,4 +1,4 @@
-// Padding is by the largest antennas of either side.
+// Arrays are padded to the largest number of antennas on either side.
 #include "convert/response_arrays.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,9 +29,10 @@ std::optional<ResponseArray> response_array(const SavedRun& run, const ExportOpt
     bytes *= static_cast<double>(size);
   if (bytes > static_cast<double>(npz_limit_bytes))
     throw InputError(fmt::format(
-        "{}: responses of {} frames x {} receivers x {} transmitters, padded to {} x {} antennas, at {} times and {} "
-        "frequencies take {:.3g} GB, and more than {:.3g} are not written; choose fewer frames with --frames, or read "
-        "responses.h5",
+        "{}: responses of {} frames x {} receivers x {} transmitters, padded to {} x {} antennas, at {} times "
+        "and {} "
+        "frequencies take {:.3g} GB, and more than {:.3g} are not written; choose fewer frames with --frames, "
+        "or read responses.h5",
         format, out.frames, out.rx, out.tx, out.rx_antennas, out.tx_antennas, out.times, out.frequencies, bytes / 1e9,
         static_cast<double>(npz_limit_bytes) / 1e9));
   out.re.resize(static_cast<size_t>(bytes / 16));

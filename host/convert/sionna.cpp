@@ -1,5 +1,6 @@
-// Arrays in the layout of Sionna RT's Paths with synthetic arrays: ports as antennas, delays and angles of a link.
-// `a` means the same there, a passband coefficient without the carrier phase of the delay, so nothing is turned.
+// Writes arrays in the layout of Sionna RT's Paths with synthetic arrays: ports are antennas; delays and angles belong
+// to a link. `a` means the same there, a passband coefficient without the carrier phase of the delay, so no phase is
+// added.
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/pending_file.hpp"
@@ -16,10 +17,10 @@ constexpr uint32_t invalid_id = 0xFFFFFFFFu;
 
 struct Frame {
   SavedFrame saved;
-  std::vector<size_t> slot;  // of each path, in an array (frame, rx, tx, path)
+  std::vector<size_t> slot;  // slot of each path in an array (frame, rx, tx, path)
 };
 
-// Sizes of the axes. A single frame has no axis of its own: its arrays are exactly those of Sionna.
+// Sizes of the axes. A single frame has no frame axis: its arrays are exactly those of Sionna.
 struct Axes {
   size_t frames = 0, rx = 0, tx = 0, rx_ports = 1, tx_ports = 1, paths = 0, depth = 0;
 
@@ -31,7 +32,7 @@ struct Axes {
   }
   Npz::Shape link() const { return with_frames({rx, tx, paths}); }
   size_t slots() const { return frames * rx * tx * paths; }
-  // Values a slot: a_real and a_imag; tau, four angles, doppler; valid; of each interaction three numbers and a
+  // Values per slot: a_real and a_imag; tau, four angles, doppler; valid; for each interaction three numbers and a
   // position.
   double bytes() const {
     const double slot = 16.0 * static_cast<double>(rx_ports * tx_ports) + 6 * 8 + 1 + 36.0 * static_cast<double>(depth);
@@ -79,7 +80,7 @@ void place_paths(std::vector<Frame>& frames, const Axes& axes) {
   }
 }
 
-// (frame, rx, tx, path): value(paths, row), and `padding` where there is no path.
+// Makes (frame, rx, tx, path): value(paths, row), or `padding` where there is no path.
 template <typename T, typename Value>
 std::vector<T> per_path(const std::vector<Frame>& frames, const Axes& axes, T padding, Value value) {
   std::vector<T> out(axes.slots(), padding);
@@ -88,7 +89,7 @@ std::vector<T> per_path(const std::vector<Frame>& frames, const Axes& axes, T pa
   return out;
 }
 
-// (frame, rx, rx port, tx, tx port, path): one part of the coefficients.
+// Makes (frame, rx, rx port, tx, tx port, path): the real or the imaginary part of the coefficients.
 std::vector<double> coefficients(const std::vector<Frame>& frames, const Axes& axes,
                                  double (*part)(const std::complex<double>&)) {
   std::vector<double> out(axes.slots() * axes.rx_ports * axes.tx_ports);
@@ -104,10 +105,11 @@ std::vector<double> coefficients(const std::vector<Frame>& frames, const Axes& a
   return out;
 }
 
-// (frame, interaction, rx, tx, path, width): put(paths, vertex, cell) fills the `width` values of one interaction.
+// Makes (frame, interaction, rx, tx, path, width): put(paths, vertex, cell) fills the `width` values of one
+// interaction.
 template <typename T, typename Put>
 std::vector<T> per_interaction(const std::vector<Frame>& frames, const Axes& axes, size_t width, T padding, Put put) {
-  const size_t slots = axes.rx * axes.tx * axes.paths;  // of one frame
+  const size_t slots = axes.rx * axes.tx * axes.paths;  // slots of one frame
   std::vector<T> out(axes.slots() * axes.depth * width, padding);
   for (size_t f = 0; f < frames.size(); ++f) {
     const Paths& paths = frames[f].saved.paths;
@@ -138,7 +140,8 @@ void add_paths(Npz& npz, const std::vector<Frame>& frames, const Axes& axes) {
                 per_path(frames, axes, uint8_t{0}, [](const Paths&, size_t) { return uint8_t{1}; }));
 }
 
-// Kinds have Sionna's numbers. Objects: 0 is the scene, n + 1 the vehicle of row n. Primitives are surfaces or edges.
+// Kinds have Sionna's numbers. Objects: 0 is the scene, n + 1 is the vehicle of row n. Primitives are surfaces or
+// edges.
 void add_interactions(Npz& npz, const std::vector<Frame>& frames, const Axes& axes) {
   const Npz::Shape shape = axes.with_frames({axes.depth, axes.rx, axes.tx, axes.paths});
   const auto numbers = [&](const char* name, uint32_t padding, auto value) {
@@ -160,7 +163,7 @@ void add_interactions(Npz& npz, const std::vector<Frame>& frames, const Axes& ax
 }
 
 void add_ends(Npz& npz, const SavedRun& run, const std::vector<Frame>& frames, const Axes& axes) {
-  // (frame, coordinate, end), as a Point3f of Sionna becomes an array.
+  // The order is (frame, coordinate, end), as arrays made of Sionna's Point3f have it.
   const auto points = [&](const char* name, size_t ends, std::vector<glm::dvec3> SavedFrame::*member) {
     std::vector<double> values;
     for (const Frame& frame : frames)
@@ -172,7 +175,7 @@ void add_ends(Npz& npz, const SavedRun& run, const std::vector<Frame>& frames, c
   points("targets", axes.rx, &SavedFrame::receiver_position_m);
   points("tx_velocities", axes.tx, &SavedFrame::transmitter_velocity_m_s);
   points("rx_velocities", axes.rx, &SavedFrame::receiver_velocity_m_s);
-  // A link that was not asked for has no paths either; this tells the two apart.
+  // A link that was not computed has no paths either; this array distinguishes the two.
   std::vector<uint8_t> linked(axes.frames * axes.rx * axes.tx);
   for (size_t f = 0; f < frames.size(); ++f)
     for (const Link& link : frames[f].saved.links) linked[(f * axes.rx + link.rx) * axes.tx + link.tx] = 1;
@@ -189,7 +192,7 @@ void add_ends(Npz& npz, const SavedRun& run, const std::vector<Frame>& frames, c
   npz.add_texts("object_names", objects);
 }
 
-// As Paths.cfr() gives them: (rx, rx antenna, tx, tx antenna, time, frequency).
+// Responses are in the order of Paths.cfr(): (rx, rx antenna, tx, tx antenna, time, frequency).
 void add_responses(Npz& npz, const ResponseArray& responses, const Axes& axes) {
   const Npz::Shape shape = axes.with_frames({responses.rx, responses.rx_antennas, responses.tx, responses.tx_antennas,
                                              responses.times, responses.frequencies});

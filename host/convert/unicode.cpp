@@ -1,5 +1,4 @@
-// UTF-8 decoded as RFC 3629 has it: no overlong forms, no surrogates, nothing above U+10FFFF.
-// Assumes nothing of its input.
+// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 #include "convert/unicode.hpp"
 
 namespace wavetracer {
@@ -7,7 +6,7 @@ namespace {
 
 constexpr char32_t replacement = 0xFFFD;
 
-// Takes one character off the front of `text`.
+// Removes one character from the front of `text` and returns it.
 char32_t take(std::string_view& text) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);

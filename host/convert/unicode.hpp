@@ -1,4 +1,4 @@
-// Names of runs in the encodings of other programs.
+// Converts names of runs to the encodings of other programs.
 // A byte that is not UTF-8 becomes U+FFFD, so nothing is dropped and nothing fails.
 #pragma once
 #include <string>

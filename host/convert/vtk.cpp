@@ -1,5 +1,6 @@
-// ParaView: a folder of .vtp files, and run.pvd, which gives them their times. Coordinates are those of the files, z
-// up. A frame is in memory at a time. What does not move is one file, which every time of the .pvd names.
+// Writes for ParaView: a folder of .vtp files, and run.pvd, which gives them their times. Coordinates are those of the
+// files, z up. One frame at a time is in memory. An object that does not move is one file, which every time of the .pvd
+// names.
 #include <fmt/format.h>
 #include "base/pending_folder.hpp"
 #include "convert/convert.hpp"
@@ -37,7 +38,8 @@ struct Triangles {
   std::vector<int64_t> corners, ends;
   std::vector<uint32_t> material, surface;
 
-  // position(vertex): file coordinates. first_material: of the scene's among the names of the file.
+  // position(vertex): file coordinates. first_material: index of the scene's first material among the names of the
+  // file.
   void append(const Scene& scene, uint32_t first_material, const auto& position) {
     const auto first = static_cast<int64_t>(points.size());
     for (const glm::dvec3& vertex : scene.vertices) points.push_back(position(vertex));
@@ -91,7 +93,8 @@ VtkFile vegetation_file(const Scene& scene) {
   return file;
 }
 
-// Of the wedges at which waves diffract; free edges only where trace.free_edges counts them. False where there is none.
+// Adds the wedges at which waves diffract; free edges only if trace.free_edges counts them. Returns false if there is
+// none.
 bool add_edges(VtkFile& file, const Scene& scene, bool free_edges) {
   std::vector<glm::dvec3> points;
   std::vector<int64_t> connectivity, ends;
@@ -149,7 +152,7 @@ VtkFile ends_file(const SavedRun& run, const SavedFrame& frame) {
   std::vector<std::string> names;
   const auto append = [&](bool receiver, const auto& configured, const auto& positions, const auto& velocities) {
     for (uint32_t i = 0; i < configured.size(); ++i) {
-      if (!is_finite(positions[i])) continue;  // absent
+      if (!is_finite(positions[i])) continue;  // it is absent
       connectivity.push_back(static_cast<int64_t>(points.size()));
       points.push_back(positions[i]);
       ends.push_back(static_cast<int64_t>(points.size()));
@@ -172,7 +175,7 @@ VtkFile ends_file(const SavedRun& run, const SavedFrame& frame) {
   return file;
 }
 
-// Polylines. Ends of a path have interaction 0; surface and vehicle are -1 where there is none.
+// Paths are polylines. The ends of a path have interaction 0; surface and vehicle are -1 where there is none.
 VtkFile paths_file(const SavedRun& run, const SavedFrame& frame, size_t& left_out) {
   const Paths& paths = frame.paths;
   std::vector<glm::dvec3> points;

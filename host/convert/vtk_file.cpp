@@ -1,5 +1,5 @@
-// The XML of a .vtp file, and its body.
-// Assumes that nobody asks for more than 2^63 bytes.
+// Writes the XML of a .vtp file, and its body.
+// Sizes must be below 2^63 bytes.
 #include "convert/vtk_file.hpp"
 #include <fmt/format.h>
 #include <bit>
@@ -17,7 +17,7 @@ void VtkFile::add(Section section, const char* name, const char* type, size_t co
   body_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// Texts stand behind one another, each with a zero byte at its end.
+// Texts are stored one after the other, each ended by a zero byte.
 void VtkFile::add(Section section, const char* name, const std::vector<std::string>& texts) {
   std::string joined;
   for (const std::string& text : texts) joined.append(text.c_str()).push_back('\0');

@@ -1,5 +1,5 @@
 // A file of VTK's XML PolyData (.vtp): points with vertices, lines or triangles, and arrays on them.
-// Arrays stand after the XML as they are in memory (appended, raw), each behind its size as UInt64.
+// Arrays follow the XML in binary form (appended, raw), each after its size as UInt64.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ class VtkFile {
  public:
   enum Section : size_t { field_data, point_data, cell_data, points, verts, lines, polys };
 
-  // values: rows of so many components. Names must not need escapes in XML.
+  // values: rows with this number of components. Names must not need escapes in XML.
   template <class T>
   void add(Section section, const char* name, const std::vector<T>& values, size_t components = 1) {
     add(section, name, type_name<T>(), components, values.size() / components, std::as_bytes(std::span(values)));
@@ -27,8 +27,7 @@ class VtkFile {
   }
   void add(Section section, const char* name, const std::vector<std::string>& texts);
   void add_points(const std::vector<glm::dvec3>& positions_m);
-  // The cells of the file, of one section: cell i has the points connectivity[ends[i - 1]] to connectivity[ends[i] -
-  // 1].
+  // Adds cells to one section: cell i has the points connectivity[ends[i - 1]] to connectivity[ends[i] - 1].
   void add_cells(Section section, const std::vector<int64_t>& connectivity, const std::vector<int64_t>& ends);
 
   // The file is head(), body() and tail(), one after the other.
@@ -51,7 +50,7 @@ class VtkFile {
   std::array<std::string, 7> arrays_;  // the <DataArray> elements of each section
   std::string body_;
   size_t point_count_ = 0;
-  std::array<size_t, 7> cell_count_{};  // of verts, lines and polys
+  std::array<size_t, 7> cell_count_{};  // numbers of verts, lines and polys
 };
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Colours are those of matplotlib's plasma map (CC0) without its darkest fifth, which no background shows.
-// Assumes a frame as SavedRun checks it: indices of ends and offsets of vertices are those of rows that there are.
+// Colours are those of matplotlib's plasma map (CC0) without its darkest fifth, which is hard to see on any background.
+// A frame must have valid indices of ends and vertices, as SavedRun checks them.
 #include "convert/vtk_glb_kml.hpp"
 
 namespace wavetracer {

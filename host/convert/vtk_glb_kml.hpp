@@ -1,4 +1,4 @@
-// What the exports of geometry (vtk, glb, kml) share: points of paths, corners of vehicles, colours of gains.
+// Functions that the exports of geometry (vtk, glb, kml) share: points of paths, corners of vehicles, colours of gains.
 // All positions are file coordinates in metres, z up.
 #pragma once
 #include <algorithm>
@@ -15,23 +15,24 @@ namespace wavetracer {
 
 inline bool is_finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Of a vehicle that the file places somewhere.
+// Tells whether the file gives the vehicle a place.
 inline bool is_finite(const SavedPose& pose) {
   return is_finite(pose.position_m) && is_finite(pose.rotation[0]) && is_finite(pose.rotation[1]) &&
          is_finite(pose.rotation[2]);
 }
 
-// From the transmitter to the receiver; empty where one of the points is not finite, so that none can be drawn.
+// Returns the points from the transmitter to the receiver, or none if one of them is not finite, so that the path
+// cannot be drawn.
 std::vector<glm::dvec3> path_points(const SavedFrame& frame, size_t path);
 
-// A point of a model's scene, where the vehicle is.
+// Moves a point of a model's scene to the place of the vehicle.
 inline glm::dvec3 placed(const SavedPose& pose, const Scene& model, const glm::dvec3& vertex) {
   return pose.position_m + pose.rotation * (model.origin_m + vertex);
 }
 
 using Rgb = std::array<uint8_t, 3>;  // sRGB
 
-// Gains as colours: the strongest path is the brightest, what is 60 dB below it or weaker the darkest.
+// Maps gains to colours: the strongest path is the brightest; 60 dB below it or weaker is the darkest.
 class GainScale {
  public:
   static constexpr double range_db = 60;
@@ -43,9 +44,9 @@ class GainScale {
   bool empty() const { return std::isinf(strongest_db_); }
   double strongest_db() const { return strongest_db_; }
   double weakest_db() const { return strongest_db_ - range_db; }
-  // 0 (weakest) to 1 (strongest).
+  // Returns 0 (weakest) to 1 (strongest).
   double place(double gain_db) const {
-    if (!(gain_db > weakest_db())) return 0;  // of no power, or not a number
+    if (!(gain_db > weakest_db())) return 0;  // for zero power, or not a number
     return std::min((gain_db - weakest_db()) / range_db, 1.0);
   }
 

@@ -1,6 +1,6 @@
 // Device memory: allocation, transfers, fills and copies, all bounds checked. Reads and large writes wait for the
-// device; the host's memory is free again when a call returns. A request of zero bytes gives a handle of zero bytes(),
-// backed by a few bytes, that may be a kernel's argument.
+// device; when a call returns, the host's memory may be reused. A request of zero bytes gives a handle with bytes() =
+// 0, backed by a few bytes, which may be a kernel's argument.
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
@@ -15,9 +15,9 @@ namespace {
 
 constexpr size_t least_bytes = 16;
 
-// NVIDIA's clEnqueueFillBuffer (driver 580.159) indexes pattern elements by 32-bit integers, offset included: from 2^31
-// of them on it hangs or faults, from 2^32 on it fills a part and reports success. Larger fills write a seed and copy
-// it, twice as much each time.
+// NVIDIA's clEnqueueFillBuffer (driver 580.159) indexes pattern elements, including the offset, by 32-bit integers:
+// from 2^31 elements on it hangs or crashes, from 2^32 on it fills a part and reports success. For larger fills, a seed
+// is written and copied, doubling each time.
 constexpr size_t most_fill_elements = size_t{1} << 30;
 constexpr size_t fill_seed_bytes = size_t{1} << 22;
 
@@ -142,8 +142,8 @@ void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, si
   check_bounds(*s.allocations, memory.handle_.get(), memory.bytes_, "filling", offset, bytes);
   if (pattern_bytes > 8 || !std::has_single_bit(pattern_bytes) || offset % pattern_bytes || bytes % pattern_bytes) {
     throw std::logic_error(
-        fmt::format("filling buffer \"{}\": a pattern of {} bytes does not fill {} bytes at {}; it must "
-                    "have 1, 2, 4 or 8 bytes and divide both",
+        fmt::format("filling buffer \"{}\": a pattern of {} bytes does not fill {} bytes at {}; it must have 1, 2, "
+                    "4 or 8 bytes and divide both",
                     s.allocations->name(memory.handle_.get()), pattern_bytes, bytes, offset));
   }
   if (bytes == 0) return;

@@ -1,5 +1,6 @@
 // The file format of cached programs: magic, version, key text, source length and hash, payload length, checksum,
-// payload. The name is one hash of the key and the header holds the key itself, so that a collision of names is seen.
+// payload. The file name is one hash of the key, and the header holds the key itself, so that a collision of names is
+// detected.
 #include "gpu/cache.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +13,7 @@ namespace wavetracer::gpu {
 
 namespace {
 
-constexpr std::string_view magic = "WTPROG\r\n";  // the line end shows a transfer in text mode
+constexpr std::string_view magic = "WTPROG\r\n";  // a transfer in text mode would change the line end
 constexpr uint64_t format_version = 1;
 
 void append_number(std::string& out, uint64_t value) {
@@ -24,7 +25,7 @@ void append_text(std::string& out, std::string_view text) {
   out.append(text);
 }
 
-// All that stands before the payload's length: equal for equal keys, byte for byte.
+// Returns everything before the payload's length: it is the same, byte for byte, for equal keys.
 std::string header(const ProgramKey& key) {
   std::string out(magic);
   append_number(out, format_version);
@@ -94,8 +95,8 @@ std::string ProgramCache::store(const ProgramKey& key, std::string_view compiled
   std::filesystem::remove(temporary, error);
   const std::string why = write_obstacle(directory_);
   return fmt::format(
-      "compiled kernels cannot be kept in {}{}, so each start compiles them again: set XDG_CACHE_HOME to a folder that "
-      "can be written to, or WAVETRACER_NO_CACHE=1",
+      "compiled kernels cannot be kept in {}{}, so each start compiles them again: set XDG_CACHE_HOME to a folder "
+      "that can be written to, or WAVETRACER_NO_CACHE=1",
       directory_.string(), why.empty() ? "" : " (" + why + ")");
 }
 

@@ -1,6 +1,5 @@
-// Compiled programs kept on disk, so that a second start does not compile.
-// A file that differs in anything from what is asked for is as good as absent; nothing here ever throws for the disk's
-// sake.
+// Keeps compiled programs on disk, so that a second start does not compile.
+// A file that differs in anything from the key is ignored; no function throws because of the disk.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -11,28 +10,29 @@ namespace wavetracer::gpu {
 
 // Everything that a compiled program depends on.
 struct ProgramKey {
-  std::string source;  // expanded
+  std::string source;  // with its includes expanded
   std::string options, platform, platform_version, device, driver;
 
-  // All but the source, each field with its length so that no two keys read the same.
+  // Returns all fields except the source, each with its length, so that different keys have different texts.
   std::string text() const;
 };
 
 class ProgramCache {
  public:
-  // ${XDG_CACHE_HOME:-$HOME/.cache}/wavetracer/programs; off where WAVETRACER_NO_CACHE=1 or neither variable is set.
+  // Uses ${XDG_CACHE_HOME:-$HOME/.cache}/wavetracer/programs; the cache is off if WAVETRACER_NO_CACHE=1 or neither
+  // variable is set.
   static ProgramCache from_environment();
 
   // An empty directory turns the cache off.
   explicit ProgramCache(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-  // The compiled program stored under this key, if there is one and every check holds.
+  // Returns the compiled program stored under this key, if there is one and it passes every check.
   std::optional<std::string> load(const ProgramKey& key) const;
-  // Written under a temporary name and renamed, so that readers see whole files only. Failure costs the next start its
-  // time: returns what to tell the user then, else an empty text.
+  // Writes under a temporary name and renames, so that readers only see whole files. If that fails, the next start
+  // compiles again: returns a message for the user then, else an empty text.
   std::string store(const ProgramKey& key, std::string_view compiled) const;
 
-  // Where this key's program is kept.
+  // Returns the file of this key's program.
   std::filesystem::path path(const ProgramKey& key) const;
 
  private:

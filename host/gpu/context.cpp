@@ -1,6 +1,6 @@
 // Context: a device opened with one in-order profiling queue.
-// Requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept, unless told
-// that the kernels to come need neither.
+// By default it requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept;
+// Needs can drop these requirements.
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
@@ -12,8 +12,8 @@
 namespace wavetracer::gpu {
 namespace {
 
-// OpenCL's contexts, one for each device, which all of ours share while the process lives: NVIDIA takes 0.2 s to open
-// one. Never destroyed, because a driver may be gone when a static object is.
+// OpenCL's contexts, one per device, which all Contexts of the process share: NVIDIA takes 0.2 s to open one. They are
+// never destroyed, because a driver may be gone when a static object is destroyed.
 class OpenContexts {
  public:
   static OpenContexts& of_process() {
@@ -25,7 +25,8 @@ class OpenContexts {
     const auto found = contexts_.find(device());
     return found != contexts_.end() ? found->second : contexts_[device()] = cl::Context(device);
   }
-  // A kernel that faulted, or a compiler that threw, has spoilt it: who opens the device again gets another one.
+  // Forgets a context that a crashed kernel or a throwing compiler has spoilt: the next open of the device makes
+  // another one.
   void forget(const cl::Device& device) {
     const std::lock_guard lock(mutex_);
     contexts_.erase(device());
@@ -65,7 +66,7 @@ Context::~Context() {
   try {
     if (state_->queue()) state_->queue.finish();
   } catch (const cl::Error&) {
-    // A failed command was reported, or is of no interest any more.
+    // A failed command was reported, or does not matter any more.
   }
 }
 
@@ -113,7 +114,7 @@ KernelTimes Context::kernel_times() const { return state_->profile.kernels(); }
 
 void Context::set_profiling(bool on) {
   if (on == state_->profile.on) return;
-  profile();  // what is pending belongs to the other queue
+  profile();  // pending events belong to the other queue
   try {
     if (!on && !state_->plain()) state_->plain = cl::CommandQueue(state_->context, state_->device, 0);
     state_->queue = on ? state_->timed : state_->plain;
@@ -129,11 +130,11 @@ void Context::State::fail(cl_int code, const std::string& action) const {
   std::string message = fmt::format("{}: {} failed: {}", info.name, action, error_name(code));
   if (is_out_of_memory(code)) {
     message += fmt::format(
-        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, or trace.rays "
-        "where it is not set, or choose a device with more memory",
+        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, "
+        "or trace.rays where it is not set, or choose a device with more memory",
         info.global_memory >> 20, info.max_buffer >> 20, allocations->summary());
   }
-  // What NVIDIA answers to everything after a kernel that faulted.
+  // NVIDIA returns this for every call after a kernel has crashed.
   if (code == CL_INVALID_COMMAND_QUEUE) {
     OpenContexts::of_process().forget(device);
     message += ". An earlier command broke the queue: a kernel out of its buffers' bounds?";

@@ -1,5 +1,5 @@
-// Devices: listing, choosing one by text, and the build options that follow from a device's own properties.
-// Assumes that the order of platforms and devices does not change while the process runs (the ICD loader's promise).
+// Lists devices, chooses one by text, and derives build options from a device's properties. The order of platforms and
+// devices does not change while the process runs (the ICD loader promises that).
 #include "gpu/device.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -26,12 +26,12 @@ std::string trimmed(std::string text) {
   return first == std::string::npos ? std::string() : text.substr(first);
 }
 
-// Extension names are separated by blanks; a plain find() would take a name for its own prefix.
+// Extension names are separated by blanks; a plain find() would also match the beginning of a longer name.
 bool has_word(const std::string& words, std::string_view word) {
   return (" " + words + " ").find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
-// "OpenCL 3.0 PoCL ..." -> 30. The form is fixed by the specification of CL_DEVICE_VERSION.
+// Turns "OpenCL 3.0 PoCL ..." into 30. The specification of CL_DEVICE_VERSION fixes the form.
 int opencl_version(const cl::Device& device) {
   const std::string text = device.getInfo<CL_DEVICE_VERSION>();
   return text.size() < 10 ? 10 : (text[7] - '0') * 10 + (text[9] - '0');
@@ -87,7 +87,7 @@ std::string device_lines(const std::vector<DeviceInfo>& devices) {
   return lines;
 }
 
-// GPUs first, then CPUs, then the rest, each in the ICD's order.
+// GPUs come first, then CPUs, then other devices, each in the ICD's order.
 int rank(const DeviceInfo& device) { return device.gpu ? 0 : device.cpu ? 1 : 2; }
 
 }  // namespace
@@ -125,10 +125,11 @@ size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view te
     if (const std::string problem = pocl_cache_problem(); !problem.empty())
       throw DeviceError("no OpenCL device was found: " + problem);
     throw DeviceError(
-        "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU, and so does, "
-        "without root, `pip install \"wavetracer[pocl]\"` with the command of that package; for an NVIDIA GPU whose "
-        "driver came without its ICD file, put the line `libnvidia-opencl.so.1` into DIR/nvidia.icd and set "
-        "OCL_ICD_VENDORS=DIR");
+        "no OpenCL device on this machine. Install one: `apt install pocl-opencl-icd` runs on any CPU, "
+        "and so does, "
+        "without root, `pip install \"wavetracer[pocl]\"` with the command of that package; "
+        "for an NVIDIA GPU whose driver came without its ICD file, put the line `libnvidia-opencl.so.1` into "
+        "DIR/nvidia.icd and set OCL_ICD_VENDORS=DIR");
   }
   if (!text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) {
     size_t index = devices.size();
@@ -172,8 +173,7 @@ std::string device_options(const cl::Device& device, const DeviceInfo& info) {
   options += info.cpu ? " -DWT_CPU=1" : " -DWT_GPU=1";
   if (!info.fp64) options += " -DWT_NO_FP64=1";
   if (info.correctly_rounded_divide) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  // Compilers of PoCL and NVIDIA count their warnings on stderr, where they are nothing to a user: "133 warnings
-  // generated."
+  // Compilers of PoCL and NVIDIA count their warnings on stderr, which is of no use to users: "133 warnings generated."
   return options + " -w -cl-kernel-arg-info";  // launches check the size of each argument
 }
 

@@ -1,5 +1,5 @@
-// What this folder knows of a device beyond DeviceInfo: its OpenCL handle and the build options that follow from it.
-// The order of all_devices() is that of list_devices().
+// Device data of this folder beyond DeviceInfo: the OpenCL handle and the build options. The order of all_devices() is
+// that of list_devices().
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,8 @@ namespace wavetracer::gpu {
 
 std::vector<cl::Device> all_devices();
 
-// OpenCL C standard, memory-order back-end, WT_CPU or WT_GPU, and exact arithmetic: what every program is built with.
+// Returns the options of every program: OpenCL C standard, memory-order back-end, WT_CPU or WT_GPU, and exact
+// arithmetic.
 std::string device_options(const cl::Device& device, const DeviceInfo& info);
 
 }  // namespace wavetracer::gpu

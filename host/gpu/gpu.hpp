@@ -1,6 +1,5 @@
 // The device layer's interface: choice of a device, buffers that know their length, programs, checked launches,
-// profiling. The only folder that names cl:: is this one; nothing of OpenCL's C++ bindings appears in this header's
-// users.
+// profiling. Only this folder names cl::; this header contains nothing of OpenCL's C++ bindings.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -22,7 +21,7 @@
 namespace wavetracer::gpu {
 
 struct DeviceInfo {
-  size_t index = 0;  // position in list_devices()
+  size_t index = 0;  // index in list_devices()
   std::string platform, name, driver, opencl_c, platform_version;
   bool gpu = false, cpu = false;
   uint32_t compute_units = 0;
@@ -31,62 +30,61 @@ struct DeviceInfo {
   bool fp64 = false, int64_atomics = false, correctly_rounded_divide = false;
   uint32_t vector_width_float = 1;
 
-  // Work-items a group for kernels in which each item does little and for itself. GPUs start groups one by one: groups
-  // of 64 keep an H200 at 105 G items/s, short of its memory.
+  // Work-group size for kernels in which each item does little and works alone. GPUs start groups one by one: groups of
+  // 64 limit an H200 to 105 G items/s, which is less than its memory allows.
   uint32_t simple_local_size() const { return cpu || max_work_group < 256 ? 64 : 256; }
 };
 
-// All devices of all platforms, in the ICD's order. An absent ICD gives an empty list.
+// Returns all devices of all platforms, in the ICD's order. Without an ICD the list is empty.
 std::vector<DeviceInfo> list_devices();
-// text: empty takes the first GPU, else the first CPU; a number is an index; anything else must match one device's
-// platform or name (case-insensitive part). Throws DeviceError with the list of what there is and what to install.
+// text: empty takes the first GPU, else the first CPU; a number is an index; any other text must be part of exactly one
+// device's platform or name (case-insensitive). Throws DeviceError with the list of devices and what to install.
 size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
 
 // A context refuses a device that lacks these. The program needs both; some kernels, such as the sorts, need neither,
 // and their tests ask for neither.
 struct Needs {
-  bool fp64 = true;           // double precision, by which paths are solved
-  bool int64_atomics = true;  // by which sequences and caches are kept
+  bool fp64 = true;           // double precision, for solving paths
+  bool int64_atomics = true;  // for keeping sequences and caches
 };
 
-// The needs that the device does not meet, in words with the names of the extensions; empty where it meets all.
+// Returns the needs that the device does not meet, with the names of the extensions; empty if it meets all.
 std::string lacks(const DeviceInfo& device, const Needs& needs = {});
 
-// Work-items and the fixed work-group size, a number each or one a dimension; global is padded up to a multiple of
-// local (PoCL has no non-uniform work-groups), so kernels check their range.
+// Numbers of work-items and the fixed work-group size, as one number or one per dimension; global is padded up to a
+// multiple of local (PoCL has no non-uniform work-groups), so kernels must check their range.
 struct Range {
   Range(size_t global_items, size_t local_items) : global{global_items, 1, 1}, local{local_items, 1, 1} {}
   Range(const std::array<size_t, 3>& global_items, const std::array<size_t, 3>& local_items, unsigned dimension_count)
       : global(global_items), local(local_items), dimensions(dimension_count) {}
-  std::array<size_t, 3> global, local;  // 1 beyond the dimensions
+  std::array<size_t, 3> global, local;  // 1 in unused dimensions
   unsigned dimensions = 1;
 
   bool empty() const { return global[0] == 0 || global[1] == 0 || global[2] == 0; }
 };
 
-// Preprocessor definitions of a program: name -> value. Part of the cache key.
+// Preprocessor definitions of a program, name -> value. They are part of the cache key.
 using Definitions = std::map<std::string, std::string>;
 
 class Context;
 
-// The name of a buffer in messages, and advice for where it is too large.
+// The name of a buffer in messages, and advice for when it is too large.
 struct BufferName {
   BufferName(const char* name_of_it,
              const char* advice_for_it =
-                 "Lower trace.batch_rays, or trace.rays where it is not set, or choose a device "
-                 "with more memory")
+                 "Lower trace.batch_rays, or trace.rays where it is not set, or choose a device with more memory")
       : name(name_of_it), advice(advice_for_it) {}
   const char* name;
   const char* advice;
 };
 
-// A buffer is larger than the device allows one to be, or than it has memory left.
+// A buffer is larger than the device allows, or than its free memory.
 class BufferError : public DeviceError {
  public:
   using DeviceError::DeviceError;
 };
 
-// Memory of the host that the device copies to at full speed (pinned), for what is read in every frame.
+// Host memory that the device copies to at full speed (pinned), for data that are read in every frame.
 class HostMemory {
  public:
   HostMemory() = default;
@@ -95,11 +93,11 @@ class HostMemory {
 
  private:
   friend class Context;
-  std::shared_ptr<void> data_;  // mapped
+  std::shared_ptr<void> data_;  // the mapped memory
   size_t bytes_ = 0;
 };
 
-// Untyped device memory. Copies are shared handles.
+// Untyped device memory. Copies share the handle.
 class Memory {
  public:
   Memory() = default;
@@ -109,7 +107,7 @@ class Memory {
  protected:
   friend class Context;
   friend class Kernel;
-  std::shared_ptr<void> handle_;  // cl_mem
+  std::shared_ptr<void> handle_;  // a cl_mem
   Context* context_ = nullptr;
   size_t bytes_ = 0;
   void read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait = true) const;
@@ -117,8 +115,8 @@ class Memory {
   void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const;
 };
 
-// A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and done with the host's memory
-// when they return. One of no elements needs no buffer: a list that has been empty so far may have none.
+// A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and do not use the host's memory
+// after they return. A transfer of zero elements needs no buffer: a list that has been empty so far may have none.
 template <class T>
 class Buffer : public Memory {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -135,12 +133,12 @@ class Buffer : public Memory {
     return out;
   }
   std::vector<T> read() const { return read(0, size()); }
-  // The same into pinned memory, which has room for them. The elements stay there until it is used again.
+  // Reads into pinned memory, which must be large enough. The elements are valid until the memory is used again.
   std::span<const T> read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
     read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
     return {static_cast<const T*>(to.data()), count};
   }
-  // The same without waiting: the elements are there after the next read that waits.
+  // Does the same without waiting: the elements are valid after the next read that waits.
   void begin_read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
     read_to(to, first * sizeof(T), count * sizeof(T), false, stage);
   }
@@ -156,9 +154,9 @@ class Buffer : public Memory {
 };
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
-// stage names the profiling sum that its time goes to. Memory arguments are Buffers, or pointers to Buffers, where a
-// null pointer is NULL in the kernel too; the rest are plain values. A range of no items launches nothing, and then the
-// buffers need not exist: a list that has been empty so far may have none.
+// stage: name of the profiling sum that its time is added to. Memory arguments are Buffers, or pointers to Buffers (a
+// null pointer is NULL in the kernel); other arguments are plain values. A range of no items launches nothing, and then
+// the buffers need not exist: a list that has been empty so far may have none.
 class Kernel {
  public:
   Kernel() = default;
@@ -193,10 +191,10 @@ class Kernel {
   }
 };
 
-// One device with its context, one in-order profiling queue, its program cache and its profile. Not thread-safe.
+// One device with its context, one in-order profiling queue, its program cache and its profile. It is not thread-safe.
 class Context {
  public:
-  // Throws DeviceError where choose_device() does, or where the device lacks one of the needs.
+  // Throws DeviceError if choose_device() does, or if the device lacks one of the needs.
   explicit Context(std::string_view device_text = "", const Needs& needs = Needs());
   ~Context();
   Context(const Context&) = delete;
@@ -217,7 +215,7 @@ class Context {
   }
   // Throws DeviceError as buffer() does.
   HostMemory host_memory(size_t bytes, const char* name);
-  // Fills with a repeated 1, 2, 4 or 8 byte pattern.
+  // Fills memory with a repeated pattern of 1, 2, 4 or 8 bytes.
   void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, const char* stage);
   template <class T>
   void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, const char* stage = "transfer") {
@@ -225,30 +223,32 @@ class Context {
   }
   void copy(const Memory& from, Memory& to, size_t bytes, const char* stage = "transfer");
 
-  // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk. CPUs
-  // take seconds to compile, so there it is built, and what is wrong with it is thrown (DeviceError), when it is first
-  // launched; elsewhere here.
+  // Returns kernel `kernel` of kernels/`program`.cl built with these definitions; it is compiled once per process and
+  // cached on disk. CPUs take seconds to compile, so there it is built at its first launch, which throws its errors
+  // (DeviceError); on other devices it is built here.
   Kernel kernel(const std::string& program, const std::string& kernel, const Definitions& definitions = {});
 
-  // What was measured on this device, kept on disk beside its programs: the text last kept for this subject, if any.
+  // Returns the text that was last kept for this subject: measurements of this device, kept on disk beside its
+  // programs.
   std::optional<std::string> recall(const std::string& subject) const;
   void keep(const std::string& subject, const std::string& text);
 
   void finish();
-  // Hands what was enqueued to the device, and does not wait for it.
+  // Hands enqueued commands to the device, without waiting for them.
   void flush();
 
-  // Sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
+  // Returns sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
   std::map<std::string, double> profile();
-  // The same by kernels, without copies; to be read after profile().
+  // Returns the same sums by kernel, without copies; call it after profile().
   KernelTimes kernel_times() const;
   void reset_profile();
-  // Profiling is on at first. Off, profile() adds nothing, and launches that follow each other closely cost less (on an
+  // Profiling is on at first. If it is off, profile() adds nothing, and launches in quick succession cost less (on an
   // H200 about half). Finishes the queue.
   void set_profiling(bool on);
-  // Seconds spent building programs (from source or from the disk cache) so far, and how many were built from source.
+  // Returns the seconds spent building programs so far (from source or from the disk cache), and how many were built
+  // from source.
   double build_seconds() const;
-  // Notes for the user, so far, about caches on the disk that cannot be written to.
+  // Returns notes for the user about caches on the disk that cannot be written to.
   std::vector<std::string> notes() const;
   size_t builds_from_source() const;
 
@@ -260,10 +260,11 @@ class Context {
   Memory allocate(size_t bytes, const BufferName& name);
 };
 
-// The source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.
+// Returns the source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.
 std::string program_source(const std::string& program);
 
-// A hash of the text of all kernels and of the headers that they share with the host, wherever they are read from.
+// Returns a hash of the text of all kernels and of the headers that they share with the host, from wherever they are
+// read.
 std::string hash_of_sources();
 
 }  // namespace wavetracer::gpu

@@ -1,5 +1,6 @@
-// The one checked launch: arguments against what the kernel wants, sizes padded, failures named.
-// A wrong argument is a fault of the calling code (std::logic_error); a refused launch is the device's (DeviceError).
+// The one place that launches: arguments are checked against the kernel's, sizes padded, failures named.
+// A wrong argument is a fault of the calling code (std::logic_error); a refused launch is a fault of the device
+// (DeviceError).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <stdexcept>
@@ -70,7 +71,7 @@ void Kernel::enqueue(Range range, const char* stage) {
     padded[d] = (range.global[d] + range.local[d] - 1) / range.local[d] * range.local[d];
   }
   cl::Event event;
-  s.context->locked = true;  // it stays so where this throws: PoCL compiles for the size of groups
+  s.context->locked = true;  // it stays locked if this throws: PoCL compiles for the size of groups
   const cl_int code = clEnqueueNDRangeKernel(s.context->queue(), s.kernel(), range.dimensions, nullptr, padded.data(),
                                              range.local.data(), 0, nullptr, s.context->event_of(event));
   s.context->locked = false;

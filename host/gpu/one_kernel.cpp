@@ -1,5 +1,4 @@
-// A scan of the text at the level of declarations: comments, directives and strings are passed over, braces are
-// counted.
+// Scans the text at the level of declarations: comments, directives and strings are skipped, braces are counted.
 #include "gpu/one_kernel.hpp"
 #include <cctype>
 #include <vector>
@@ -12,14 +11,14 @@ bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || 
 
 struct KernelPlace {
   std::string_view name;
-  size_t begin, end;  // of its text, from the end of the declaration before it
+  size_t begin, end;  // its place in the text, from the end of the declaration before it
 };
 
 class KernelScan {
  public:
   explicit KernelScan(std::string_view text) : text_(text) {}
 
-  // The kernels of the text; none where its braces do not match.
+  // Returns the kernels of the text; none if its braces do not match.
   std::vector<KernelPlace> kernels() {
     while (at_ < text_.size()) step();
     return depth_ == 0 ? found_ : std::vector<KernelPlace>{};
@@ -29,8 +28,8 @@ class KernelScan {
   std::string_view text_;
   size_t at_ = 0, declaration_ = 0;
   int depth_ = 0;
-  bool of_kernel_ = false;          // is the declaration that of a kernel?
-  std::string_view word_, called_;  // the last word, and that before the last parenthesis of a declaration
+  bool of_kernel_ = false;          // true if the current declaration is that of a kernel
+  std::string_view word_, called_;  // the last word, and the one before the last parenthesis of a declaration
   std::vector<KernelPlace> found_;
 
   void skip_to(std::string_view end) {

@@ -1,13 +1,13 @@
-// A program's source with one of its kernels: compilers of CPUs take some 0.3 s for each kernel, whether it is used or
-// not.
+// Reduces a program's source to one of its kernels: compilers of CPUs take some 0.3 s for each kernel, even an unused
+// one.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace wavetracer::gpu {
 
-// The source, expanded, with blanks instead of all kernels but the named one; its lines keep their numbers. Where the
-// braces of a source do not match (branches of #if may each open one), all of it stays.
+// Returns the expanded source with blanks instead of all kernels but the named one; lines keep their numbers. If the
+// braces of a source do not match (branches of #if may each open one), nothing is removed.
 std::string with_one_kernel(std::string source, std::string_view kernel);
 
 }  // namespace wavetracer::gpu

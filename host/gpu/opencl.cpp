@@ -1,4 +1,4 @@
-// Names of OpenCL's error codes, for messages.
+// Gives names of OpenCL's error codes, for messages.
 // The codes are those of the OpenCL 3.0 specification, appendix E, and of the cl_khr_icd extension.
 #include "gpu/opencl.hpp"
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// The rules by which PoCL chooses its folder (pocl_cache_init_topdir): POCL_CACHE_DIR, XDG_CACHE_HOME, HOME, /tmp.
-// Nothing is created but the folder that this process chooses itself, which must be this user's alone: PoCL runs what
-// lies in its cache.
+// Follows the rules by which PoCL chooses its folder (pocl_cache_init_topdir): POCL_CACHE_DIR, XDG_CACHE_HOME, HOME,
+// /tmp. It creates only the folder that this process chooses itself, which must belong to this user alone: PoCL runs
+// the code that lies in its cache.
 #include "gpu/pocl.hpp"
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t least_room = uint64_t{16} << 20;  // bytes; the kernels of a run take some megabytes
 
-// Says why PoCL cannot keep its cache in the folder; empty where it can. PoCL ends the process where the disk fills up.
+// Returns why PoCL cannot keep its cache in the folder, or empty if it can. PoCL ends the process if the disk becomes
+// full.
 std::string obstacle(const fs::path& folder) {
   if (std::string why = write_obstacle(folder); !why.empty()) return why;
   std::error_code error;
@@ -30,7 +31,7 @@ std::string obstacle(const fs::path& folder) {
                      least_room >> 20);
 }
 
-// A folder that nobody else can write to, made where it is missing; empty where that cannot be had.
+// Returns a folder that no other user can write to, and makes it if missing; empty if that fails.
 fs::path own_folder() {
   for (const fs::path& temporary : temporary_folders()) {
     const fs::path folder = temporary / fmt::format("wavetracer-pocl-{}", getuid());
@@ -43,7 +44,7 @@ fs::path own_folder() {
   return {};
 }
 
-// Does a file that the OpenCL loader reads name PoCL?
+// Tells whether a file that the OpenCL loader reads names PoCL.
 bool is_installed() {
   std::error_code error;
   const std::string chosen = environment("OCL_ICD_VENDORS");
@@ -58,7 +59,7 @@ bool is_installed() {
   return false;
 }
 
-// The words about the folder that give_pocl_a_cache() has chosen.
+// The note about the folder that give_pocl_a_cache() has chosen.
 std::string& chosen_note() {
   static std::string note;
   return note;
@@ -76,10 +77,10 @@ fs::path pocl_cache_folder() {
 
 void give_pocl_a_cache() {
   const bool chosen = !environment("POCL_CACHE_DIR").empty();
-  if (!chosen) unsetenv("POCL_CACHE_DIR");  // PoCL takes an empty one for a folder
+  if (!chosen) unsetenv("POCL_CACHE_DIR");  // PoCL would take an empty value for a folder
   const std::string why = obstacle(pocl_cache_folder());
   if (why.empty() || !is_installed()) return;
-  if (chosen) {  // by the user, or by an earlier call
+  if (chosen) {  // the user or an earlier call has set it
     if (chosen_note().empty())
       chosen_note() = fmt::format(
           "PoCL, the OpenCL of CPUs, may fail because of its cache ({}): set POCL_CACHE_DIR to another folder", why);
@@ -89,8 +90,8 @@ void give_pocl_a_cache() {
   if (folder.empty()) return;
   setenv("POCL_CACHE_DIR", folder.c_str(), 1);
   chosen_note() = fmt::format(
-      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: set POCL_CACHE_DIR to choose "
-      "a folder",
+      "PoCL, the OpenCL of CPUs, cannot write its cache ({}) and keeps it in {} instead: "
+      "set POCL_CACHE_DIR to choose a folder",
       why, folder.string());
 }
 
@@ -100,8 +101,8 @@ std::string pocl_cache_problem() {
   const std::string why = write_obstacle(pocl_cache_folder());
   if (why.empty() || !is_installed()) return {};
   return fmt::format(
-      "PoCL, the OpenCL of CPUs, is installed, but it cannot write its cache ({}) and then offers no device: set "
-      "POCL_CACHE_DIR to a folder that can be written to",
+      "PoCL, the OpenCL of CPUs, is installed, but it cannot write its cache ({}) and then offers no device: "
+      "set POCL_CACHE_DIR to a folder that can be written to",
       why);
 }
 

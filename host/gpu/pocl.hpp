@@ -1,4 +1,4 @@
-// PoCL, the OpenCL of CPUs: it keeps a cache of compiled kernels of its own, and offers no device where it cannot.
+// PoCL, the OpenCL of CPUs: it keeps its own cache of compiled kernels, and offers no device if it cannot.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -6,17 +6,17 @@
 
 namespace wavetracer::gpu {
 
-// Where PoCL keeps its cache, by the environment as it is now.
+// Returns the folder of PoCL's cache, by the current environment.
 std::filesystem::path pocl_cache_folder();
 
-// To be called before the first use of OpenCL, which reads the environment once: where the user has not chosen a folder
-// and PoCL's own choice cannot be written to, POCL_CACHE_DIR is set to a folder of this user below a temporary one.
+// Must be called before the first use of OpenCL, which reads the environment once. If the user has not chosen a folder
+// and PoCL's own choice cannot be written to, it sets POCL_CACHE_DIR to a folder of this user below a temporary one.
 void give_pocl_a_cache();
 
-// Tells the user what give_pocl_a_cache() has done; empty where it has done nothing.
+// Returns a note on what give_pocl_a_cache() has done; empty if it has done nothing.
 std::string pocl_cache_note();
 
-// Tells the user what to do about a cache that cannot be written to; empty where it can, and where there is no PoCL.
+// Returns what to do about a cache that cannot be written to; empty if it can, or if there is no PoCL.
 std::string pocl_cache_problem();
 
 }  // namespace wavetracer::gpu

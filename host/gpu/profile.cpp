@@ -1,6 +1,5 @@
-// Folding of profiling events into sums.
-// Half of the pending events are folded at a time: by then the device has mostly finished them, so launches seldom
-// wait.
+// Adds up profiling events.
+// Half of the pending events are added at a time: by then the device has mostly finished them, so launches seldom wait.
 #include "gpu/profile.hpp"
 
 namespace wavetracer::gpu {

@@ -1,6 +1,5 @@
 // Seconds per stage and per kernel, summed from the profiling events of an in-order queue.
-// Assumes that events are added in the order of their commands, so that a finished one has only finished ones before
-// it.
+// Events must be added in the order of their commands: all events before a finished one are finished too.
 #pragma once
 #include <deque>
 #include <map>
@@ -13,16 +12,16 @@ namespace wavetracer::gpu {
 
 class Profile {
  public:
-  // Off, it takes no events and sums stay empty.
+  // If false, events are not taken and sums stay empty.
   bool on = true;
-  // Keeps the event until its time can be read; waits for old ones where more than max_pending are kept.
-  // kernel: what else the event counts for, or nullptr for a copy.
+  // Keeps the event until its time can be read; waits for old ones if more than max_pending are kept. kernel: a second
+  // sum that the event counts for, or nullptr for a copy.
   void add(std::string_view stage, cl::Event event, KernelTime* kernel = nullptr);
-  // The sum of a kernel, "program/kernel"; it stays where it is until the next reset.
+  // Returns the sum of a kernel, "program/kernel"; the reference is valid until the next reset.
   KernelTime& kernel(const std::string& name) { return kernels_[name]; }
-  // Waits for what is pending. Throws cl::Error where a command failed.
+  // Waits for pending events. Throws cl::Error if a command failed.
   const std::map<std::string, double, std::less<>>& sums();
-  // Of the kernels that ran. To be read after sums().
+  // Sums of the kernels that ran. Call it after sums().
   const KernelTimes& kernels() const { return kernels_; }
   void reset();
   size_t pending() const { return pending_.size(); }
@@ -32,8 +31,8 @@ class Profile {
  private:
   struct Pending {
     cl::Event event;
-    double* seconds;     // into sums_, whose nodes stay where they are
-    KernelTime* kernel;  // likewise into kernels_
+    double* seconds;     // points into sums_, whose nodes do not move
+    KernelTime* kernel;  // points into kernels_, in the same way
   };
   void fold(size_t count);
 

@@ -1,4 +1,4 @@
-// Programs: built once a context, from the disk cache or from source, and the kernels in them.
+// Programs: built once per context, from the disk cache or from source, and the kernels in them.
 // A cached program that the driver refuses is rebuilt from source; only source that does not build is an error.
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace wavetracer::gpu {
 
 namespace {
 
-// How OpenCL drivers split their option string is not specified, so blanks and quotes have no place in it.
+// No specification says how OpenCL drivers split their option string, so blanks and quotes are refused.
 std::string definition_options(const std::string& program, const Definitions& definitions) {
   std::string options;
   for (const auto& [name, value] : definitions) {
@@ -25,8 +25,8 @@ std::string definition_options(const std::string& program, const Definitions& de
   return options;
 }
 
-// Calls the compiler of a program. One that finds no memory throws through PoCL, which keeps its locks then: whoever
-// released a program would wait for ever, so this one stays, and *locked says that all others must.
+// Calls the compiler of a program. If it runs out of memory, it throws through PoCL, which then keeps its locks:
+// releasing a program would wait for ever. So this program is kept, and *locked says that all others must be kept too.
 template <class Call>
 auto compiling(cl::Program& program, bool& locked, const Call& call) {
   try {
@@ -48,11 +48,11 @@ std::optional<cl::Program> build_from_binary(const cl::Context& context, const c
     compiling(program, locked, [&] { return program.build(devices, options.c_str()); });
     return program;
   } catch (const cl::Error&) {
-    return std::nullopt;  // the driver knows better than any key of ours
+    return std::nullopt;  // the driver's answer counts more than our key
   }
 }
 
-// Bytes of a value argument of one of OpenCL C's own types ("uint", "float4"); 0 for any other.
+// Returns the bytes of a value argument of one of OpenCL C's own types ("uint", "float4"); 0 for any other.
 size_t size_of_type(std::string_view type) {
   struct Scalar {
     std::string_view name;

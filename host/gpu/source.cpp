@@ -1,7 +1,6 @@
-// Expansion of a program's source: every line `#include "name"` is replaced by the file it names, as C does it.
-// Assumes include guards. A file stands there again where it was included under a condition before; else its guard
-// would leave it empty, and so do we, as compilers read all text. `#include <...>` is left to the compiler it is meant
-// for.
+// Expands a program's source: every line `#include "name"` is replaced by the file that it names, as in C. Files must
+// have include guards. A file that was included under a condition before is inserted again; otherwise its guard would
+// make it empty, so it is left out, as compilers read all text. `#include <...>` is left to the compiler.
 #include "gpu/source.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace wavetracer::gpu {
 namespace {
 
 struct File {
-  std::string path;  // as build logs shall name it
+  std::string path;  // the name for build logs
   std::string text;
 };
 
@@ -41,14 +40,14 @@ std::optional<File> find_among(std::span<const EmbeddedFile> files, std::initial
   return std::nullopt;
 }
 
-// Where files come from: the embedded table, or a kernels folder on disk with include/ beside it.
+// The source of files: the embedded table, or a kernels folder on disk with include/ beside it.
 class Source {
  public:
   Source() {
     if (const char* folder = std::getenv("WAVETRACER_KERNEL_DIR"); folder && *folder) folder_ = folder;
   }
 
-  // name is relative to kernels/, or to include/ as C++ has it.
+  // name is relative to kernels/, or to include/ as in C++.
   std::optional<File> find(const std::string& name) const {
     if (!folder_.empty()) {
       for (const std::filesystem::path& found : {folder_ / name, folder_ / ".." / "include" / name}) {
@@ -65,7 +64,7 @@ class Source {
     return std::nullopt;
   }
 
-  // The hash is that of the names and texts of all files.
+  // The hash covers the names and texts of all files.
   std::string hash() const {
     ContentHash out;
     const auto add = [&out](std::string_view text) { out.add(std::as_bytes(std::span(text))); };
@@ -90,7 +89,7 @@ class Source {
   std::vector<std::filesystem::path> files_on_disk() const {
     std::vector<std::filesystem::path> out;
     for (const std::filesystem::path& folder : {folder_, folder_ / ".." / "include" / "wavetracer" / "device"}) {
-      std::error_code error;  // a folder that is not there has no files
+      std::error_code error;  // a missing folder has no files
       for (std::filesystem::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error))
         if (at->is_regular_file(error)) out.push_back(at->path());
     }
@@ -103,8 +102,7 @@ class Source {
 
 void skip_blanks(std::string_view& line) { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); }
 
-// This is the text of a directive after its # and blanks, which are allowed where C allows them; empty for other
-// lines.
+// Returns the text of a directive after its # and blanks, which are allowed where C allows them; empty for other lines.
 std::string_view directive_of(std::string_view line) {
   skip_blanks(line);
   if (!line.starts_with('#')) return {};
@@ -113,7 +111,7 @@ std::string_view directive_of(std::string_view line) {
   return line;
 }
 
-// The file named by a directive `include "name"`.
+// Returns the file named by a directive `include "name"`.
 std::optional<std::string> included_name(std::string_view directive) {
   if (!directive.starts_with("include")) return std::nullopt;
   directive.remove_prefix(7);
@@ -125,7 +123,7 @@ std::optional<std::string> included_name(std::string_view directive) {
   return std::string(directive.substr(0, end));
 }
 
-// Does all of a file stand under an include guard, as its first two directives say?
+// Tells whether a whole file is under an include guard, as its first two directives say.
 bool is_guarded(std::string_view text) {
   std::string name;
   for (size_t begin = 0; begin < text.size();) {
@@ -182,7 +180,7 @@ class Expansion {
           fmt::format("{}:{}: included file \"{}\" is not in {}; names are relative to kernels/ or include/", file.path,
                       number, *name, source_.place()));
     }
-    // A file within itself would be empty by its guard; leaving it out is what ends a circle.
+    // A file inside itself would be empty because of its guard; leaving it out ends a circle.
     if (std::find(open_.begin(), open_.end(), included->path) == open_.end() && !there_.contains(included->path)) {
       if (conditions_ == 0) there_.insert(included->path);
       append(*included);
@@ -192,8 +190,8 @@ class Expansion {
 
   const Source& source_;
   std::vector<std::string> open_;  // the files being expanded, outermost first
-  std::set<std::string> there_;    // the files that stand under no condition
-  size_t conditions_ = 0;          // that the line stands under, without guards
+  std::set<std::string> there_;    // the files that were included under no condition
+  size_t conditions_ = 0;          // number of conditions around the line, without guards
   std::string out_;
 };
 
@@ -216,7 +214,7 @@ std::string hash_of_sources() { return Source().hash(); }
 
 std::string with_places(const std::string& log, const std::string& source) {
   static const std::regex directive("#line ([0-9]+) \"(.*)\""), counted("(<kernel>|input\\.cl):([0-9]+):");
-  std::vector<std::string> places;  // of each line of the source
+  std::vector<std::string> places;  // for each line of the source
   std::istringstream lines(source);
   std::string file;
   size_t number = 0;

@@ -1,4 +1,4 @@
-// Kernel sources: the table embedded in the library, and the places of lines after the expansion of includes.
+// Kernel sources: the table embedded in the library, and the original places of lines after the expansion of includes.
 // Paths are those of the source tree: "kernels/visible.cl", "include/wavetracer/device/bvh.h".
 #pragma once
 #include <span>
@@ -14,13 +14,13 @@ struct EmbeddedFile {
 // Generated at build time by cmake/embed_kernels.cmake, sorted by path.
 std::span<const EmbeddedFile> embedded_files();
 
-// Adds files that programs may name like the embedded ones, whatever WAVETRACER_KERNEL_DIR says: the kernels of tests.
-// Not thread-safe; for before main.
+// Adds files that programs may name like the embedded ones, even with WAVETRACER_KERNEL_DIR set: the kernels of tests.
+// It is not thread-safe, and must be called before main.
 void add_files(std::span<const EmbeddedFile> files);
 
-// A build log with places as the #line directives of `source` have them. NVIDIA and Oclgrind count the lines of the
-// text that they were given ("<kernel>:812:5", "input.cl:812:5"); PoCL follows the directives, and its log stays as it
-// is.
+// Returns a build log with the places that the #line directives of `source` give. NVIDIA and Oclgrind count the lines
+// of the text that they were given ("<kernel>:812:5", "input.cl:812:5"); PoCL follows the directives, and its log is
+// returned unchanged.
 std::string with_places(const std::string& log, const std::string& source);
 
 }  // namespace wavetracer::gpu

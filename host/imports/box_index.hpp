@@ -1,5 +1,5 @@
-// Finds the boxes that contain another one: sorted by their left sides, of which only those within the widest box
-// count. Assumes that most boxes are small beside the map; takes linear time where they are not.
+// Finds the boxes that contain another one. Boxes are sorted by their left sides, and only those within the width of
+// the widest box are looked at. It is fast if most boxes are small beside the map, and takes linear time otherwise.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -18,8 +18,9 @@ class BoxIndex {
     std::sort(entries_.begin(), entries_.end(),
               [](const Entry& a, const Entry& b) { return a.box.lower.x < b.box.lower.x; });
   }
-  // Calls visit(what) for every box that contains `box`, itself included. sort() comes first. False, after the first of
-  // them, where they are more than maps of buildings have: each of a tower of n boxes is in n others.
+  // Calls visit(what) for every box that contains `box`, including `box` itself; sort() must be called before. Returns
+  // false, after the first of them, if there are more than maps of buildings have: in a tower of n boxes each box lies
+  // in n others.
   template <class Visit>
   bool containing(const Box& box, const Visit& visit) const {
     constexpr size_t most = 200;

@@ -1,5 +1,5 @@
-// Reading of the tags. Keys are those of https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings.
-// Assumes heights of up to 1000 m and 300 levels: more is a slip of the pen.
+// Reads the tags. Keys are those of https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings.
+// Heights may be up to 1000 m and 300 levels: larger values count as mistakes.
 #include "imports/building_tags.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ void skip_blanks(std::string_view& text) {
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
 }
 
-// Takes a number without exponent from the front of the text; the comma of many languages is a point.
+// Takes a number without exponent from the front of the text; a comma counts as a decimal point.
 std::optional<double> take_number(std::string_view& text) {
   size_t end = 0;
   while (end < text.size() && ((text[end] >= '0' && text[end] <= '9') || text[end] == '.' || text[end] == ',' ||
@@ -41,7 +41,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-// Levels may be below the ground, as building:min_level says.
+// Levels may be negative, below the ground, as in building:min_level.
 std::optional<double> parse_levels(std::string_view text) {
   skip_blanks(text);
   const auto value = take_number(text);
@@ -68,8 +68,8 @@ constexpr auto units = std::to_array<Unit>({{"m", 1},
                                             {"inch", inch_m},
                                             {"inches", inch_m}});
 
-// Takes a unit from the front of the text, letters or one sign of feet or inches, and returns its metres; 0 if there is
-// none.
+// Takes a unit from the front of the text, letters or one sign of feet or inches, and returns its length in metres; 0
+// if there is none.
 double take_unit(std::string_view& text) {
   size_t end = 0;
   while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
@@ -81,7 +81,7 @@ double take_unit(std::string_view& text) {
   return found->metres;
 }
 
-// Returns the text in lower case, with the printed signs of feet and inches replaced by those of a keyboard.
+// Returns the text in lower case, with typographic signs of feet and inches replaced by those of a keyboard.
 std::string plain(std::string_view text) {
   std::string out(text);
   for (const auto& [from, to] :
@@ -214,7 +214,7 @@ std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what,
 
 namespace {
 
-// Says where the whole building is below the ground; empty where it is not.
+// Returns the tag that says that the whole building is below the ground, or empty.
 std::string_view below_ground(const Tags& tags) {
   const std::string_view location = tag(tags, "location");
   if (location == "underground") return "underground";
@@ -227,7 +227,7 @@ std::string_view below_ground(const Tags& tags) {
   return {};
 }
 
-// The height of the roof's ridge, from the tags alone.
+// Returns the height of the roof's ridge, from the tags alone.
 double top_of(const Tags& tags, const ImportOptions& options, std::map<std::string, uint64_t>& guessed) {
   const auto height = tagged_value(
       tags, {"height", {"height", "building:height", "est_height"}, parse_length_m, least_m, highest_m}, guessed);

@@ -1,5 +1,5 @@
-// Names of the types of CityGML 2.0 and CityJSON 1.0 to 2.0, and which level of detail is built.
-// Assumes that a name that is not known here is of an extension, or of a later version.
+// Names of the types of CityGML 2.0 and CityJSON 1.0 to 2.0, and the choice of the level of detail that is built.
+// A name that is unknown here is taken for one of an extension or of a later version.
 #include "imports/city_model.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr size_t most_reasons = 50;  // reports of thousands of types help nobody
+constexpr size_t most_reasons = 50;  // a report of thousands of types would not help
 
 constexpr auto built_types = std::to_array<std::string_view>(
     {"Building", "BuildingPart", "BuildingInstallation", "Bridge", "BridgePart", "BridgeInstallation",
@@ -80,20 +80,20 @@ double lod_limit(const std::string& lod) {
   return short_form ? whole + 1 : whole + (lod[2] - '0') / 10.0 + 0.05;
 }
 
-// A building and its parts are one body, so they have one level of detail: what is there at the highest level of an
-// object and its parts is built. Parts beside each other may differ, since they have no volume in common.
+// A building and its parts are one body, so they get one level of detail: the highest level of an object and its parts
+// is built. Parts beside each other may differ, since they have no volume in common.
 void choose_levels(CityModel& model) {
   std::vector<ModelObject>& objects = model.objects;
   const auto own_level = [](const ModelObject& object) {
     return object.faces.empty() ? 0 : object.faces.rbegin()->first;
   };
-  std::vector<double> of_parts(objects.size(), 0);  // the highest level of the parts of each
+  std::vector<double> of_parts(objects.size(), 0);  // for each object, the highest level of its parts
   for (size_t i = objects.size(); i-- > 0;) {
     const ModelObject& object = objects[i];
     if (object.parent != no_parent && object.part)
       of_parts[object.parent] = std::max({of_parts[object.parent], own_level(object), of_parts[i]});
   }
-  std::vector<double> around(objects.size(), 0);  // the level of the building that an object is a part of
+  std::vector<double> around(objects.size(), 0);  // for each part, the level of the building that it belongs to
   for (size_t i = 0; i < objects.size(); ++i) {
     ModelObject& object = objects[i];
     const double own = own_level(object);

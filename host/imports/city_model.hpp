@@ -1,5 +1,5 @@
-// A city in three dimensions as its reader hands it over, CityJSON or CityGML: polygons in space with their roles, in
-// the coordinates of the file. Assumes nothing of the polygons but finite corners: imports/model_faces.hpp checks them.
+// A 3D city as its reader returns it, from CityJSON or CityGML: polygons in space with their roles, in the coordinates
+// of the file. Corners are finite; imports/model_faces.hpp checks the rest.
 #pragma once
 #include <glm/vec3.hpp>
 #include <map>
@@ -14,7 +14,7 @@ namespace wavetracer::imports {
 
 using SpaceRing = std::vector<glm::dvec3>;  // the first corner may be repeated at the end
 
-// What a surface is of a building. Without semantics it is told by its slope.
+// The role of a surface in its building. Without semantics its slope decides.
 enum class Role { unknown, wall, roof, ground, window, door };
 
 struct ModelFace {
@@ -25,15 +25,17 @@ struct ModelFace {
 constexpr size_t no_parent = ~size_t{0};
 
 struct ModelObject {
-  std::string id;             // as in the file
-  size_t parent = no_parent;  // into CityModel::objects, always lower: the building that this is a part or fitting of
-  bool part = false;          // BuildingPart, BridgePart: a building in its own right; else a building, or a fitting
-  std::map<double, std::vector<ModelFace>> faces;  // by level of detail, those that are asked for
+  std::string id;             // the id in the file
+  size_t parent = no_parent;  // index in CityModel::objects, always lower than its own: the building that this is a
+                              // part or fitting of
+  bool part = false;  // true for BuildingPart and BridgePart, which are buildings in their own right; false for a
+                      // building or a fitting
+  std::map<double, std::vector<ModelFace>> faces;  // faces of the requested levels, by level of detail
 };
 
 struct CityModel {
   std::vector<ModelObject> objects;
-  std::string system;  // the coordinate system as the file names it; empty: it does not
+  std::string system;  // the coordinate system as the file names it; empty if it does not
   std::map<std::string, uint64_t> left_out, guessed;
   std::vector<std::string> warnings;
 };
@@ -45,19 +47,20 @@ bool is_citygml(std::string_view first_bytes);
 CityModel read_cityjson(std::string_view content, const std::string& name, const ImportOptions& options);
 CityModel read_citygml(std::string_view content, const std::string& name, const ImportOptions& options);
 
-// What the readers share.
+// The readers share the following functions.
 
-// Whether objects of this type, named alike in both formats, are built; those that are not are counted, `model` given.
+// Tells whether objects of this type are built (both formats have the same names); other types are counted if `model`
+// is given.
 bool is_built(std::string_view type, CityModel& model);
-// The role of a surface of this type; empty, and counted, where it is none that waves meet.
+// Returns the role of a surface of this type; for a surface that waves do not meet, it returns nothing and counts it.
 std::optional<Role> role_of(std::string_view type, CityModel& model);
-// The level of detail below which geometry is asked for: "2" asks for everything below 3, "1.2" for 1.2 and less.
+// Returns the level of detail below which geometry is used: "2" uses everything below 3, "1.2" everything up to 1.2.
 // Throws ConfigError.
 double lod_limit(const std::string& lod);
-// Keeps one level of each object, the highest; nothing of a building whose parts are there in more detail, and nothing
-// of parts that are there in less detail than the building around them.
+// Keeps one level of each object, the highest; drops a building's own geometry if its parts have more detail, and parts
+// that have less detail than their building.
 void choose_levels(CityModel& model);
-// Text of a file as a message may show it.
+// Makes text of a file safe to print in a message.
 std::string printable(std::string_view text);
 
 }  // namespace wavetracer::imports

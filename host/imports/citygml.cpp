@@ -1,5 +1,5 @@
-// CityGML 1.0 and 2.0 (OGC 12-019), by pugixml: buildings and bridges with their parts, surfaces and fittings.
-// Assumes nothing of the text: pugixml neither recurses nor expands entities, and what xlinks lead to is read once.
+// Reads CityGML 1.0 and 2.0 (OGC 12-019) by pugixml: buildings and bridges with their parts, surfaces and fittings. The
+// text is not trusted: pugixml neither recurses nor expands entities, and targets of xlinks are read once.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ pugi::xml_node child_of(const pugi::xml_node node, std::string_view local) {
   return {};
 }
 
-// "lod2Solid" is 2; -1 for what is of no level.
+// Returns 2 for "lod2Solid"; -1 for a name without a level.
 int lod_of(std::string_view local) {
   return local.size() > 4 && local.starts_with("lod") && local[3] >= '0' && local[3] <= '4' ? local[3] - '0' : -1;
 }
@@ -78,7 +78,7 @@ class CityGmlReader {
         fail(root, "this is CityGML 3.0, but 1.0 and 2.0 are read: convert it, as with `citygml-tools to-cityjson`");
   }
 
-  // All ids, and the one coordinate system of the file.
+  // Indexes all ids, and finds the one coordinate system of the file.
   void index(const pugi::xml_node root) {
     struct Walker : pugi::xml_tree_walker {
       CityGmlReader* reader = nullptr;
@@ -105,7 +105,7 @@ class CityGmlReader {
     }
   }
 
-  // A building with all its parts. Solids come after all surfaces that say what they are, since they link to those.
+  // Adds a building with all its parts. Solids are read after all surfaces with a role, since they link to those.
   void add_family(const pugi::xml_node node) {
     taken_.clear();
     family_.clear();
@@ -140,12 +140,12 @@ class CityGmlReader {
 
   struct Member {
     pugi::xml_node node;
-    size_t place;  // in the model
-    bool above;    // whether it has more detail than is asked for
+    size_t place;  // index in the model
+    bool above;    // it has more detail than was asked for
   };
 
-  // Surfaces that say what they are, with their openings. Those that are left out are marked all the same, so that a
-  // solid that links to them does not bring them back.
+  // Reads surfaces with a role, and their openings. Those that are left out are marked too, so that a solid that links
+  // to them does not bring them back.
   void read_bounds(Member& member) {
     for (const pugi::xml_node bound : member.node.children()) {
       if (local_name(bound) != "boundedBy") continue;
@@ -183,11 +183,11 @@ class CityGmlReader {
   struct Collecting {
     std::optional<Role> role;
     int lod;
-    bool turned;  // by an OrientableSurface
+    bool turned;  // turned by an OrientableSurface
     std::vector<ModelFace>* faces;
   };
 
-  // All polygons below an element, or of what it links to, that were not taken for this building before.
+  // Collects all polygons below an element or its link targets that were not collected for this building before.
   void collect(const pugi::xml_node node, Collecting what, int depth) {
     constexpr int deepest = 40;
     if (node.type() != pugi::node_element || !taken_.insert({what.lod, node.internal_object()}).second) return;
@@ -238,13 +238,13 @@ class CityGmlReader {
     return out;
   }
 
-  // Numbers with blanks or, in <coordinates>, commas between them: three for each point.
+  // Reads numbers separated by blanks or, in <coordinates>, by commas: three for each point.
   void add_points(const pugi::xml_node list, SpaceRing& out) const {
     if (attribute_of(list, "srsDimension") == "2")
       fail(list, "its points have no heights, but those of a building need some");
     glm::dvec3 point(0);
     int k = 0;
-    for (const pugi::xml_node piece : list.children()) {  // more than one where a comment is between them
+    for (const pugi::xml_node piece : list.children()) {  // there are several if a comment lies between them
       if (piece.type() != pugi::node_pcdata && piece.type() != pugi::node_cdata) continue;
       constexpr std::string_view between = " \t\r\n,";
       const std::string_view text = piece.value();
@@ -274,8 +274,8 @@ class CityGmlReader {
   double limit_;
   pugi::xml_document document_;
   std::unordered_map<std::string_view, pugi::xml_node> ids_;
-  std::set<std::pair<int, const void*>> taken_;  // elements with their level, of the building that is read
-  std::vector<Member> family_;                   // of it
+  std::set<std::pair<int, const void*>> taken_;  // elements of the current building that were read, with their level
+  std::vector<Member> family_;                   // its members
   CityModel model_;
 };
 

@@ -1,5 +1,5 @@
-// CityJSON 1.0, 1.1 and 2.0 (https://www.cityjson.org/specs/2.0.1/), by nlohmann's parser.
-// Assumes nothing of the text: the parser does not recurse, and every index and number is checked.
+// Reads CityJSON 1.0, 1.1 and 2.0 (https://www.cityjson.org/specs/2.0.1/) by nlohmann's parser.
+// The text is not trusted: the parser does not recurse, and every index and number is checked.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 const Json no_json;  // null
 
-// A member; null where it is not there, or where this is no object.
+// Returns a member, or null if it is missing or `json` is no object.
 const Json& member(const Json& json, const char* key) {
   if (!json.is_object()) return no_json;
   const auto found = json.find(key);
@@ -75,12 +75,12 @@ class CityJsonReader {
       fail("type", "is not \"CityJSON\": give a CityJSON file of one city, not a feature of one");
     const std::string version = text_at(root_, "version");
     if (!version.starts_with("1.0") && !version.starts_with("1.1") && !version.starts_with("2.0"))
-      fail("version", fmt::format("is '{}', but 1.0, 1.1 and 2.0 are read: bring the file up to date with "
-                                  "`cjio OLD upgrade save NEW`",
+      fail("version", fmt::format("is '{}', but 1.0, 1.1 and 2.0 are read: bring the file up to date "
+                                  "with `cjio OLD upgrade save NEW`",
                                   printable(version)));
   }
 
-  // Three finite numbers.
+  // Returns three finite numbers.
   static std::optional<glm::dvec3> numbers(const Json& json) {
     if (!json.is_array() || json.size() != 3) return {};
     glm::dvec3 out;
@@ -118,7 +118,7 @@ class CityJsonReader {
     model_.system = text_at(metadata, "referenceSystem");
   }
 
-  // The place of the object in the model; no_parent where it is not built. Parents come first.
+  // Returns the index of the object in the model, or no_parent if it is not built. Parents come first.
   size_t add(const std::string& id, const Json& object, int depth) {
     constexpr int deepest = 8;
     if (const auto known = places_.find(id); known != places_.end()) return known->second;
@@ -147,7 +147,7 @@ class CityJsonReader {
     return model_.objects.size() - 1;
   }
 
-  // Whether it is of a level of detail that is not asked for, but would be with another --lod.
+  // Returns true if the geometry has a level of detail that was not asked for but is available with another --lod.
   bool read_geometry(const Json& geometry, const std::string& place, ModelObject& out) {
     const std::string type = text_at(geometry, "type");
     const Json& boundaries = member(geometry, "boundaries");
@@ -231,8 +231,8 @@ class CityJsonReader {
   CityModel model_;
   std::vector<glm::dvec3> vertices_;
   std::unordered_map<std::string, size_t> places_;
-  const Json* surface_types_ = nullptr;      // of the geometry that is read
-  std::vector<ModelFace>* faces_ = nullptr;  // of it
+  const Json* surface_types_ = nullptr;      // types of the current geometry's surfaces
+  std::vector<ModelFace>* faces_ = nullptr;  // faces of the current geometry
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Lines parallel to x, each cut by all edges that it meets: lengths inside of the polygon, and inside of others as
-// well. Where a line meets a corner, each edge counts by its lower end alone.
+// Lines parallel to x are cut by all edges that they cross: this gives the lengths inside the polygon, and inside
+// others as well. Where a line passes through a corner, each edge counts by its lower end alone.
 #include "imports/coverage.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ constexpr size_t coverage_lines = 256;
 
 struct Cut {
   double x;
-  size_t polygon;  // 0: the one that is covered; others from 1 on
+  size_t polygon;  // 0: the covered polygon; others count from 1
 };
 
 class CoverageLines {
@@ -59,14 +59,14 @@ class CoverageLines {
   }
 
   double height(size_t line) const { return lower_ + (static_cast<double>(line) + 0.5) * spacing_; }
-  // The first line at this y or above.
+  // Returns the first line at this y or above.
   size_t first_from(double y) const {
     const double line = std::ceil((y - lower_) / spacing_ - 0.5);
     return static_cast<size_t>(std::clamp(line, 0.0, static_cast<double>(coverage_lines)));
   }
 
   double lower_, spacing_;
-  std::vector<std::vector<Cut>> cuts_;  // of each line
+  std::vector<std::vector<Cut>> cuts_;  // the cuts of each line
 };
 
 }  // namespace

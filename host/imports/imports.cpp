@@ -1,5 +1,5 @@
-// From a map to a folder: read, plan, build, write, say.
-// Assumes that a city and its file fit into memory.
+// Turns a map into a folder: reads, plans, builds, writes and reports.
+// A city and its file must fit into memory.
 #include "imports/imports.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ void check(const ImportOptions& options) {
 
 bool is_city_model(std::string_view begin) { return imports::is_cityjson(begin) || imports::is_citygml(begin); }
 
-// Whether this is read here, not by GDAL.
+// Tells whether this code reads the file, and not GDAL.
 bool is_read_here(std::string_view begin) {
   return imports::is_osm(begin) || imports::is_sumo_polygons(begin) || is_city_model(begin);
 }
@@ -80,8 +80,8 @@ imports::Map read_map(std::string_view content, const std::string& name, const I
   if (imports::is_osm(begin)) return imports::read_osm(content, name, options);
   if (imports::is_sumo_polygons(begin)) return imports::read_sumo_polygons(content, name);
   throw InputError(
-      fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf), SUMO polygons (.poly.xml), CityJSON nor "
-                  "CityGML; unpack .gz, .bz2 and .zip first",
+      fmt::format("{}: this is neither an OpenStreetMap file (.osm, .osm.pbf), SUMO polygons (.poly.xml), "
+                  "CityJSON nor CityGML; unpack .gz, .bz2 and .zip first",
                   name));
 }
 
@@ -117,7 +117,7 @@ void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   summary.guessed = plan.guessed;
 }
 
-// Writes the files of a scene; what they are goes to the summary.
+// Writes the files of a scene, and fills the summary.
 ImportSummary write_city(const std::vector<imports::SceneMesh>& meshes, const Georeference& georeference,
                          ImportSummary summary, const ImportOptions& options) {
   for (const imports::SceneMesh& mesh : meshes) summary.triangles += mesh.triangles.size();
@@ -192,8 +192,8 @@ ImportSummary import_city(std::string_view content, const std::string& name, con
 
 std::string describe(const ImportSummary& s) {
   std::string out = fmt::format(
-      "scene      {}\nbuildings  {}, parts {}, courtyards {}; {} triangles\nextent     {:.0f} x {:.0f} m, from "
-      "({:.1f}, "
+      "scene      {}\nbuildings  {}, parts {}, courtyards {}; {} triangles\n"
+      "extent     {:.0f} x {:.0f} m, from ({:.1f}, "
       "{:.1f}) to ({:.1f}, {:.1f})\n",
       s.scene.string(), s.buildings, s.parts, s.courtyards, s.triangles, s.upper_m.x - s.lower_m.x,
       s.upper_m.y - s.lower_m.y, s.lower_m.x, s.lower_m.y, s.upper_m.x, s.upper_m.y);
@@ -204,15 +204,15 @@ std::string describe(const ImportSummary& s) {
   if (!s.heights.empty()) out += fmt::format("heights    {}\n", s.heights);
   if (s.terrain)
     out += fmt::format(
-        "terrain    {} triangles for {} posts, from {:.1f} to {:.1f} m; misses the posts by {:.3f} m at most, {:.3f} m "
-        "rms\n",
+        "terrain    {} triangles for {} posts, from {:.1f} to {:.1f} m; misses the posts by {:.3f} m at most, "
+        "{:.3f} m rms\n",
         s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
         s.terrain->rms_error_m);
   if (s.vegetation > 0) out += fmt::format("vegetation {} trees and woods, by docs/outdoors.md\n", s.vegetation);
   if (s.straightened > 0)
     out += fmt::format(
-        "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: the map's "
-        "coordinates are rounded to {:.2g} mm\n",
+        "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: "
+        "the map's coordinates are rounded to {:.2g} mm\n",
         s.straightened, s.straightened_by_m * 1000, 2000 * s.rounding_m);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);

@@ -1,5 +1,5 @@
-// A map as its reader hands it over: footprints with tags, in the coordinates that the scene will have.
-// Assumes nothing of the rings but finite coordinates: imports/rings.hpp checks them.
+// A map as its reader returns it: footprints with tags, in the coordinates that the scene will have.
+// Coordinates of rings are finite; imports/rings.hpp checks the rest.
 #pragma once
 #include <glm/vec2.hpp>
 #include <map>
@@ -17,8 +17,8 @@ namespace wavetracer::imports {
 using RingM = std::vector<glm::dvec2>;  // m; the first point may be repeated at the end
 
 struct Footprint {
-  std::string id;    // "way_123", unique, fit for a file name
-  std::string name;  // as people call it, may be empty
+  std::string id;    // such as "way_123": unique, and valid as a file name
+  std::string name;  // the name that people use; may be empty
   RingM outer;
   std::vector<RingM> holes;
   Tags tags;
@@ -26,10 +26,11 @@ struct Footprint {
 
 struct Map {
   std::vector<Footprint> footprints;
-  Georeference georeference;  // of the coordinates of the footprints; without a projection where none is known
+  Georeference georeference;  // reference of the footprints' coordinates; it has no projection if none is known
   Extent network;             // convBoundary of SUMO's <location>
-  double rounding_m = 0;      // how far a coordinate may be off, because the file holds few digits: half of a step
-  bool nested_are_courtyards = false;  // a footprint inside another of the same tags is a hole in it
+  // Largest error of a coordinate, because the file has few digits: half of the last digit's step.
+  double rounding_m = 0;
+  bool nested_are_courtyards = false;  // a footprint inside another one with the same tags is a hole in it
   std::map<std::string, uint64_t> left_out;
   std::vector<std::string> warnings;
 };
@@ -47,15 +48,16 @@ Map read_sumo_polygons(std::string_view content, const std::string& name);
 // The <location> of a .net.xml or .poly.xml.
 struct SumoLocation {
   Georeference georeference;
-  Extent boundary;  // of the network or the polygons, in its coordinates; empty where SUMO says that there is nothing
+  // Bounds of the network or the polygons, in its coordinates; empty if SUMO says that there is nothing.
+  Extent boundary;
 };
-// Empty where it has none. Throws InputError where it is malformed.
+// Returns nothing if there is none. Throws InputError if it is malformed.
 std::optional<SumoLocation> sumo_location(std::string_view content, const std::string& name);
 
-// "NAME:LINE" of a byte of the text.
+// Returns "NAME:LINE" for a byte of the text.
 std::string line_of(std::string_view content, std::ptrdiff_t offset, const std::string& name);
 
-// The name of the root element of an XML text, of which the beginning is enough; empty where it is none.
+// Returns the name of the root element of an XML text, of which the beginning is enough; empty if there is none.
 std::string_view root_element(std::string_view text);
 
 }  // namespace wavetracer::imports

@@ -1,6 +1,6 @@
-/* What the module wavetracer_maps.so offers, the one part of the program that knows GDAL: footprints of vector maps and
-   heights of rasters. Plain C, so that the program can load it at run time where it is there. Texts are UTF-8 and
-   belong to the module; they and all arrays last until the function or the callback that has them returns. */
+/* The interface of the module wavetracer_maps.so, the one part of the program that uses GDAL: footprints of vector maps
+   and heights of rasters. It is plain C, so that the program can load it at run time if it exists. Texts are UTF-8 and
+   belong to the module; they and all arrays are valid until the function or the callback that has them returns. */
 #ifndef WAVETRACER_IMPORTS_MAPS_INTERFACE_H
 #define WAVETRACER_IMPORTS_MAPS_INTERFACE_H
 #include <stddef.h>
@@ -13,7 +13,7 @@ extern "C" {
 #define WT_MAPS_VERSION 2
 enum { WT_MAPS_ERROR_SIZE = 2048 };
 
-/* A text in the file of the module: the program looks for it before it opens GDAL, which is too late to do without. */
+/* A text in the module's file: the program searches it before it opens GDAL, since it could not do without it later. */
 #define WT_MAPS_TEXT_OF(number) #number
 #define WT_MAPS_MARK_OF(number) "wavetracer maps, interface " WT_MAPS_TEXT_OF(number) ";"
 #define WT_MAPS_MARK WT_MAPS_MARK_OF(WT_MAPS_VERSION)
@@ -21,24 +21,24 @@ enum { WT_MAPS_ERROR_SIZE = 2048 };
 /* A polygon of a feature. */
 struct wt_maps_polygon {
   const char* layer;
-  int64_t feature;           /* its id in the layer */
-  size_t part;               /* of a feature of several polygons, from 0 */
-  size_t rings;              /* the outer one first, then its holes */
-  const size_t* ring_sizes;  /* points of each ring, the last of which repeats the first */
-  const double* xy;          /* of all rings: longitude and latitude in degrees (WGS84), or as they are in the file */
-  const char* const* values; /* of the fields that were asked for, in their order; NULL: not set */
+  int64_t feature;          /* its id in the layer */
+  size_t part;              /* number among the polygons of a feature, from 0 */
+  size_t rings;             /* the outer one first, then its holes */
+  const size_t* ring_sizes; /* points of each ring, the last of which repeats the first */
+  const double* xy; /* points of all rings: longitude and latitude in degrees (WGS84), or unchanged from the file */
+  const char* const* values; /* values of the query's fields, in their order; NULL: not set */
 };
 
 struct wt_maps_query {
   const char* layer;         /* NULL: all layers */
-  const char* const* fields; /* names; where a layer has no field of exactly that name, case is ignored */
+  const char* const* fields; /* names; if a layer has no field of exactly that name, case is ignored */
   size_t field_count;
-  size_t most_points; /* of a polygon; larger ones are counted, not handed over */
+  size_t most_points; /* limit of a polygon; larger ones are counted, not passed on */
 };
 
 struct wt_maps_layers {
-  int in_degrees;       /* whether xy are degrees; 0: no layer says where on the earth it is */
-  uint64_t features;    /* that were read */
+  int in_degrees;       /* 1: xy are degrees; 0: no layer has a coordinate system */
+  uint64_t features;    /* number of features that were read */
   uint64_t no_polygons; /* features without a polygon */
   uint64_t too_large;   /* polygons of more than most_points */
   char driver[64];      /* the format, as GDAL calls it */
@@ -47,7 +47,7 @@ struct wt_maps_layers {
   uint32_t ambiguous;   /* bit i: a layer has several fields that may be the field i of the query; the first was read */
 };
 
-/* Calls visit for every polygon, until it does not return 0. 0: all was read; else `error` says why not. */
+/* Calls visit for every polygon, until it does not return 0. Returns 0 if all was read; else `error` has the reason. */
 int wt_maps_footprints(const char* file, const struct wt_maps_query* query,
                        int (*visit)(void* user, const struct wt_maps_polygon* polygon), void* user,
                        struct wt_maps_layers* layers, char error[WT_MAPS_ERROR_SIZE]);
@@ -55,8 +55,8 @@ int wt_maps_footprints(const char* file, const struct wt_maps_query* query,
 /* A part of a raster of heights. */
 struct wt_maps_raster {
   size_t columns, rows;
-  const float* heights_m; /* row by row, from the first row of the file; NaN where the file has none */
-  int clipped;            /* whether places that were asked for are outside of the raster */
+  const float* heights_m; /* row by row, from the first row of the file; NaN where the file has no height */
+  int clipped;            /* 1: some requested places are outside of the raster */
   double full_columns, full_rows;
   char driver[64];
   void* handle;

@@ -1,6 +1,6 @@
-// The file of the module is found and read first, beside the program or where packages put it. Only then is GDAL
-// opened, by dlopen, and the module behind it: what GDAL pulls in stays to the end of the process. GDAL's symbols are
-// opened for all, since the module names no library of its own.
+// The module's file is found and read first, beside the program or where packages install it. Only then GDAL and the
+// module are opened by dlopen, since libraries that GDAL loads stay until the process ends. GDAL's symbols are opened
+// globally, since the module links no library itself.
 #include "imports/maps_module.hpp"
 
 #include <dlfcn.h>
@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* gdal_name = WAVETRACER_GDAL_NAME;  // "libgdal.so.32"; empty: built without
+// A name such as "libgdal.so.32"; empty if the program was built without GDAL.
+constexpr const char* gdal_name = WAVETRACER_GDAL_NAME;
 
 constexpr const char* other_formats =
     "or convert the file to OpenStreetMap, SUMO's polygons, CityJSON or CityGML, which are read without GDAL";
@@ -35,8 +36,8 @@ std::vector<std::string> module_places() {
   return {(here / file).string(), (here / WAVETRACER_MAPS_FOLDER / file).lexically_normal().string()};
 }
 
-// A wheel brings libraries of its own, in a folder of this name. With those of the system that GDAL pulls in, there
-// would be two of each in one process, which crashes when it ends.
+// A wheel brings its own libraries in a folder of this name. GDAL would load the system's copies of the same libraries
+// into the process, which then crashes at its end.
 bool is_from_wheel() {
   return dl_iterate_phdr(
              [](dl_phdr_info* object, size_t, void*) {
@@ -55,20 +56,20 @@ void look_up(void* module, const char* name, Function& function, const std::stri
   if (!function) fail(needed_for, fmt::format("wavetracer_maps.so has no function {}", name));
 }
 
-// The file of the module, which is of this version.
+// Returns the module's file of this version.
 std::string find_module(const std::string& needed_for) {
   const std::vector<std::string> places = module_places();
   for (const std::string& place : places) {
     std::error_code error;
     if (!fs::is_regular_file(place, error)) continue;
     if (read_file(place).find(WT_MAPS_MARK) != std::string::npos) return place;
-    fail(needed_for,
-         fmt::format("the module for it, {}, is not that of this version of wavetracer: install or build both "
-                     "together",
-                     place));
+    fail(needed_for, fmt::format("the module for it, {}, is not that of this version of wavetracer: install "
+                                 "or build both together",
+                                 place));
   }
-  fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, is not there ({}): install wavetracer's Debian "
-                               "package, or build it from its source with libgdal-dev (`./dev run`), {}",
+  fail(needed_for, fmt::format("the module for it, wavetracer_maps.so, is not there ({}): "
+                               "install wavetracer's Debian package, or build it from its source with libgdal-dev "
+                               "(`./dev run`), {}",
                                fmt::join(places, ", "), other_formats));
 }
 

@@ -1,5 +1,5 @@
-// The module that reads maps by GDAL, opened when it is first needed: the program links no GDAL.
-// What it has opened stays until the program ends.
+// The module that reads maps by GDAL. It is opened when it is first needed: the program does not link GDAL.
+// The libraries stay loaded until the program ends.
 #pragma once
 #include <string>
 
@@ -14,8 +14,8 @@ struct MapsModule {
   decltype(&wt_maps_close_raster) close_raster;
 };
 
-// needed_for: a file, for messages. Throws RuntimeError that says what to install where there is no module or no GDAL.
-// The variable WAVETRACER_MAPS_MODULE names another file of the module.
+// needed_for: a file, for messages. Throws RuntimeError that says what to install if the module or GDAL is missing. The
+// environment variable WAVETRACER_MAPS_MODULE names another file of the module.
 const MapsModule& maps_module(const std::string& needed_for);
 
 }  // namespace wavetracer::imports

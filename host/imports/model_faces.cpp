@@ -1,5 +1,6 @@
-// The plane is one of two axes, so that corners stay on the grid and the triangulator's tests stay exact; their normals
-// are by M. Newell's sum (Sutherland, Sproull and Schumacker, 1974), which any polygon has, flat or not.
+// Polygons are triangulated in a plane of two axes, so that corners stay on the grid and the triangulator's tests stay
+// exact. Normals are computed by M. Newell's sum (Sutherland, Sproull and Schumacker, 1974), which any polygon has,
+// flat or not.
 #include "imports/model_faces.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ glm::dvec3 difference(const GridCorner& a, const GridCorner& b) {
          static_cast<double>(grid_per_m);
 }
 
-// The face without the axis along which it looks most, so that it keeps its sense.
+// Drops the axis that the face's normal is closest to, in a way that keeps the face's orientation.
 Point flattened(const GridCorner& p, int axis) {
   if (axis == 0) return {p.y, p.z};
   if (axis == 1) return {p.z, p.x};
@@ -61,7 +62,7 @@ void tidy(GridFace& face) {
       else
         out.push_back(p);
     }
-    // The same where the ring closes.
+    // Does the same where the ring closes.
     size_t first = 0;
     while (out.size() - first > 1) {
       if (out[first] == out.back()) {
@@ -76,7 +77,7 @@ void tidy(GridFace& face) {
     }
     ring.assign(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   }
-  // Holes that have come to nothing.
+  // Removes holes that have become empty.
   if (face.rings.size() > 1)
     face.rings.erase(
         std::remove_if(face.rings.begin() + 1, face.rings.end(), [](const auto& ring) { return ring.size() < 3; }),
@@ -102,7 +103,7 @@ FaceTriangles triangulate_face(const GridFace& face) {
   const glm::dvec3 area = area_vector(face), size = glm::abs(area);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   Polygon polygon;
-  std::vector<uint32_t> corners;  // of the face, in the order of those of the polygon
+  std::vector<uint32_t> corners;  // corners of the face, in the order of those of the polygon
   std::vector<Ring> rings;
   for (const auto& ring : face.rings) {
     Ring& flat = rings.emplace_back();

@@ -1,5 +1,5 @@
-// Polygons in space on the grid of imports/rings.hpp, and their triangles, found in the plane that they lie in most.
-// Assumes coordinates below 10^9 m; what is out of bounds is a fault.
+// Polygons in space on the grid of imports/rings.hpp, and their triangles, found in the axis-parallel plane that is
+// closest to theirs. Coordinates must be below 10^9 m; larger ones are reported as a fault.
 #pragma once
 #include <compare>
 #include <glm/vec3.hpp>
@@ -24,20 +24,20 @@ struct GridFace {
 GridFace on_grid(const ModelFace& face);
 glm::dvec3 metres(const GridCorner& corner);
 
-// Half of the sum of cross products round the outer ring: its area along its normal, counter-clockwise, in m2.
+// Returns half of the sum of cross products around the outer ring: the area times the normal, counter-clockwise, in m2.
 glm::dvec3 area_vector(const GridFace& face);
-// Six times the volume under the outer ring, as seen from a point, in m3; over all faces of a solid that look outward
-// the sum is six times its volume.
+// Returns six times the volume of the cone from a point to the outer ring, in m3; summed over all faces of a solid that
+// look outward, it is six times the solid's volume.
 double cone_m3(const GridFace& face, const GridCorner& from);
 
-// Removes what a face does not need: corners that repeat the one before, ways there and back, holes of nothing.
+// Removes superfluous corners and holes: corners that repeat the one before, spikes, empty holes.
 void tidy(GridFace& face);
 
 struct FaceTriangles {
-  std::vector<Triangle> triangles;  // over the corners of all rings in their order, turning as the outer ring does
-  std::string_view fault;           // why there are none
-  bool crossing = false;            // the outline crosses or touches itself, and has triangles all the same
-  double bend_m = 0;                // how far corners are from their plane
+  std::vector<Triangle> triangles;  // indices of the corners of all rings in their order, oriented as the outer ring
+  std::string_view fault;           // the reason if there are no triangles
+  bool crossing = false;            // the outline crosses or touches itself, but has triangles
+  double bend_m = 0;                // largest distance of a corner from the plane
 };
 FaceTriangles triangulate_face(const GridFace& face);
 

@@ -1,5 +1,5 @@
-// Roles by slope, feet by ground surfaces.
-// Assumes faces whose outer ring has corners.
+// Roles follow from slopes, feet from ground surfaces.
+// The outer ring of a face must have corners.
 #include "imports/model_ground.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr double steepest_roof = 0.1;  // the cosine to the vertical below which a surface without a role is a wall
+// A surface without a role is a wall if the cosine of its normal to the vertical is below this.
+constexpr double steepest_roof = 0.1;
 
 }  // namespace
 

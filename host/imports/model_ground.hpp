@@ -1,5 +1,5 @@
-// How a building of a city model stands on the ground: what its surfaces are, which corners are its feet.
-// Assumes that a building and its parts stand together: they are moved as one.
+// Finds how a building of a city model stands on the ground: the roles of its surfaces, and the corners that are its
+// feet. A building and its parts are moved together.
 #pragma once
 #include <optional>
 #include <set>
@@ -17,19 +17,22 @@ struct Body {
 };
 using Family = std::vector<Body>;  // a building and its parts
 
-// Which way surfaces look, and what those are that do not say it: told by their slope.
+// Finds the orientation of surfaces, and the roles of those without one, from their slope.
 void tell_roles(Body& body);
 
 int64_t lowest_corner(const Family& family);
 
-// Corners that stand on the ground: those of ground surfaces less than a storey above the lowest corner, since what is
-// higher is a passage or a bay. Without ground surfaces, the lowest corner of walls at each place. Needs roles.
+// Returns the corners that stand on the ground: those of ground surfaces less than a storey above the lowest corner,
+// since a higher one belongs to a passage or a bay. Without ground surfaces, it is the lowest corner of walls at each
+// place. Roles must be known.
 std::set<GridCorner> feet_of(const Family& family, int64_t lowest, double storey_m);
 
-// The lowest terrain below a building; empty where it reaches beyond it. Infinite where nothing of it says where it is.
+// Returns the lowest terrain below a building; nothing if the building reaches beyond the terrain; infinity if the
+// building has no corner.
 std::optional<double> terrain_below(const Ground& ground, const Family& family);
 
-// Sets the feet to one height, and lifts all else. Walls between feet, of steps in the ground, come to nothing.
+// Sets the feet to one height, and lifts all other corners. Walls between feet, such as steps in the ground, become
+// empty.
 void move(Family& family, const std::set<GridCorner>& feet, int64_t foot, int64_t rise);
 
 }  // namespace wavetracer::imports

@@ -1,5 +1,5 @@
-// Buildings of a city model on the ground of the scene, and their meshes.
-// Assumes that a building and its parts stand together: they are moved as one.
+// Puts the buildings of a city model on the ground of the scene, and makes their meshes.
+// A building and its parts are moved together.
 #include "imports/model_import.hpp"
 
 #include <fmt/format.h>
@@ -105,15 +105,15 @@ class ModelBuilder {
     model_.warnings.insert(model_.warnings.end(), terrain.warnings.begin(), terrain.warnings.end());
     out_.georeference.elevation_m = 0;
     if (place.above_ellipsoid)
-      model_.warnings.push_back(fmt::format(
-          "{}: its heights are above the ellipsoid, but those of a terrain are mostly above sea level, which "
-          "is tens of metres off",
-          name_));
+      model_.warnings.push_back(
+          fmt::format("{}: its heights are above the ellipsoid, but those of a terrain are mostly above sea level, "
+                      "which is tens of metres off",
+                      name_));
     return terrain;
   }
 
-  // Moves a building to the ground, and lets it reach below it, so that no face lies in its plane and no gap is under
-  // it. False where it is left out.
+  // Moves a building to the ground, and lets it reach below it, so that no face lies in the ground's plane and no gap
+  // is below it. Returns false if the building is left out.
   bool settle(Family& family, const Ground* ground) {
     for (Body& body : family) {
       tell_roles(body);
@@ -160,7 +160,7 @@ class ModelBuilder {
     std::map<std::string, std::map<GridCorner, uint32_t>> corners;
     const std::string id = fmt::format("building_{}", ++built_);
     for (GridFace face : body.faces) {
-      tidy(face);  // feet that came to one place
+      tidy(face);  // removes feet that came to one place
       if (face.rings[0].size() < 3) continue;
       const FaceTriangles found = triangulate_face(face);
       if (!found.fault.empty()) {

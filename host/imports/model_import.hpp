@@ -1,4 +1,4 @@
-// From a city model to meshes: placed on the earth, set on the ground, triangulated, one mesh for each material.
+// Turns a city model into meshes: placed on the Earth, set on the ground, triangulated, one mesh per material.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,19 +11,19 @@ namespace wavetracer::imports {
 
 struct PlacedModel {
   Georeference georeference;
-  Extent network;                // of options.net, in coordinates of the projection
-  bool above_ellipsoid = false;  // what heights are measured from
+  Extent network;                // bounds of options.net, in coordinates of the projection
+  bool above_ellipsoid = false;  // heights are above the ellipsoid
 };
-// Turns the coordinates of the model into those of the scene, in metres, by the system that the file names. Throws
-// InputError, and RuntimeError where PROJ has no database.
+// Converts the coordinates of the model to those of the scene, in metres, by the system that the file names. Throws
+// InputError, and RuntimeError if PROJ has no database.
 PlacedModel place_model(CityModel& model, const std::string& name, const ImportOptions& options);
 
 struct ModelScene {
   std::vector<SceneMesh> meshes;  // the ground first
   Georeference georeference;
-  ImportSummary summary;  // what was built and left out; without the files
+  ImportSummary summary;  // counts of objects that were built and left out; the files are not set
 };
-// Throws InputError where nothing can be built.
+// Throws InputError if nothing can be built.
 ModelScene build_model(CityModel model, const std::string& name, const ImportOptions& options);
 
 }  // namespace wavetracer::imports

@@ -1,5 +1,5 @@
-// Coordinates of city models into those of the scene.
-// Assumes that all coordinates of a model are of one system.
+// Converts coordinates of city models to those of the scene.
+// All coordinates of a model must be of one system.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ void each_corner(CityModel& model, const Visit& visit) {
   });
 }
 
-// Positive where most surfaces look as they should in the coordinates of the file: roofs up, or, where none says that
-// it is one, the surfaces of solids outward. 0 where there is no telling.
+// Returns a positive number if most surfaces look the right way in the coordinates of the file: roofs up, or, if no
+// surface is marked as a roof, surfaces of solids outward. Returns 0 if that cannot be told.
 double look_up(CityModel& model) {
   double roofs = 0, all_roofs = 0, solids = 0, all_solids = 0;
   for (ModelObject& object : model.objects) {
@@ -51,7 +51,7 @@ double look_up(CityModel& model) {
   return all_roofs == 0 && std::abs(solids) > 0.05 * all_solids ? solids : 0;
 }
 
-// Coordinates of nowhere on the earth: as they are, but not degrees, which would make a city of a metre.
+// Coordinates without a system are kept, unless they look like degrees, which would make a city of a metre.
 PlacedModel place_nowhere(CityModel& model, const Extent& extent, const std::string& name,
                           const ImportOptions& options) {
   constexpr double a_town_deg = 0.5, a_storey_m = 2;
@@ -63,17 +63,17 @@ PlacedModel place_nowhere(CityModel& model, const Extent& extent, const std::str
   });
   if (size.x < a_town_deg && size.y < a_town_deg && highest - lowest > a_storey_m)
     throw InputError(
-        fmt::format("{}: does not name its coordinate system, and its coordinates seem to be degrees: name it, in "
-                    "CityJSON as metadata/referenceSystem, in CityGML as srsName of gml:Envelope",
+        fmt::format("{}: does not name its coordinate system, and its coordinates seem to be degrees: name it, "
+                    "in CityJSON as metadata/referenceSystem, in CityGML as srsName of gml:Envelope",
                     name));
   if (!options.net.empty())
     throw InputError(
         fmt::format("{}: does not name its coordinate system, so it cannot be placed on the network of --net", name));
   if (options.projection.empty())
-    model.warnings.push_back(fmt::format(
-        "{}: does not name its coordinate system: its coordinates are taken as metres, and the scene has no "
-        "georeference; --projection names one",
-        name));
+    model.warnings.push_back(
+        fmt::format("{}: does not name its coordinate system: its coordinates are taken as metres, "
+                    "and the scene has no georeference; --projection names one",
+                    name));
   return {{options.projection, {0, 0}, {}, {}}, {}, false};
 }
 
@@ -87,10 +87,10 @@ PlacedModel place_model(CityModel& model, const std::string& name, const ImportO
   SourceSystem system(model.system, name);
   system.choose_order((extent.lower_m + extent.upper_m) / 2.0, look_up(model));
   if (system.swapped())
-    model.warnings.push_back(fmt::format(
-        "{}: its first two coordinates are taken in the other order than that of '{}', since otherwise the model would "
-        "lie elsewhere or be mirrored",
-        name, printable(model.system)));
+    model.warnings.push_back(
+        fmt::format("{}: its first two coordinates are taken in the other order than that of '{}', "
+                    "since otherwise the model would lie elsewhere or be mirrored",
+                    name, printable(model.system)));
   Extent degrees;
   const double metres_per_height = system.metres_per_height();
   each_corner(model, [&](glm::dvec3& p) {

@@ -1,5 +1,5 @@
-// Buildings of OpenStreetMap files, XML or PBF, by libosmium, whose assembler makes areas of ways and multipolygons.
-// Objects may come in any order and in several versions, of which the last one counts. Memory is bounded by the file.
+// Reads buildings of OpenStreetMap files, XML or PBF, by libosmium, whose assembler makes areas of ways and
+// multipolygons. Objects may come in any order and in several versions; the last counts. The file bounds the memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@
 namespace wavetracer::imports {
 namespace {
 
-// The assembler compares each edge with all others beside it: 10^6 corners would take days. As many corners as a
-// polygon may have (rings.hpp), and several rings in a multipolygon; each way in a few multipolygons.
+// The assembler compares each edge with all others beside it, so 10^6 corners would take days. The limits are the
+// corners that a polygon may have (rings.hpp), several rings per multipolygon, and a few multipolygons per way.
 constexpr size_t most_way_nodes = max_corners + 1, most_relation_nodes = 4 * max_corners, most_repeated = 4;
 constexpr const char* too_many_corners = "more than 5000 corners";
 constexpr const char* deleted_object = "deleted in the editor or in a later version (action='delete', visible='false')";
@@ -36,7 +36,7 @@ class OsmReader {
         is_pbf_(!content.starts_with('<') && root_element(content).empty()),
         vegetation_(vegetation) {}
 
-  // Footprints in degrees (longitude, latitude): projected by the caller, who knows the middle only now.
+  // Returns footprints in degrees (longitude, latitude); the caller projects them, since the middle is only known now.
   Map read() {
     if (!is_pbf_) {
       check_exponents(content_, name_);
@@ -81,7 +81,7 @@ class OsmReader {
     }
   }
 
-  // Notes a version of an object, and keeps it if something is made of it.
+  // Notes a version of an object, and keeps it if something is built from it.
   template <class Object>
   void note(const Object& object, bool gone, bool wanted, bool built, osmium::memory::Buffer& kept,
             std::vector<ObjectVersion>& versions) {
@@ -92,7 +92,7 @@ class OsmReader {
   }
 
   void node(const osmium::Node& node) {
-    // Every node takes a byte at least, compressed ones perhaps half of it: more of them are a trap for the memory.
+    // Every node takes at least a byte, compressed ones perhaps half: more of them are an attack on memory.
     if (++nodes_ > 1000000 + 8 * content_.size()) {
       throw InputError(fmt::format("{}: the file contains far more nodes than its size allows: it is damaged", name_));
     }
@@ -105,8 +105,8 @@ class OsmReader {
     note(node, false, true, false, kept_trees_, trees_);
   }
 
-  // Texts of PBF may hold zero bytes, which end a text for libosmium: a key would be left without its value, and what
-  // lies behind the object would be read instead.
+  // Texts of PBF may contain zero bytes, which end a text for libosmium: a key would lose its value, and libosmium
+  // would read beyond the object.
   void check_tags(const osmium::OSMObject& object) const {
     const osmium::TagList& tags = object.tags();
     const unsigned char* const bytes = tags.data();
@@ -121,7 +121,7 @@ class OsmReader {
     if (const std::string_view kind = greenery(object.tags()); !kind.empty()) ++map_.left_out[std::string(kind)];
   }
 
-  // Whether a closed way or a multipolygon with these tags is built.
+  // Tells whether a closed way or a multipolygon with these tags is built.
   bool is_area(const osmium::TagList& tags) const { return is_building(tags) || (vegetation_ && is_wood(tags)); }
 
   void plant_last(const ObjectVersion& tree) {
@@ -132,7 +132,7 @@ class OsmReader {
     plant({node.location().lon(), node.location().lat()}, fmt::format("node_{}", node.id()), node.tags());
   }
 
-  // A tree, as the outline of its crown.
+  // Adds a tree as the outline of its crown.
   void plant(const glm::dvec2& place_deg, const std::string& id, const osmium::TagList& tags) {
     Footprint footprint;
     footprint.id = id;
@@ -168,7 +168,7 @@ class OsmReader {
     note(relation, gone, built, built, kept_relations_, relations_);
   }
 
-  // Is an area made of the relation?
+  // Tells whether an area is made of the relation.
   bool is_multipolygon(const osmium::Relation& relation) const {
     return relation.tags().has_tag("type", "multipolygon") && is_area(relation.tags());
   }
@@ -231,7 +231,7 @@ class OsmReader {
 
   template <class Assemble>
   void build(const osmium::OSMObject& source, const char* kind, const Assemble& assemble) {
-    constexpr osmium::object_id_type largest_id = osmium::object_id_type{1} << 61;  // the assembler doubles it
+    constexpr osmium::object_id_type largest_id = osmium::object_id_type{1} << 61;  // the assembler doubles ids
     if (source.id() > largest_id || source.id() < -largest_id)
       return void(++map_.left_out["outline whose id is too large"]);
     osmium::memory::Buffer out(1024, growing);
@@ -271,7 +271,7 @@ class OsmReader {
   bool is_pbf_, vegetation_;
   Map map_;
   size_t nodes_ = 0, row_trees_ = 0;
-  size_t way_nodes_ = 0, member_nodes_ = 0;  // of the ways that are kept; of multipolygons so far, each time anew
+  size_t way_nodes_ = 0, member_nodes_ = 0;  // nodes of kept ways; nodes of multipolygons, counted for each of them
   const osmium::area::AssemblerConfig assembler_config_{};
   DeletedObjects deleted_;
   NodePlaces places_;
@@ -283,7 +283,7 @@ class OsmReader {
 }  // namespace
 
 bool is_osm(std::string_view first_bytes) {
-  // PBF: the length of a BlobHeader, then its field 1, "OSMHeader".
+  // A PBF file begins with the length of a BlobHeader, then its field 1, "OSMHeader".
   const std::string_view root = root_element(first_bytes);
   return root == "osm" || root == "osmChange" || first_bytes.substr(0, 15).ends_with("\x0a\x09OSMHeader");
 }
@@ -291,7 +291,7 @@ bool is_osm(std::string_view first_bytes) {
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options) {
   Map map = OsmReader(content, name, options.vegetation).read();
   if (map.footprints.empty()) return map;
-  map.rounding_m = 0.5e-7 * metres_per_degree;  // of the latitude: OpenStreetMap's coordinates have seven decimals
+  map.rounding_m = 0.5e-7 * metres_per_degree;  // along the latitude: OpenStreetMap's coordinates have seven decimals
   project(map, name, options, fmt::format("osmium extract -b WEST,SOUTH,EAST,NORTH {} -o city.osm.pbf", name));
   map.georeference.attribution = osm_attribution;
   return map;

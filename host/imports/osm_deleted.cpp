@@ -1,4 +1,4 @@
-// Reads the text once more with expat, if it contains the words at all.
+// Reads the text once more with expat if it contains the words.
 // Entities are not expanded: libosmium refuses a file that declares one.
 #include "imports/osm_deleted.hpp"
 

@@ -1,4 +1,4 @@
-// Looks for the two attributes by their names, as the text is long and exponents are rare.
+// Searches for the names of the two attributes, since the text is long and exponents are rare.
 #include "imports/osm_exponents.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-// The value of an attribute, of the text that follows its name; empty where none follows.
+// Returns the value of an attribute from the text after its name; empty if there is none.
 std::string_view value_after(std::string_view text) {
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size())); };
   skip_blanks();

@@ -1,4 +1,4 @@
-// Tells by their tags which objects of OpenStreetMap are built.
+// Decides by tags which objects of OpenStreetMap are built.
 // Keys are those of https://wiki.openstreetmap.org/wiki/Map_features.
 #pragma once
 #include <array>
@@ -30,8 +30,8 @@ inline Tags kept_of(const osmium::TagList& tags) {
   return out;
 }
 
-// Names an object that stands in the way of waves and is no building; empty: it is nothing of this kind. It is built if
-// it is asked for (ImportOptions::vegetation).
+// Returns the kind of an object that attenuates waves and is no building, or empty for other objects. It is built if
+// ImportOptions::vegetation asks for it.
 inline std::string_view greenery(const osmium::TagList& tags) {
   if (is_tree(tags)) return "tree (natural=tree)";
   if (is_row(tags)) return "row of trees (natural=tree_row)";

@@ -1,5 +1,5 @@
-// Objects of OpenStreetMap by id, the last version of each: histories and change files hold several.
-// The last is that of the highest number, and of equal numbers the later one in the file.
+// Objects of OpenStreetMap by id, the last version of each: histories and change files contain several.
+// The last version has the highest number; of equal numbers, it is the later one in the file.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace wavetracer::imports {
 struct ObjectVersion {
   int64_t id;
   uint32_t version;
-  bool kept, deleted;  // kept: it is in the buffer at `offset`; deleted: it would be built, but is there no more
+  bool kept, deleted;  // kept: it is in the buffer at `offset`; deleted: it would be built, but no longer exists
   size_t offset;
 };
 
-// The last version of each object, by id.
+// Keeps the last version of each object, sorted by id.
 inline void keep_last_versions(std::vector<ObjectVersion>& objects) {
   std::stable_sort(objects.begin(), objects.end(), [](const ObjectVersion& a, const ObjectVersion& b) {
     return a.id != b.id ? a.id < b.id : a.version < b.version;
@@ -31,12 +31,12 @@ inline void keep_last_versions(std::vector<ObjectVersion>& objects) {
 class NodePlaces {
  public:
   void add(int64_t id, uint32_t version, osmium::Location place) { nodes_.push_back({id, place, version}); }
-  // To be called once, before the questions.
+  // Must be called once before place().
   void sort() {
     const auto before = [](const Node& a, const Node& b) { return a.id != b.id ? a.id < b.id : a.version < b.version; };
     if (!std::is_sorted(nodes_.begin(), nodes_.end(), before)) std::stable_sort(nodes_.begin(), nodes_.end(), before);
   }
-  // The place of the last version; an invalid one where the node is unknown or deleted.
+  // Returns the place of the last version; an invalid one if the node is unknown or deleted.
   osmium::Location place(int64_t id) const {
     const Node* const node = last(id);
     return node ? node->place : osmium::Location();

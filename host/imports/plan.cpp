@@ -1,5 +1,5 @@
-// The rules, one function each, in the order of plan_city().
-// Assumes that most footprints are small beside the map, so that sorted boxes find what lies inside of what.
+// The rules are one function each, in the order of plan_city().
+// Most footprints should be small beside the map, so that sorted boxes find which footprints lie inside others quickly.
 #include "imports/plan.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ struct Candidate {
   bool gone = false;
 };
 
-// The same for all ways to write a ring: turning left, from its lowest point on.
+// Returns the same ring for all ways to write it: counter-clockwise, starting at its lowest point.
 Ring canonical(Ring ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
   return ring;
@@ -70,7 +70,7 @@ class Planner {
     for (const Footprint& footprint : map_.footprints) {
       Polygon polygon = walls.polygon_of(footprint, plan_.offset_m);
       if (!fault(polygon).empty())
-        polygon = StraightWalls{}.polygon_of(footprint, plan_.offset_m);  // thinner than the tolerance
+        polygon = StraightWalls{}.polygon_of(footprint, plan_.offset_m);  // rings thinner than the tolerance collapse
       if (const std::string_view reason = fault(polygon); !reason.empty()) {
         ++plan_.left_out[std::string(reason)];
         continue;
@@ -91,11 +91,12 @@ class Planner {
     }
   }
 
-  // A multipolygon and its outer way may both be tagged: the one with courtyards stays.
+  // A multipolygon and its outer way may both be tagged: the one with courtyards is kept.
   void drop_repeated_outlines() {
     std::map<Ring, size_t> seen;
     for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (candidates_[i].solid.part || !candidates_[i].solid.is_building()) continue;  // parts may stand on one another
+      // Parts may be on top of one another.
+      if (candidates_[i].solid.part || !candidates_[i].solid.is_building()) continue;
       const auto [entry, is_new] = seen.try_emplace(canonical(candidates_[i].solid.polygon.outer), i);
       if (is_new) continue;
       const auto courtyards = [this](size_t k) { return candidates_[k].solid.polygon.holes.size(); };
@@ -106,8 +107,8 @@ class Planner {
     }
   }
 
-  // A building inside another with the same tags is a courtyard in it, one inside of that a building again. polyconvert
-  // writes inner rings of multipolygons so.
+  // A building inside another one with the same tags is a courtyard in it, and one inside of that is a building again.
+  // polyconvert writes inner rings of multipolygons in this way.
   void cut_courtyards() {
     BoxIndex index;
     for (size_t i = 0; i < candidates_.size(); ++i) {
@@ -146,7 +147,7 @@ class Planner {
     return std::all_of(ring.begin(), ring.end(),
                        [&](const Point& p) { return contains(outer.solid.polygon.outer, p); });
   }
-  // False, and nothing done, where the hole would touch the border.
+  // Returns false, and does nothing, if the hole would touch the border.
   static bool cut(Polygon& polygon, Ring hole) {
     std::reverse(hole.begin(), hole.end());
     if (!fits(polygon, hole)) return false;
@@ -162,7 +163,7 @@ class Planner {
     }
   }
 
-  // Simple 3D Buildings: where there are parts, the outline is not built.
+  // By Simple 3D Buildings, the outline is not built if there are parts.
   void leave_outlines_to_parts() {
     BoxIndex index;
     for (size_t i = 0; i < candidates_.size(); ++i) {
@@ -170,7 +171,7 @@ class Planner {
         index.add(candidates_[i].box, i);
     }
     index.sort();
-    std::map<size_t, std::vector<Candidate*>> parts_of;  // by the place of their outline
+    std::map<size_t, std::vector<Candidate*>> parts_of;  // parts by the index of their outline
     for (Candidate& part : candidates_) {
       if (part.gone || !part.solid.part) continue;
       const Point inside = point_inside(part.solid);
@@ -189,8 +190,8 @@ class Planner {
     warn_of_gaps();
   }
 
-  // Parts shall fill their outline. Where they hardly do, as the chimney alone of a house, the house is built as well.
-  // A part that begins in the upper half of the house fills nothing: it stands on it.
+  // Parts should fill their outline. If they hardly do, such as the chimney alone of a house, the house is built as
+  // well. A part that begins in the upper half of the house fills nothing, since it stands on it.
   void choose_outline_or_parts(Candidate& house, const std::vector<Candidate*>& parts) {
     constexpr double full = 0.95, least = 0.5;
     std::vector<const Polygon*> all, filling;
@@ -210,7 +211,7 @@ class Planner {
     for (Candidate* part : parts) set_onto(house.solid, *part);
   }
 
-  // A part of a house that is built itself: what is inside of the house is there already.
+  // Changes a part of a house that is built itself: the space inside the house is filled already.
   void set_onto(const Solid& house, Candidate& part) {
     constexpr double inside = 0.99;
     const Polygon* const around = &house.polygon;
@@ -231,7 +232,7 @@ class Planner {
     warn(standing_, "less than half of", "the whole house is built, and its parts as far as they are above it");
   }
 
-  // The centroid of the largest triangle.
+  // Returns the centroid of the largest triangle.
   static Point point_inside(const Solid& solid) {
     std::vector<Point> corners = solid.polygon.outer;
     for (const Ring& hole : solid.polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
@@ -242,10 +243,10 @@ class Planner {
             (corners[t[0]].y + corners[t[1]].y + corners[t[2]].y) / 3};
   }
 
-  // Outlines that parts do not fill.
+  // Counts outlines that parts do not fill.
   struct Gaps {
     uint64_t outlines = 0;
-    double share = 2;  // the smallest that parts cover, of the outline of this id
+    double share = 2;  // smallest share that parts cover, and the id of its outline
     std::string id = {};
   };
 
@@ -281,8 +282,8 @@ Extent extent_to_reach(const Extent& network, const glm::dvec2& offset_m, const 
       const glm::dvec2 p = corner + offset_m;
       if (!(std::max(std::abs(p.x), std::abs(p.y)) <= most_m)) {
         throw InputError(fmt::format(
-            "{}: the {} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; at most "
-            "{:.0f} km are allowed: do map and network belong together? Cut both, or use --no-ground",
+            "{}: the {} reaches ({:.0f}, {:.0f}) km in the scene, and the ground must reach as far; "
+            "at most {:.0f} km are allowed: do map and network belong together? Cut both, or use --no-ground",
             name, what, p.x / 1000, p.y / 1000, most_m / 1000));
       }
       out.add(p);

@@ -1,5 +1,5 @@
-// Which solids stand where: footprints checked, courtyards cut out, outlines left to their parts.
-// Assumes a map as its reader gives it; whatever is not built is counted with its reason.
+// Decides which solids stand where: footprints are checked, courtyards cut out, outlines replaced by their parts.
+// Footprints that are not built are counted with their reason.
 #pragma once
 #include <map>
 #include <string>
@@ -15,34 +15,34 @@ namespace wavetracer::imports {
 
 struct Solid {
   std::string id, name;
-  bool part = false;  // of building:part
+  bool part = false;  // it comes from building:part
   Polygon polygon;
-  std::vector<Triangle> triangles;  // of the polygon
+  std::vector<Triangle> triangles;  // triangles of the polygon
   Shape shape;
-  Ring outline = {};  // of the building that it is a part of; empty where there is none
-  double base_m = 0;  // the ground that it stands on
+  Ring outline = {};  // outline of the building that it is a part of; empty if there is none
+  double base_m = 0;  // height of the ground that it stands on
   bool is_building() const { return !is_vegetation(shape.walls); }
 };
 
 struct Plan {
   std::vector<Solid> solids;
-  glm::dvec2 offset_m{0, 0};  // coordinates of the solids = those of the map + this; zero where they are small enough
-  Extent traffic;             // what the ground has to reach besides the solids, in their coordinates
+  glm::dvec2 offset_m{0, 0};  // coordinates of the solids = those of the map + offset_m; zero if they are small enough
+  Extent traffic;             // area that the ground must cover besides the solids, in their coordinates
   std::map<std::string, uint64_t> left_out, guessed;
   std::vector<std::string> warnings;
-  uint64_t straightened = 0;     // corners that were moved onto straight walls (imports/straight_walls.hpp)
-  double straightened_by_m = 0;  // the farthest
+  uint64_t straightened = 0;     // number of corners that were moved onto straight walls (imports/straight_walls.hpp)
+  double straightened_by_m = 0;  // the largest move
 };
 
-// The shift by whole metres that brings all that is built near the origin; none where it is there already, since the
-// coordinates may be those of vehicles. Throws InputError where it is too wide.
+// Returns the shift by whole metres that brings all solids near the origin; zero if they are there already, since the
+// coordinates may be those of vehicles. Throws InputError if the map is too wide.
 glm::dvec2 shift_to_origin(const Extent& extent, const std::string& name);
-// What the ground has to reach besides the buildings, in coordinates of the scene: the network, and the traffic of
-// options. Throws InputError where it is too far away.
+// Returns the area that the ground must cover besides the buildings, in coordinates of the scene: the network, and the
+// traffic of options. Throws InputError if it is too far away.
 Extent extent_to_reach(const Extent& network, const glm::dvec2& offset_m, const std::string& name,
                        const ImportOptions& options);
 
-// Throws InputError where the map is wider than a scene can be.
+// Throws InputError if the map is wider than a scene can be.
 Plan plan_city(const Map& map, const std::string& name, const ImportOptions& options);
 
 }  // namespace wavetracer::imports

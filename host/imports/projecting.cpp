@@ -1,5 +1,4 @@
-// Projections of maps, by PROJ.
-// Assumes that a map without a footprint needs none.
+// Projects maps by PROJ.
 #include "imports/projecting.hpp"
 
 #include <fmt/format.h>
@@ -10,9 +9,10 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr double widest_map_deg = 2;  // 200 km: a slip, or a country, of which no scene can be made
+constexpr double widest_map_deg = 2;  // 200 km: either a mistake, or a country, which is too large for a scene
 
-// A transverse Mercator projection about the middle of the buildings: true to scale and angle, north is +y.
+// Returns a transverse Mercator projection about the middle of the buildings: true to scale and angle, with north at
+// +y.
 Georeference local_projection(const Extent& degrees, const std::string& name, const std::string& advice) {
   const glm::dvec2 &lower = degrees.lower_m, &upper = degrees.upper_m;
   if (upper.x - lower.x > widest_map_deg || upper.y - lower.y > widest_map_deg) {

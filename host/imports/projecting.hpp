@@ -1,4 +1,4 @@
-// From degrees to the coordinates of the scene, for maps that come in longitude and latitude.
+// Converts maps with longitude and latitude in degrees to the coordinates of the scene.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace wavetracer::imports {
 
-constexpr double metres_per_degree = 111320;  // of latitude; no less than of longitude
+constexpr double metres_per_degree = 111320;  // metres per degree of latitude; a degree of longitude is no longer
 
 // Calls visit(glm::dvec2&) for every point of every ring.
 template <class Visit>
@@ -19,14 +19,14 @@ void each_point(Map& map, const Visit& visit) {
   }
 }
 
-// The projection of the scene, in the order of project(), of a map that covers these degrees; sets `network` where
-// there is one.
+// Returns the projection of the scene for a map that covers these degrees; the sources are tried in the order of
+// project(). Sets `network` if there is one.
 Georeference scene_projection(const Extent& degrees, const std::string& name, const ImportOptions& options,
                               const std::string& advice, Extent& network);
 
-// Footprints in degrees (longitude, latitude) into coordinates of the network of options.net, or of
+// Converts footprints in degrees (longitude, latitude) to coordinates of the network of options.net, or of
 // options.projection, or else of a transverse Mercator projection about their middle; sets the map's georeference.
-// advice: how to cut a part out of a map that is too wide. Throws InputError.
+// advice: how to cut a part out of a map that is too wide, for the error. Throws InputError.
 void project(Map& map, const std::string& name, const ImportOptions& options, const std::string& advice);
 
 }  // namespace wavetracer::imports

@@ -1,5 +1,5 @@
-// Exact tests of rings. Crossings are found by a sweep over the edges sorted by their lower x.
-// Assumes nothing: fault() answers before any product can overflow.
+// Tests rings exactly. Crossings are found by a sweep over the edges sorted by their lower x.
+// fault() checks sizes before any product can overflow.
 #include "imports/rings.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void append(std::vector<Segment>& out, const Ring& ring, size_t index) {
   for (size_t i = 0; i < ring.size(); ++i) out.push_back({ring[i], ring[(i + 1) % ring.size()], index, i, ring.size()});
 }
 
-// Whether two edges have more in common than the corner of neighbours.
+// Tells whether two edges have more in common than the corner that neighbours share.
 bool collide(const Segment& s, const Segment& t) {
   if (s.ring == t.ring) {
     if ((s.place + 1) % s.ring_size == t.place) return on_segment(s.a, s.b, t.b) || on_segment(t.a, t.b, s.a);

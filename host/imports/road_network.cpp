@@ -1,5 +1,5 @@
-// Networks by pugixml, which neither recurses nor expands entities.
-// Assumes of SUMO's networks what net_file.xsd says: <net><edge><lane shape="x,y[,z] ...">.
+// Reads networks by pugixml, which neither recurses nor expands entities.
+// Networks have the form of net_file.xsd: <net><edge><lane shape="x,y[,z] ...">.
 #include "imports/road_network.hpp"
 
 #include <fmt/format.h>
@@ -40,10 +40,8 @@ class NetworkReader {
   std::vector<Street> read() {
     const std::string_view root = imports::root_element(text_);
     if (root.empty())
-      throw InputError(
-          fmt::format("{}: this is no XML text, but a SUMO network is one: give the .net.xml that "
-                      "netconvert wrote",
-                      file_));
+      throw InputError(fmt::format(
+          "{}: this is no XML text, but a SUMO network is one: give the .net.xml that netconvert wrote", file_));
     if (root != "net")
       throw InputError(
           fmt::format("{}: the root element is <{}>, but that of a SUMO network is <net>: give the "

@@ -1,4 +1,4 @@
-// The lanes of a SUMO network as streets.
+// Reads the lanes of a SUMO network as streets.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace wavetracer {
 
-// The lanes of a .net.xml, plain or gzip, also those across junctions, but no crossings and areas of pedestrians; in
-// the coordinates of the network. Lanes without a width have SUMO's 3.2 m. Throws InputError, "FILE:LINE: what", for a
-// file that is no network, and for one of more than 1 GiB of text.
+// Returns the lanes of a .net.xml, plain or gzip, including those across junctions, but without pedestrian crossings
+// and areas; in the coordinates of the network. Lanes without a width get SUMO's 3.2 m. Throws InputError, "FILE:LINE:
+// what", for a file that is no network or has more than 1 GiB of text.
 std::vector<Street> read_road_network(const std::filesystem::path& file);
 
-// The streets that the configuration knows, in the coordinates of the scene file: those of scene.streets, which moves
-// like trajectories.file, else those of a generated city, else none. Throws as read_road_network() does.
+// Returns the streets of the configuration, in the coordinates of the scene file: those of scene.streets, which are
+// moved like trajectories.file, else those of a generated city, else none. Throws as read_road_network() does.
 std::vector<Street> known_streets(const Config& config);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Prisms: a floor, walls round every ring, a roof; vertices are shared, so that every edge has two faces.
-// Names of objects are those of the map as far as Mitsuba's ids allow.
+// Makes prisms: a floor, walls around every ring, a roof; vertices are shared, so that every edge has two faces.
+// Names of objects are those of the map, as far as Mitsuba's ids allow.
 #include "imports/scene_files.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ constexpr size_t longest_name = 80;  // bytes
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
 
-// Whether the text is UTF-8 as XML wants it; overlong forms and surrogates are rare enough to pass.
+// Tells whether the text is UTF-8 as XML requires it; overlong forms and surrogates are not detected.
 bool is_utf8(std::string_view text) {
   for (size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
@@ -70,7 +70,7 @@ void append(pugi::xml_node parent, const char* tag, const char* name, const std:
   node.append_attribute("value") = value.c_str();
 }
 
-// Writes georeference.json, or removes that of an earlier import where this one has none.
+// Writes georeference.json, or removes that of an earlier import if this import has none.
 void write_reference(const std::filesystem::path& folder, const Georeference& georeference) {
   const std::filesystem::path file = folder / "georeference.json";
   std::error_code error;
@@ -83,7 +83,7 @@ void write_reference(const std::filesystem::path& folder, const Georeference& ge
 
 }  // namespace
 
-// Ids of Mitsuba hold no dots, and $ starts a parameter.
+// Ids of Mitsuba must not contain dots, and $ starts a parameter.
 std::string object_name(const std::string& id, const std::string& text) {
   if (text.empty() || !is_utf8(text)) return id;
   std::string name = text;
@@ -105,7 +105,7 @@ std::vector<SceneMesh> extrude(const Solid& solid) {
   const auto wall_ring = [&](const Ring& ring) {
     const auto size = static_cast<uint32_t>(ring.size());
     for (uint32_t i = 0; i < size; ++i) {
-      const uint32_t p = first + i, q = first + (i + 1) % size;  // the solid is on the left from p to q
+      const uint32_t p = first + i, q = first + (i + 1) % size;  // seen from p to q, the solid is on the left
       walls.triangles.push_back({p, q, q + top});
       walls.triangles.push_back({p, q + top, p + top});
     }

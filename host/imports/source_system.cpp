@@ -1,5 +1,5 @@
-// Codes of systems in all the spellings that files have, and PROJ's objects for them.
-// Assumes nothing of the text: only a code of digits reaches PROJ.
+// Recognises codes of systems in all the spellings that files have, and makes PROJ's objects for them.
+// The text is not trusted: only a code of digits reaches PROJ.
 #include "imports/source_system.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr double beyond_area_deg = 2;  // that a model may reach outside of the area of its system
+constexpr double beyond_area_deg = 2;  // a model may reach this far outside of the area of its system
 
 struct SurveyName {
   std::string_view name, code;
@@ -44,7 +44,7 @@ std::string system_code(std::string_view text) {
   const size_t begin = upper.find("EPSG");
   if (begin == upper.npos) return {};
   const size_t end = std::min(upper.find_first_of(",;+*&? ", begin), upper.size());
-  size_t last = end;  // the last run of four to six digits: versions come before the code
+  size_t last = end;  // the last run of four to six digits is the code: versions come before it
   while (last > begin && !is_digit(upper[last - 1])) --last;
   size_t first = last;
   while (first > begin && is_digit(upper[first - 1])) --first;
@@ -53,7 +53,7 @@ std::string system_code(std::string_view text) {
 
 struct SourceSystem::State {
   PJ_CONTEXT* context = proj_context_create();
-  PJ* transformation = nullptr;  // from the order of axes that the system has to (longitude, latitude) in degrees
+  PJ* transformation = nullptr;  // converts from the system's order of axes to (longitude, latitude) in degrees
   std::string name, code;
   double west = -180, south = -90, east = 180, north = 90;
   double metres_per_height = 1;
@@ -70,7 +70,7 @@ struct SourceSystem::State {
     return object;
   }
 
-  // Empty where there is none.
+  // Returns nothing if the point has no place.
   std::optional<glm::dvec2> place(const glm::dvec2& p, bool swap) const {
     proj_errno_reset(transformation);
     const PJ_COORD out =
@@ -81,12 +81,12 @@ struct SourceSystem::State {
   bool inside(const glm::dvec2& p) const {
     if (!(p.y >= south - beyond_area_deg && p.y <= north + beyond_area_deg)) return false;
     if (west <= east) return p.x >= west - beyond_area_deg && p.x <= east + beyond_area_deg;
-    return p.x >= west - beyond_area_deg || p.x <= east + beyond_area_deg;  // across the date line
+    return p.x >= west - beyond_area_deg || p.x <= east + beyond_area_deg;  // the area crosses the date line
   }
-  // Positive where the coordinates turn as east and north do.
+  // Returns a positive number if the coordinates have the orientation of east and north.
   double handedness(const glm::dvec2& p, bool swap) const {
     const auto origin = place(p, swap);
-    const double step = std::abs(p.x) <= 360 && std::abs(p.y) <= 360 ? 1e-4 : 10;  // degrees or metres
+    const double step = std::abs(p.x) <= 360 && std::abs(p.y) <= 360 ? 1e-4 : 10;  // a step in degrees or in metres
     const auto x = place(p + glm::dvec2(step, 0), swap), y = place(p + glm::dvec2(0, step), swap);
     if (!origin || !x || !y) return 0;
     return (x->x - origin->x) * (y->y - origin->y) - (x->y - origin->y) * (y->x - origin->x);
@@ -100,7 +100,7 @@ struct SourceSystem::State {
     proj_destroy(system);
     return factor;
   }
-  // The part of the system for longitude and latitude, or east and north; sets what heights are.
+  // Returns the part of the system for longitude and latitude, or east and north; sets the meaning of heights.
   const PJ* horizontal(const PJ* crs) {
     const PJ_TYPE type = proj_get_type(crs);
     if (type == PJ_TYPE_COMPOUND_CRS) {
@@ -111,9 +111,10 @@ struct SourceSystem::State {
     if (type == PJ_TYPE_GEOGRAPHIC_3D_CRS) {
       above_ellipsoid = true;
       metres_per_height = unit_of_axis(crs, 2);
-      return crs;  // heights do not matter for its longitudes and latitudes
+      return crs;  // heights do not change longitudes and latitudes
     }
-    if (type == PJ_TYPE_PROJECTED_CRS) metres_per_height = unit_of_axis(crs, 0);  // as nothing else is said
+    // The default if the system says nothing else.
+    if (type == PJ_TYPE_PROJECTED_CRS) metres_per_height = unit_of_axis(crs, 0);
     return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_PROJECTED_CRS ? crs : nullptr;
   }
 };
@@ -131,8 +132,8 @@ SourceSystem::SourceSystem(const std::string& text, const std::string& name) : s
   const PJ* const crs = s.own(proj_create(s.context, s.code.c_str()));
   if (!crs && !proj_context_get_database_path(s.context))
     throw RuntimeError(
-        fmt::format("{}: the coordinate system {} is looked up in the database of PROJ, and there is none: install "
-                    "Debian's proj-data, or name the folder of proj.db in PROJ_DATA",
+        fmt::format("{}: the coordinate system {} is looked up in the database of PROJ, and there is none: "
+                    "install Debian's proj-data, or name the folder of proj.db in PROJ_DATA",
                     name, s.code));
   const PJ* const horizontal = crs ? s.horizontal(crs) : nullptr;
   if (!horizontal)
@@ -144,7 +145,7 @@ SourceSystem::SourceSystem(const std::string& text, const std::string& name) : s
   s.transformation =
       degrees ? proj_create_crs_to_crs_from_pj(s.context, horizontal, degrees, nullptr, nullptr) : nullptr;
   if (!s.transformation) throw InputError(fmt::format("{}: PROJ knows no way from {} to WGS84", name, s.code));
-  // "EPSG:4326" alone has always meant longitude first; URNs and URLs mean what the authority says.
+  // "EPSG:4326" alone has always meant longitude first; URNs and URLs use the authority's order.
   const bool is_short = text.size() >= 4 && (text[0] == 'E' || text[0] == 'e') && text.find("://") == text.npos;
   s.by_authority = !is_short;
 }
@@ -152,7 +153,7 @@ SourceSystem::~SourceSystem() = default;
 
 void SourceSystem::choose_order(const glm::dvec2& middle, double roofs_up) {
   State& s = *state_;
-  // What swapping does to east and north: the authority's order may be north, east.
+  // The effect of swapping on east and north: the authority's order may be north, east.
   std::array<bool, 2> possible{}, upright{}, east_first{};
   for (const bool swap : {false, true}) {
     const auto place = s.place(middle, swap);
@@ -163,8 +164,8 @@ void SourceSystem::choose_order(const glm::dvec2& middle, double roofs_up) {
   }
   if (!possible[0] && !possible[1])
     throw InputError(
-        fmt::format("{}: the middle of the model, ({}, {}), is not in the area of its coordinate system {}, which is "
-                    "{} to {} degrees east and {} to {} degrees north: is another one meant?",
+        fmt::format("{}: the middle of the model, ({}, {}), is not in the area of its coordinate system {}, "
+                    "which is {} to {} degrees east and {} to {} degrees north: is another one meant?",
                     s.name, middle.x, middle.y, s.code, s.west, s.east, s.south, s.north));
   const bool usual = !s.by_authority && !east_first[0] && east_first[1];
   s.first_is_second = usual;
@@ -174,7 +175,7 @@ void SourceSystem::choose_order(const glm::dvec2& middle, double roofs_up) {
     s.first_is_second = upright[1];
   }
   s.against = s.first_is_second != usual;
-  // One way for all points, so that none jumps.
+  // One transformation is used for all points, so that there are no jumps between them.
   (void)s.place(middle, s.first_is_second);
   if (PJ* const used = proj_trans_get_last_used_operation(s.transformation)) {
     proj_destroy(s.transformation);

@@ -1,5 +1,5 @@
-// A graph of corners and walls. At each corner the two walls that are straightest go on in each other, then the next
-// two.
+// Builds a graph of corners and walls. At each corner the two walls that form the straightest pair are connected, then
+// the next two.
 #include "imports/straight_walls.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace wavetracer::imports {
 namespace {
 
 using glm::dvec2;
-constexpr double least_move_m = 1e-4;  // less is nothing beside the grid of polygons (rings.hpp)
+constexpr double least_move_m = 1e-4;  // a smaller move does not matter on the grid of polygons (rings.hpp)
 constexpr uint32_t no_corner = 0xFFFFFFFFu;
 
 double distance_from_line(const dvec2& p, const dvec2& a, const dvec2& b) {
@@ -53,10 +53,10 @@ class WallGraph {
   }
 
   StraightWalls straighten() {
-    for (uint32_t c = 0; c < corners_.size(); ++c)  // rows that end here
+    for (uint32_t c = 0; c < corners_.size(); ++c)  // rows that end at this corner
       for (const Wall& wall : walls_[c])
         if (wall.next == no_corner) follow(c, wall.to);
-    for (uint32_t c = 0; c < corners_.size(); ++c)  // rows without an end, from their lowest corner
+    for (uint32_t c = 0; c < corners_.size(); ++c)  // closed rows, from their lowest corner
       for (const Wall& wall : walls_[c]) follow(c, wall.to);
     for (uint32_t c = 0; c < corners_.size(); ++c)
       if (const auto place = out_.moved.find(corners_[c]); place != out_.moved.end())
@@ -67,7 +67,7 @@ class WallGraph {
  private:
   struct Wall {
     uint32_t to;
-    uint32_t next;  // the corner that the wall comes from which goes on in this one, or none
+    uint32_t next;  // the corner at the far end of the wall that continues this one, or none
   };
 
   uint32_t number(const dvec2& p) const {
@@ -97,7 +97,7 @@ class WallGraph {
     }
   }
 
-  // Collects the row that begins with a wall, once, and makes it straight.
+  // Collects the row that begins with a wall, once, and straightens it.
   void follow(uint32_t from, uint32_t to) {
     if (done_.contains({from, to})) return;
     std::vector<uint32_t> row{from};
@@ -139,7 +139,7 @@ class WallGraph {
 
   double tolerance_m_;
   std::vector<dvec2> corners_;            // sorted
-  std::vector<std::vector<Wall>> walls_;  // per corner, by the number of the other one
+  std::vector<std::vector<Wall>> walls_;  // walls of each corner, sorted by the number of the other corner
   std::set<std::pair<uint32_t, uint32_t>> done_;
   StraightWalls out_;
 };

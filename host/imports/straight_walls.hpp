@@ -1,5 +1,5 @@
-// Straight walls of maps whose coordinates are coarse: a corner that only rounding has put beside a wall goes onto it.
-// Assumes rings in metres, in which corners that buildings share are equal to the last bit.
+// Straightens walls of maps with coarse coordinates: a corner that lies beside a wall only because of rounding is moved
+// onto it. Rings are in metres, and corners that buildings share must be exactly equal.
 #pragma once
 #include <array>
 #include <glm/vec2.hpp>
@@ -17,24 +17,24 @@ struct LessPoint {
 };
 
 struct StraightWalls {
-  std::map<glm::dvec2, glm::dvec2, LessPoint> moved;  // corner -> its new place
+  std::map<glm::dvec2, glm::dvec2, LessPoint> moved;  // new place of each corner
   double farthest_m = 0;
-  // A footprint on the grid, with its corners in their new places, shifted.
+  // Returns a footprint on the grid with its corners in their new places, shifted.
   Polygon polygon_of(const Footprint& footprint, const glm::dvec2& shift) const;
 };
 
-// rounding_m: the most by which a coordinate is off. A corner goes onto a wall within two and a half times of it, since
-// the ends of the wall are rounded too. Walls go on across corners of two buildings, as along a row of houses. A row of
-// walls between two corners is straight where all between are within the tolerance of the line; else it is divided at
-// the farthest (Douglas and Peucker 1973). Ends of rows stay where they are. The result does not depend on the order of
-// footprints.
+// rounding_m: the largest error of a coordinate. A corner is moved onto a wall within two and a half times of it, since
+// the ends of the wall are rounded too. Walls continue across corners of two buildings, such as along a row of houses.
+// A row of walls between two corners is straight if all corners between are within the tolerance of the line; else it
+// is divided at the farthest one (Douglas and Peucker 1973). Ends of rows are not moved. The result does not depend on
+// the order of footprints.
 StraightWalls straight_walls(std::span<const Footprint> footprints, double rounding_m);
 
-// Steps of decimals, as files are written with. Coordinates with fewer were not rounded but chosen.
+// Decimal steps with which files are written. Coordinates with fewer decimals were chosen, not rounded.
 inline constexpr std::array degree_steps{1e-6, 1e-7, 1e-8}, metre_steps{1e-2, 1e-3, 1e-4};
 
-// The rounding of coordinates that are all multiples of one of the steps, given from the largest to the smallest: half
-// of it. Zero where they are multiples of none.
+// Returns half of the largest step of which all coordinates are multiples, or zero if there is none; steps are given
+// from the largest to the smallest.
 double rounding_of(std::span<const Footprint> footprints, std::span<const double> steps);
 
 }  // namespace wavetracer::imports

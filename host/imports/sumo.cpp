@@ -1,5 +1,5 @@
-// SUMO's polygons (.poly.xml) and the <location> of its networks.
-// Assumes nothing of the text: pugixml neither recurses nor expands entities.
+// Reads SUMO's polygons (.poly.xml) and the <location> of its networks.
+// The text is not trusted: pugixml neither recurses nor expands entities.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr size_t header_size = 1 << 20;  // a <location> comes early; networks have gigabytes
+constexpr size_t header_size = 1 << 20;  // <location> comes early, while networks have gigabytes
 
-// Two or three numbers with commas between them, or empty.
+// Returns two or three numbers separated by commas, or nothing.
 std::optional<glm::dvec2> parse_pair(std::string_view text) {
   std::array<double, 3> numbers{};
   size_t count = 0;
@@ -47,7 +47,8 @@ std::optional<RingM> parse_shape(std::string_view text) {
   return out;
 }
 
-// Four numbers with commas between them. SUMO writes lower > upper where there is nothing, which is empty.
+// Reads four numbers separated by commas. If there is nothing, SUMO writes lower > upper, which becomes an empty
+// extent.
 Extent read_boundary(std::string_view text, const std::string& at) {
   if (text.empty()) return {};
   const size_t second = text.find(',') == text.npos ? text.npos : text.find(',', text.find(',') + 1);
@@ -66,7 +67,8 @@ SumoLocation read_location(const pugi::xml_node node, const std::string& at) {
                                  node.attribute("netOffset").value()));
   }
   Georeference out{node.attribute("projParameter").value(), *offset, {}};
-  if (!out.projection.starts_with("+proj")) out.projection.clear();  // "!": none; "-": as it was
+  // SUMO writes "!" for none, and "-" for unchanged coordinates.
+  if (!out.projection.starts_with("+proj")) out.projection.clear();
   return {out, read_boundary(node.attribute("convBoundary").value(), at)};
 }
 
@@ -76,13 +78,13 @@ Tags tags_of(const pugi::xml_node poly) {
     out[param.attribute("key").value()] = param.attribute("value").value();
   }
   const std::string_view type = poly.attribute("type").value();
-  // --osm.keep-full-type writes "building.yes", else "building"; other programs "building:part".
+  // polyconvert writes "building.yes" with --osm.keep-full-type, else "building"; other programs write "building:part".
   out.try_emplace(type.starts_with("building:part") ? "building:part" : "building", "yes");
   return out;
 }
 
-// What the report says of a polygon that is no building: its type, in letters that a terminal can show. Reports of
-// thousands of types help nobody.
+// Returns the report's name for a polygon that is no building: its type in printable letters. The number of types is
+// limited, since a report of thousands of them would not help.
 std::string left_out_type(std::string_view type, const std::map<std::string, uint64_t>& left_out) {
   constexpr size_t most_types = 50;
   std::string shown(type.substr(0, 40));

@@ -1,5 +1,5 @@
-// Posts of the raster become vertices: nothing is resampled, so the error at the posts is the whole error.
-// Assumes that a cell of the raster is a parallelogram in the scene, as far as one can see.
+// Posts of the raster become vertices: nothing is resampled, so the error at the posts is the whole error. A cell of
+// the raster must be a parallelogram in the scene, to good accuracy.
 #include "imports/terrain.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace wavetracer::imports {
 namespace {
 
 constexpr size_t most_terrain_posts = 40'000'000;
-constexpr int32_t most_posts_a_side = 1 << 14;  // of mesh_terrain()
+constexpr int32_t most_posts_a_side = 1 << 14;  // limit of mesh_terrain()
 
 // A raster that was opened by the module.
 class RasterPart {
@@ -34,8 +34,8 @@ class RasterPart {
     if (std::max(raster_.columns, raster_.rows) > static_cast<size_t>(most_posts_a_side)) {
       module_.close_raster(&raster_);
       throw InputError(
-          fmt::format("{}: has more than {} posts in a row or column of this area: make it coarser with "
-                      "gdalwarp -tr 2 2 -r average",
+          fmt::format("{}: has more than {} posts in a row or column of this area: "
+                      "make it coarser with gdalwarp -tr 2 2 -r average",
                       file_, most_posts_a_side));
     }
   }
@@ -47,7 +47,7 @@ class RasterPart {
   int32_t rows() const { return static_cast<int32_t>(raster_.rows); }
   bool clipped() const { return raster_.clipped != 0; }
 
-  // Of posts, in coordinates of the scene.
+  // Returns the places of posts in coordinates of the scene.
   std::vector<glm::dvec2> places(const std::vector<GridPost>& posts) const {
     std::vector<double> xy;
     for (const GridPost& p : posts) {
@@ -65,10 +65,10 @@ class RasterPart {
     return out;
   }
 
-  std::vector<float> heights_m;  // NaN: none
+  std::vector<float> heights_m;  // NaN where there is no height
 
  private:
-  // Places along the border of the area as the raster takes them: a straight border may be a curve there.
+  // Returns places along the border of the area, for the raster: a straight border may be a curve in its coordinates.
   std::vector<double> border(const Extent& area) const {
     constexpr int pieces = 16;
     std::vector<double> out;
@@ -91,7 +91,7 @@ class RasterPart {
   wt_maps_raster raster_{};
 };
 
-// Posts without a height get that of the nearest one in their row or column that has one, ring by ring.
+// Posts without a height get that of the nearest post with a height in their row or column, ring by ring.
 uint64_t fill_gaps(std::vector<float>& heights_m, int32_t columns, int32_t rows, const std::string& file) {
   std::vector<size_t> gaps;
   for (size_t i = 0; i < heights_m.size(); ++i)

@@ -1,4 +1,4 @@
-// The ground as a raster of heights has it: a mesh in the coordinates of the scene, and its height at any place.
+// Ground that follows a raster of heights: a mesh in the coordinates of the scene, and the height at any place.
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
@@ -21,15 +21,15 @@ struct Terrain {
   std::vector<std::string> warnings;
 };
 
-// Of options.terrain, for the area of the ground. Heights are those of the raster, in metres above its zero. Throws
-// InputError for the raster, RuntimeError where there is no GDAL.
+// Reads options.terrain for the area of the ground. Heights are those of the raster, in metres above its zero. Throws
+// InputError for the raster, RuntimeError if GDAL is missing.
 Terrain read_terrain(const Extent& area, const Georeference& georeference, const ImportOptions& options);
 
-// The lowest ground along a closed ring; empty where the ring reaches beyond the terrain.
+// Returns the lowest ground along a closed ring, or nothing if the ring reaches beyond the terrain.
 std::optional<double> lowest_along(const Ground& ground, std::span<const glm::dvec2> ring);
 
 // Sets Solid::base_m to the lowest ground along the outline of each solid, or of the building that it is a part of.
-// Those that reach beyond the terrain are left out and counted.
+// Solids that reach beyond the terrain are removed and counted.
 void stand_on(const Ground& ground, Plan& plan);
 
 }  // namespace wavetracer::imports

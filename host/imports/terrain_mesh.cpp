@@ -1,5 +1,5 @@
-// Half-edges: edge e goes from corners_[e] to the next corner of its triangle, twins_[e] is the same edge of the other
-// one. Coordinates are below 2^14, so that tests of sides and circles are exact in 64 bits.
+// Stores half-edges: edge e goes from corners_[e] to the next corner of its triangle, twins_[e] is the same edge of the
+// neighbouring triangle. Coordinates are below 2^14, so that tests of sides and circles are exact in 64 bits.
 #include "imports/terrain_mesh.hpp"
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace {
 
 constexpr int32_t no_edge = -1;
 
-// Positive where c is left of a -> b.
+// Returns a positive number if c is left of a -> b.
 int64_t side(const GridPost& a, const GridPost& b, const GridPost& c) {
   return int64_t{b.column - a.column} * (c.row - a.row) - int64_t{b.row - a.row} * (c.column - a.column);
 }
 
-// Whether p is inside of the circle through a, b and c, which turn left.
+// Tells whether p is inside the circle through a, b and c, which are counter-clockwise.
 bool in_circle(const GridPost& a, const GridPost& b, const GridPost& c, const GridPost& p) {
   const int64_t ax = a.column - p.column, ay = a.row - p.row, bx = b.column - p.column, by = b.row - p.row,
                 cx = c.column - p.column, cy = c.row - p.row;
@@ -25,7 +25,7 @@ bool in_circle(const GridPost& a, const GridPost& b, const GridPost& c, const Gr
   return ax * (by * c2 - b2 * cy) - ay * (bx * c2 - b2 * cx) + a2 * (bx * cy - by * cx) > 0;
 }
 
-// Calls visit(post, height of the plane there) for all posts in the triangle, its border included.
+// Calls visit(post, height of the plane there) for all posts in the triangle, including its border.
 template <class Visit>
 void visit_posts(const std::array<GridPost, 3>& t, const std::array<double, 3>& heights, const Visit& visit) {
   const int64_t area = side(t[0], t[1], t[2]);
@@ -37,7 +37,7 @@ void visit_posts(const std::array<GridPost, 3>& t, const std::array<double, 3>& 
       const GridPost p{column, row};
       const int64_t w0 = side(t[1], t[2], p), w1 = side(t[2], t[0], p), w2 = area - w0 - w1;
       if (w0 < 0 || w1 < 0 || w2 < 0) {
-        if (met) break;  // a row of a triangle is in one piece
+        if (met) break;  // the posts of a row in a triangle are consecutive
         continue;
       }
       met = true;
@@ -62,7 +62,7 @@ class Mesher {
       const Worst worst = worst_.top();
       worst_.pop();
       const auto t = static_cast<size_t>(worst.triangle);
-      if (worst.version != versions_[t]) continue;  // of a triangle that is gone
+      if (worst.version != versions_[t]) continue;  // it belongs to a triangle that was replaced
       if (!(worst.error_m > error_m)) break;
       add(worst.triangle, candidates_[t]);
       measure_new();
@@ -89,7 +89,7 @@ class Mesher {
   int32_t twin(int32_t edge) const { return twins_[static_cast<size_t>(edge)]; }
   static int32_t next(int32_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
 
-  // A triangle with the twins of its edges ab, bc and ca, at `edge`, in the place of another, or behind all.
+  // Stores a triangle with the twins of its edges ab, bc and ca, at `edge` in place of another triangle, or at the end.
   int32_t put(uint32_t a, uint32_t b, uint32_t c, int32_t ab, int32_t bc, int32_t ca, int32_t edge = no_edge) {
     if (edge == no_edge) {
       edge = static_cast<int32_t>(corners_.size());
@@ -144,12 +144,12 @@ class Mesher {
     for (const int32_t outer : {t0, t1, t2}) legalize(outer);
   }
 
-  // The post lies on the edge e, between two triangles or at the border.
+  // Splits edge e, between two triangles or at the border, at a post that lies on it.
   void split_edge(int32_t e, uint32_t added) {
     const int32_t bc = next(e), ca = next(bc), other = twin(e);
     const uint32_t a = corner(e), b = corner(bc), c = corner(ca);
     const int32_t twin_bc = twin(bc), twin_ca = twin(ca);
-    // Where the other triangle is, its edges, before anything moves.
+    // The edges of the neighbouring triangle, read before anything changes.
     const int32_t ad = other == no_edge ? no_edge : next(other), db = other == no_edge ? no_edge : next(ad);
     const uint32_t d = other == no_edge ? 0 : corner(db);
     const int32_t twin_ad = other == no_edge ? no_edge : twin(ad), twin_db = other == no_edge ? no_edge : twin(db);
@@ -165,7 +165,7 @@ class Mesher {
     for (const int32_t outer : {t0, t1, t2, t3}) legalize(outer);
   }
 
-  // Turns the edge in its quadrilateral where that is Delaunay's; then the edges behind it.
+  // Flips the edge in its quadrilateral if Delaunay's condition requires that; then checks the edges behind it.
   void legalize(int32_t first) {
     std::vector<int32_t> edges = {first};
     while (!edges.empty()) {
@@ -187,11 +187,11 @@ class Mesher {
   int32_t columns_;
   std::span<const float> heights_m_;
   std::vector<GridPost> posts_;
-  std::vector<uint32_t> corners_;     // three of each triangle
-  std::vector<int32_t> twins_;        // of each edge
-  std::vector<GridPost> candidates_;  // of each triangle: where it misses the grid most
-  std::vector<uint32_t> versions_;    // of each triangle: how often it was replaced
-  std::vector<int32_t> new_;          // triangles to be measured
+  std::vector<uint32_t> corners_;     // three for each triangle
+  std::vector<int32_t> twins_;        // one for each edge
+  std::vector<GridPost> candidates_;  // for each triangle, the post with the largest error
+  std::vector<uint32_t> versions_;    // for each triangle, how often it was replaced
+  std::vector<int32_t> new_;          // triangles that must still be measured
   std::priority_queue<Worst> worst_;
 };
 

@@ -1,6 +1,6 @@
-// Heights on a grid as few triangles: posts are added where the mesh misses the grid most, until it does so nowhere by
-// more than an error (M. Garland and P. Heckbert, "Fast polygonal approximation of terrains and height fields",
-// CMU-CS-95-181, 1995), and triangles are Delaunay's.
+// Approximates heights on a grid by few triangles: posts are added where the mesh has the largest error, until no error
+// exceeds a limit (M. Garland and P. Heckbert, "Fast polygonal approximation of terrains and height fields",
+// CMU-CS-95-181, 1995). Triangles are Delaunay's.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,13 +17,13 @@ struct GridPost {
 
 struct TerrainMesh {
   std::vector<GridPost> posts;
-  std::vector<Triangle> triangles;  // counter-clockwise where rows go up: with column to the right and row upward
+  std::vector<Triangle> triangles;  // counter-clockwise where row numbers go up: column to the right and row upward
 };
 
-// heights: rows of `columns`, all finite. columns and rows are 2 to 2^14; error_m is positive.
+// heights: rows of `columns` values, all finite. columns and rows are 2 to 2^14; error_m is positive.
 TerrainMesh mesh_terrain(int32_t columns, int32_t rows, std::span<const float> heights_m, double error_m);
 
-// What the mesh misses by, at every post: the largest error and the root of the mean square.
+// Errors of the mesh over all posts: the largest one and the root mean square.
 struct TerrainError {
   double largest_m = 0, rms_m = 0;
 };

@@ -1,5 +1,5 @@
-// Bridges as in D. Eberly, "Triangulation by Ear Clipping" (2002), but each to the nearest corner in sight; ears as in
-// G. Meisters, "Polygons have ears" (1975). Takes the square of the number of corners.
+// Bridges are those of D. Eberly, "Triangulation by Ear Clipping" (2002), but each to the nearest visible corner; ears
+// are those of G. Meisters, "Polygons have ears" (1975). The time grows as the square of the number of corners.
 #include "imports/triangulate.hpp"
 
 #include <algorithm>
@@ -19,14 +19,15 @@ class Clipper {
       add_corners(hole);
       std::vector<uint32_t> corners(hole.size());
       std::iota(corners.begin(), corners.end(), first);
-      // Its rightmost corner comes first: the bridge starts there.
+      // The rightmost corner comes first: the bridge starts there.
       std::rotate(corners.begin(),
                   std::max_element(corners.begin(), corners.end(),
                                    [this](uint32_t a, uint32_t b) { return points_[a] < points_[b]; }),
                   corners.end());
       holes_.push_back(std::move(corners));
     }
-    // From the right: what lies right of a hole's rightmost corner belongs to the loop already.
+    // Holes are joined from the right: everything to the right of a hole's rightmost corner belongs to the loop
+    // already.
     std::sort(holes_.begin(), holes_.end(),
               [this](const auto& a, const auto& b) { return points_[a[0]] > points_[b[0]]; });
   }
@@ -42,14 +43,14 @@ class Clipper {
   void add_corners(const Ring& ring) { points_.insert(points_.end(), ring.begin(), ring.end()); }
   const Point& at(size_t i) const { return points_[loop_[i % loop_.size()]]; }
 
-  // Whether p lies strictly between the edges of corner i of the loop, on the side of the polygon.
+  // Tells whether p lies strictly between the edges of corner i of the loop, on the side of the polygon.
   bool in_corner(size_t i, const Point& p) const {
     const Point &before = at(i + loop_.size() - 1), &corner = at(i), &after = at(i + 1);
     const bool left_of_first = turn(before, corner, p) > 0, left_of_second = turn(corner, after, p) > 0;
     return turn(before, corner, after) > 0 ? left_of_first && left_of_second : left_of_first || left_of_second;
   }
 
-  // Whether the edge p - q lets v and m see each other. Edges that end at v or m may touch the line there.
+  // Tells whether the edge p - q blocks the line from v to m. Edges that end at v or m may touch the line there.
   bool hides(const Point& p, const Point& q, const Point& v, const Point& m) const {
     const bool p_end = p == v || p == m, q_end = q == v || q == m;
     if (p_end && q_end) return false;
@@ -70,7 +71,7 @@ class Clipper {
     return true;
   }
 
-  // Cuts the loop open at the nearest corner that sees the hole, and goes round the hole.
+  // Cuts the loop open at the nearest corner that sees the hole, and inserts the hole's corners.
   bool bridge(size_t index) {
     const std::vector<uint32_t>& hole = holes_[index];
     const Point m = points_[hole[0]];
@@ -92,7 +93,7 @@ class Clipper {
     return false;
   }
 
-  // Whether corner i turns left and no other corner lies in its triangle; the ends of bridges are there twice.
+  // Tells whether corner i turns left and no other corner lies in its triangle; the ends of bridges appear twice.
   bool is_ear(size_t i) const {
     const Point &a = at(i + loop_.size() - 1), &b = at(i), &c = at(i + 1);
     if (turn(a, b, c) <= 0) return false;
@@ -104,13 +105,13 @@ class Clipper {
     return true;
   }
 
-  // Whether the way to corner i is the way back: what is left between two ears where an outline touches itself.
+  // Tells whether the edge to corner i is also the edge back, as between two ears where an outline touches itself.
   bool is_spike(size_t i) const { return at(i + loop_.size() - 1) == at(i + 1) || at(i) == at(i + 1); }
 
-  // Cutting an ear changes what is an ear beside it alone, so that the rest is not looked at again: only where rounds
-  // of bridges lie on each other may more have changed, which shows when no ear is left.
+  // Cutting an ear changes only the two corners beside it, so others are not tested again. Only where several bridges
+  // lie on each other may more corners change; then all are tested once no ear is left.
   std::vector<Triangle> clip() {
-    constexpr int most_looks = 10;  // at all corners
+    constexpr int most_looks = 10;  // number of rounds over all corners
     std::vector<Triangle> out;
     std::vector<char> ears;
     size_t i = 0, in_vain = 0;
@@ -133,7 +134,7 @@ class Clipper {
       } else {
         ++in_vain;
       }
-      ++i;  // after a cut this passes over a corner, which makes fans rarer
+      ++i;  // after a cut, the next corner is skipped, which makes fans rarer
     }
     if (is_spike(0) || is_spike(1) || is_spike(2)) return out;
     if (turn(at(0), at(1), at(2)) <= 0) return {};
@@ -147,8 +148,8 @@ class Clipper {
   }
 
   std::vector<Point> points_;
-  std::vector<uint32_t> loop_;                // the polygon as one ring, bridges there and back
-  std::vector<std::vector<uint32_t>> holes_;  // clockwise, from their rightmost corner on
+  std::vector<uint32_t> loop_;                // the polygon as one ring, with bridges in both directions
+  std::vector<std::vector<uint32_t>> holes_;  // clockwise, starting at their rightmost corner
 };
 
 }  // namespace

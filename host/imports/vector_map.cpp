@@ -1,5 +1,5 @@
-// Footprints of GeoPackage, Shapefile, GeoJSON, FlatGeobuf and whatever else GDAL opens, by the module for maps.
-// Fields become the tags of OpenStreetMap that building_tags.hpp reads, so heights are made of them in one place.
+// Reads footprints of GeoPackage, Shapefile, GeoJSON, FlatGeobuf and any other format of GDAL, through the maps module.
+// Fields become the tags of OpenStreetMap that building_tags.hpp reads, so that one place makes heights of them.
 #include "imports/vector_map.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* advice = "ogr2ogr -spat WEST SOUTH EAST NORTH city.gpkg MAP";
 
-// A field that may hold a tag; of several for one tag the first that is set counts.
+// A field that may hold a tag; if several fields give one tag, the first that is set counts.
 struct TagField {
   std::string field;
   const char* tag;
@@ -78,7 +78,7 @@ class FootprintTaker {
 
 struct TakerCall {
   FootprintTaker taker;
-  std::exception_ptr problem;  // must not cross the module
+  std::exception_ptr problem;  // exceptions must not cross the module's C interface
 };
 
 int visit(void* user, const wt_maps_polygon* polygon) {
@@ -113,30 +113,29 @@ void check_fields(const std::string& name, const std::vector<TagField>& fields, 
   }
   if (!heights)
     map.warnings.push_back(
-        fmt::format("{}: no field gives heights, so all buildings are {:g} m high; name one of its fields with "
-                    "--height (metres) or "
-                    "--levels (storeys): {}",
+        fmt::format("{}: no field gives heights, so all buildings are {:g} m high; "
+                    "name one of its fields with --height (metres) or --levels (storeys): {}",
                     name, options.default_height_m, *layers.fields ? layers.fields : "it has none"));
 }
 
-// Coordinates of nowhere on the earth: as they are, but not degrees, which would make a city of a metre.
+// Coordinates without a system are kept, unless they look like degrees, which would make a city of a metre.
 void check_metres(Map& map, const std::string& name, const ImportOptions& options) {
   bool small = !map.footprints.empty();
   each_point(map, [&](const glm::dvec2& p) { small = small && std::abs(p.x) <= 180 && std::abs(p.y) <= 90; });
   if (small)
     throw InputError(
-        fmt::format("{}: does not name its coordinate system, and all coordinates are as small as degrees; if they are "
-                    "degrees, name it: ogr2ogr -a_srs EPSG:4326 named.gpkg {}",
+        fmt::format("{}: does not name its coordinate system, and all coordinates are as small as degrees; "
+                    "if they are degrees, name it: ogr2ogr -a_srs EPSG:4326 named.gpkg {}",
                     name, name));
   if (!options.net.empty())
     throw InputError(
         fmt::format("{}: does not name its coordinate system, so it cannot be placed on the network of --net", name));
   map.georeference.projection = options.projection;
   if (options.projection.empty())
-    map.warnings.push_back(fmt::format(
-        "{}: does not name its coordinate system: its coordinates are taken as metres, and the scene has no "
-        "georeference; --projection names one",
-        name));
+    map.warnings.push_back(
+        fmt::format("{}: does not name its coordinate system: its coordinates are taken as metres, "
+                    "and the scene has no georeference; --projection names one",
+                    name));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Vector maps of the formats that GDAL opens.
+// Reads vector maps in the formats of GDAL.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace wavetracer::imports {
 
-// Throws InputError for the map, RuntimeError where there is no GDAL.
+// Throws InputError for the map, RuntimeError if GDAL is missing.
 Map read_vector_map(const std::string& file, const ImportOptions& options);
 
 }  // namespace wavetracer::imports

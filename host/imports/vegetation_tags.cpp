@@ -1,5 +1,5 @@
-// Heights beyond 100 m and crowns beyond 50 m are slips of the pen.
-// Degrees become metres by a sphere: a crown may be off by half a percent of its size.
+// Heights above 100 m and crowns wider than 50 m count as mistakes.
+// Degrees are converted to metres by a sphere: a crown may be wrong by half a percent of its size.
 #include "imports/vegetation_tags.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double tree_crown_m(const Tags& tags, double height_m, Counts& guessed) {
       .value_or(slender * height_m);
 }
 
-// Metres of a degree of longitude and of latitude.
+// Returns metres per degree of longitude and of latitude.
 glm::dvec2 metres_at(const glm::dvec2& place_deg) {
   return {m_per_degree * std::max(std::cos(place_deg.y * std::numbers::pi / 180), 1e-3), m_per_degree};
 }
@@ -38,7 +38,7 @@ glm::dvec2 metres_at(const glm::dvec2& place_deg) {
 bool is_vegetation(std::string_view material) { return material.ends_with("vegetation"); }
 
 TreeSize tree_size(const Tags& tags) {
-  Counts counted_later;  // by vegetation_shape()
+  Counts counted_later;  // vegetation_shape() counts these later
   const double height_m = tree_height_m(tags, counted_later).value_or(usual_tree_m);
   return {height_m, tree_crown_m(tags, height_m, counted_later)};
 }
@@ -56,7 +56,7 @@ std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m) 
 
 std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
   std::vector<glm::dvec2> out;
-  double next_m = 0;  // along the piece that follows
+  double next_m = 0;  // distance along the next piece
   for (size_t i = 1; i < line_deg.size(); ++i) {
     const glm::dvec2 piece_m = (line_deg[i] - line_deg[i - 1]) * metres_at(line_deg[i]);
     const double length_m = std::hypot(piece_m.x, piece_m.y);
@@ -74,7 +74,7 @@ Shape vegetation_shape(const Tags& tags, std::map<std::string, uint64_t>& guesse
   const std::optional<double> height_m = tree_height_m(tags, guessed);
   shape.top_m = height_m.value_or(tree ? usual_tree_m : usual_wood_m);
   shape.bottom_m = tree ? shape.top_m / 3 : 0;
-  if (tree) tree_crown_m(tags, shape.top_m, guessed);  // counted here, though the outline has it already
+  if (tree) tree_crown_m(tags, shape.top_m, guessed);  // only counts: the outline has the crown already
   if (!height_m) ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 15 m used"];
   shape.walls = shape.roof = tag(tags, "leaf_type") == "broadleaved" ? "deciduous_vegetation" : "vegetation";
   return shape;

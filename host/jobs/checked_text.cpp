@@ -1,4 +1,4 @@
-// The hash is of all that stands before the comma of the key.
+// The hash covers all text before the comma of the key.
 #include "jobs/checked_text.hpp"
 #include <fmt/format.h>
 #include <span>

@@ -1,13 +1,13 @@
-// JSON objects with a hash of their own text, so that damage is told from what was written: the last key is "check".
+// JSON objects with a hash of their own text as the last key, "check", so that damage can be detected.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace wavetracer {
 
-// object: the text of a JSON object that is not empty, which ends in its brace. The same with the key added.
+// Returns the object with the key added. object: the text of a JSON object that is not empty, which ends in its brace.
 std::string with_check(std::string object);
-// Is the text, which with_check() has made, as it was written? Blanks and line ends behind it do not count.
+// Tells whether text made by with_check() is unchanged. Blanks and line ends after it do not count.
 bool check_fits(std::string_view text);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// A claim is a hard link to the process's own file: link() is atomic, on network file systems too, and nobody can read
-// a claim that is not whole. A process that left no file of its own is dead.
+// A claim is a hard link to the process's own file: link() is atomic, on network file systems too, and a claim is never
+// seen half written. A process without a file of its own is dead.
 #include "jobs/claims.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view mark = ".claim.";
 
-// 0 where this is no claim's name.
+// Returns 0 if this is not the name of a claim.
 uint32_t attempt_of(const std::string& name, size_t at) {
   uint32_t attempt = 0;
   const char* end = name.data() + name.size();
@@ -26,7 +26,7 @@ uint32_t attempt_of(const std::string& name, size_t at) {
   return error == std::errc() && stop == end ? attempt : 0;
 }
 
-// Of the process; empty where the file is none of one.
+// Returns the name of the process, or empty if the file is not one of a process.
 std::string name_in(const fs::path& file) {
   const std::optional<ProcessInfo> process = read_process(file);
   return process ? process->name : "";
@@ -70,10 +70,10 @@ bool Claims::take(const std::string& task) {
   }
   if (errno != EEXIST)
     throw RuntimeError(
-        fmt::format("cannot write {}: {}; check the permissions of its folder, and that its file "
-                    "system has hard links, or choose another one with -o",
+        fmt::format("cannot write {}: {}; check the permissions of its folder, "
+                    "and that its file system has hard links, or choose another one with -o",
                     claim.string(), std::strerror(errno)));
-  claims_[task] = {attempt, true};  // somebody was faster; the next look says who
+  claims_[task] = {attempt, true};  // another process was faster; the next look() tells which
   return false;
 }
 

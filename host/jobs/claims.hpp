@@ -1,6 +1,6 @@
-// Tasks that processes of one job share, each done by one of them: DIR/shards/TASK.claim.N names the process that took
-// it. One process alone can make a file of that name. A claim of a dead process is followed by claim N + 1 of another,
-// until most_attempts have died over a task; claims are never removed while the job runs.
+// Tasks that processes of one job share; one of them does each task. DIR/shards/TASK.claim.N names the process that
+// took it; only one process can create a file of that name. If the claimant is dead, another process makes claim N + 1,
+// until most_attempts processes have died over a task. Claims are never removed while the job runs.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -10,25 +10,26 @@
 
 namespace wavetracer {
 
-enum class ClaimState { free, taken, failed };  // taken: by a living process; failed: most_attempts died over it
+// taken: by a living process; failed: most_attempts processes died over it.
+enum class ClaimState { free, taken, failed };
 
 class Claims {
  public:
   static constexpr uint32_t most_attempts = 2;
 
-  // me: has its file in the folder. Other processes of its job are looked up there.
+  // me: this process, which must have its file in the folder. Files of other processes of its job are looked up there.
   Claims(std::filesystem::path folder, const ProcessInfo& me) : folder_(std::move(folder)), me_(me) {}
 
-  // Reads the claims that are there and which of their processes live.
+  // Reads the existing claims, and checks which of their processes live.
   void look();
-  // As of the last look, and of own claims since.
+  // Returns the state at the last look(), updated by own claims since.
   ClaimState state(const std::string& task) const;
-  // Takes the task if no living process has it: true where this process alone has it now.
+  // Takes the task if no living process has it: returns true if this process alone has it now.
   bool take(const std::string& task);
 
  private:
   struct Claim {
-    uint32_t attempt = 0;  // 0: none
+    uint32_t attempt = 0;  // 0 if there is none
     bool living = false;
   };
   std::filesystem::path folder_;
@@ -36,7 +37,7 @@ class Claims {
   std::map<std::string, Claim> claims_;
 };
 
-// Of all tasks but those that begin so. No process may be looking for one.
+// Removes the claims of all tasks except those whose names begin with `except`. No process may be looking for one.
 void remove_claims(const std::filesystem::path& folder, const std::string& except = "");
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Reads only what echoed_config() writes: headings, comments, and KEY = VALUE on a line.
-// Values compare as they are written, which is one way for each value.
+// Values are compared as text, since each value is written in one way only.
 #include "jobs/config_changes.hpp"
 #include <fmt/format.h>
 #include <map>

@@ -1,4 +1,4 @@
-// What differs between two configurations, key by key, for a message that says more than that they differ.
+// Finds the differences between two configurations, key by key, for a message that names them.
 #pragma once
 #include <string>
 #include <string_view>
@@ -6,9 +6,9 @@
 
 namespace wavetracer {
 
-// Texts as echoed_config() writes them: one key per line. Returns "trace.rays was 1000 and is 2000", in the order of
-// the second text; what one of them lacks "was not given" or "is not given". Tables in double brackets have an index:
-// transmitter.0.name.
+// Takes texts of echoed_config(): one key per line. Returns lines such as "trace.rays was 1000 and is 2000", in the
+// order of the second text; a key that only one has "was not given" or "is not given". Tables in double brackets have
+// an index: transmitter.0.name.
 std::vector<std::string> config_changes(std::string_view was, std::string_view is);
 
 }  // namespace wavetracer

@@ -7,8 +7,8 @@ namespace {
 
 constexpr size_t block_bytes = size_t{4} << 20;
 
-// Behind the last line end that is in no quotes; 0 where there is none. The text begins with a record, so an even
-// number of quotes lies before such a line end.
+// Returns the place after the last line end outside of quotes; 0 if there is none. The text begins with a record, so an
+// even number of quotes lies before such a line end.
 size_t end_of_records(std::string_view text) {
   auto before = std::ranges::count(text, '"');
   size_t end = text.size();
@@ -26,7 +26,7 @@ std::string& field(std::vector<std::string>& fields, size_t index) {
   return fields[index];
 }
 
-// The record at the beginning of a text with quotes; returns its length, and the number of its fields.
+// Reads the record at the beginning of a text with quotes; returns its length, and the number of its fields.
 size_t take_quoted(std::string_view text, std::vector<std::string>& fields, size_t& count) {
   std::string* to = &field(fields, count++);
   bool quoted = false;

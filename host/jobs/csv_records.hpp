@@ -1,4 +1,4 @@
-// Records of a CSV file by RFC 4180, from blocks of it that hold whole records each.
+// Reads records of a CSV file by RFC 4180, from blocks that contain whole records.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -8,20 +8,20 @@
 
 namespace wavetracer {
 
-// The file in blocks of some megabytes, each cut behind the last line end of it that is in no quotes.
+// The file in blocks of some megabytes, each cut after its last line end outside of quotes.
 class CsvBlocks {
  public:
   explicit CsvBlocks(const std::filesystem::path& file) : file_(file, std::ios::binary) {}
-  // False where nothing is left.
+  // Returns false if nothing is left.
   bool next(std::string& block);
 
  private:
   std::ifstream file_;
-  std::string rest_;  // what comes behind the cut
+  std::string rest_;  // the text after the cut
 };
 
-// Takes the first record off the text: its fields, without their quotes. A quoted field may hold line ends. False where
-// no text is left.
+// Removes the first record from the text and returns its fields, without their quotes. A quoted field may contain line
+// ends. Returns false if no text is left.
 bool take_record(std::string_view& text, std::vector<std::string>& fields);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Affinity is the one mechanism: TBB sizes its pool by it, and PoCL is told the number of cores besides.
-// Linux only.
+// Affinity is the only mechanism: TBB sizes its pool by it, and PoCL is also told the number of cores.
+// This is for Linux only.
 #include "jobs/devices_option.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +19,7 @@ namespace {
 
 bool same_kind(const gpu::DeviceInfo& a, const gpu::DeviceInfo& b) { return a.gpu == b.gpu && a.cpu == b.cpu; }
 
-// The indices of a list, or none where the text is another word. Throws ConfigError for what is neither.
+// Returns the indices of a list, or none if the text is one of the words. Throws ConfigError for other text.
 std::vector<size_t> listed(const std::string& text) {
   std::vector<size_t> out;
   if (text.empty() || text == "all" || text == "gpu" || text == "cpu") return out;
@@ -42,7 +42,8 @@ std::vector<size_t> listed(const std::string& text) {
 }
 
 void check_listed(const std::vector<gpu::DeviceInfo>& there, const std::string& text, const std::vector<size_t>& list) {
-  for (const size_t index : list) gpu::choose_device(there, std::to_string(index));  // throws, naming those there are
+  // Throws and names the existing ones.
+  for (const size_t index : list) gpu::choose_device(there, std::to_string(index));
   for (const size_t index : list)
     if (!same_kind(there[index], there[list.front()]))
       throw ConfigError(fmt::format("--devices {}: {} and {} are of different kinds; name only CPUs or only GPUs", text,
@@ -57,7 +58,7 @@ std::vector<size_t> indices(const std::vector<gpu::DeviceInfo>& there, const Whi
   return out;
 }
 
-// The indices, or the code and the words of an error: what a child tells its parent.
+// Returns the indices, or the code and the words of an error, as text from a child to its parent.
 std::string answer_of(const std::string& devices, const std::string& device) {
   try {
     const std::vector<gpu::DeviceInfo> there = gpu::list_devices();
@@ -87,8 +88,8 @@ bool is_index(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// A child process asks, so that no driver is loaded into this one: NVIDIA's finds no device in children of a process
-// that has loaded it (580.159). It takes a second where there are several GPUs.
+// A child process chooses, so that no driver is loaded into this process: NVIDIA's finds no device in children of a
+// process that has loaded it (580.159). This takes a second if there are several GPUs.
 std::vector<size_t> ask_apart(const std::string& devices, const std::string& device) {
   int ends[2];
   if (pipe(ends) != 0) throw RuntimeError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
@@ -157,8 +158,9 @@ void take_share_of_cores(const Ranks& ranks) {
   CPU_ZERO(&own);
   for (size_t i = first; i < end; ++i) CPU_SET(cores[i], &own);
   if (sched_setaffinity(0, sizeof own, &own) != 0) return;
-  unsetenv("POCL_AFFINITY");  // with it PoCL binds its threads to the first cores, whatever the mask says
-  for (const char* variable : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})  // before and since PoCL 6
+  unsetenv("POCL_AFFINITY");  // with it, PoCL binds its threads to the first cores and ignores the mask
+  // These are the names of the variable before and since PoCL 6.
+  for (const char* variable : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"})
     setenv(variable, std::to_string(end - first).c_str(), 0);
 }
 

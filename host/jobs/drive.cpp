@@ -1,5 +1,5 @@
 // The loop over units and their frames.
-// Assumes that catch_interrupts() was called, so that an interrupt ends the frame in progress at its next step.
+// catch_interrupts() must have been called, so that an interrupt ends the frame in progress at its next step.
 #include "jobs/drive.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -44,9 +44,7 @@ uint32_t block_count(const Config& config) {
   const auto transmitters = static_cast<uint32_t>(config.transmitters.size());
   if (const std::string why = block_obstacle(config); !why.empty() && transmitters > 1)
     throw ConfigError(
-        fmt::format("this run is one frame, which several processes cannot share: {}; run one process "
-                    "alone",
-                    why));
+        fmt::format("this run is one frame, which several processes cannot share: {}; run one process alone", why));
   return std::clamp(transmitters, 1u, most_blocks);
 }
 
@@ -95,7 +93,7 @@ std::optional<TransmitterRange> block_of(const DriveTask& task, const Unit& unit
                           static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
 }
 
-// One frame in one of the repeats of its unit, counted from 0.
+// Solves one frame in one of the repeats of its unit, counted from 0.
 std::optional<FrameResult> solve_repeat(const DriveTask& task, const Unit& unit, uint64_t frame, uint32_t repeat,
                                         Progress& progress) {
   const RunIdentity& asked = task.identity;
@@ -133,7 +131,7 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
     told[frame - unit.first].add(*result);
     told[frame - unit.first].finish(*result, repeats_agree(task.simulation.config()));
     const bool stop = frame == unit.last || interrupted();
-    // Why a drive has no path at all is asked once a unit; where others have found one, nobody will read it.
+    // Why a drive has no path at all is asked once per unit; if other processes have found one, the answer is not used.
     const bool ask = unit.blocks > 1 || asked.first == asked.last || result->paths.size() == 0;
     if (!explained && !result->world.links.empty() && ask) {
       result->missing = task.simulation.explain_missing(*result);
@@ -157,7 +155,7 @@ bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, P
 Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
   Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
-  remove_claims(shards.folder());  // of processes that shared the folder and were killed
+  remove_claims(shards.folder());  // left by processes that shared the folder and were killed
   remove_dead_temporaries(shards.folder());
   if (task.resume) {
     shards.resume();

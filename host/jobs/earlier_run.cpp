@@ -1,5 +1,5 @@
-// Files are known by their names, and temporary ones by OUTPUT.PROCESS.tmp, as PendingFile calls them.
-// Assumes that nobody adds files meanwhile.
+// Files are recognised by their names, and temporary ones by OUTPUT.PROCESS.tmp, as PendingFile names them.
+// Nobody may add files meanwhile.
 #include "jobs/earlier_run.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,21 +26,22 @@ constexpr std::array<std::string_view, 9> output_names{"paths.h5",     "waypoint
 constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_file = "run.json",
                            merged_name = "merged.json", job_file = "job.json";
 
-// Files of the folder for which `which` holds of their names.
+// Returns files of the folder whose names satisfy `which`.
 template <typename Which>
 void remove_files(const fs::path& folder, const Which& which) {
   std::error_code ignored;
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (which(entry.path().filename().string())) found.push_back(entry.path());
-  tbb::parallel_for_each(found, [](const fs::path& path) {  // on several cores: room of large files takes a while
+  tbb::parallel_for_each(found, [](const fs::path& path) {
+    // On several cores: freeing the space of large files takes a while.
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;  // a device, a pipe
+    // It is a device or a pipe.
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
     if (!fs::remove(behind_links(path), error) && error)
       throw RuntimeError(
-          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder "
-                      "with -o",
+          fmt::format("cannot remove {}, of an earlier run: {}; remove it or choose another folder with -o",
                       path.string(), error.message()));
   });
 }
@@ -73,8 +74,8 @@ void check_output_names(const fs::path& directory) {
     const fs::file_status status = fs::status(directory / name, none);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
       throw RuntimeError(
-          fmt::format("cannot write {}: it is a device, a pipe or a socket, and results must be plain files; choose "
-                      "another folder with -o",
+          fmt::format("cannot write {}: it is a device, a pipe or a socket, and results must be plain files; "
+                      "choose another folder with -o",
                       (directory / name).string()));
   }
 }
@@ -97,7 +98,7 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
   if (!fs::is_directory(folder, ignored)) return;
   remove_files(folder,
                [](const std::string& name) { return name.starts_with(manifest_prefix) || name == merged_name; });
-  sync_folder(folder);  // no manifest may list the files that go now
+  sync_folder(folder);  // before the files go, so that no manifest lists missing files
   remove_files(folder, [except](const std::string& name) {
     return (name.starts_with(shard_prefix) || name == record_file) &&
            std::ranges::none_of(except, [&](const PendingFile& file) { return file.temporary().filename() == name; });
@@ -108,12 +109,12 @@ void remove_shards(const fs::path& directory, std::span<const PendingFile> excep
 void remove_merged_shards(const fs::path& directory) {
   const fs::path folder = directory / "shards";
   remove_files(folder, [](const std::string& name) { return name.starts_with(manifest_prefix); });
-  sync_folder(folder);  // likewise
+  sync_folder(folder);  // for the same reason
   remove_files(folder, [](const std::string& name) { return name.starts_with(shard_prefix); });
 }
 
 void remove_dead_temporaries(const fs::path& shards) {
-  std::vector<std::string> living;  // endings of their names
+  std::vector<std::string> living;  // suffixes of their names
   for (const ProcessInfo& process : processes_in(shards))
     if (alive(process)) living.push_back(fmt::format(".{}.tmp", process.pid));
   remove_files(shards, [&living](const std::string& name) {

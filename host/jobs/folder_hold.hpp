@@ -1,5 +1,5 @@
-// DIR/shards, made where it is missing, with this process's file in it (jobs/process_files.hpp): who writes there.
-// What was made here goes again where nothing was put into it.
+// Reserves DIR/shards for this process: makes it if missing, and puts this process's file into it
+// (jobs/process_files.hpp). A folder made here is removed again if nothing was put into it.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -12,14 +12,14 @@ namespace wavetracer {
 
 class FolderHold {
  public:
-  // Throws RuntimeError where another process has the folder, see Presence.
+  // Throws RuntimeError if another process has the folder, see Presence.
   FolderHold(const std::filesystem::path& directory, ProcessInfo process)
       : directory_(directory), shards_(directory / "shards") {
     presence_.emplace(shards_.path(), std::move(process));
   }
   ~FolderHold() {
     presence_.reset();
-    remove_if_empty(shards_.path());  // of an earlier drive
+    remove_if_empty(shards_.path());  // it was left by an earlier drive
   }
   FolderHold(const FolderHold&) = delete;
   FolderHold& operator=(const FolderHold&) = delete;

@@ -1,5 +1,5 @@
-// Reads --frames and says what is wrong with it.
-// Assumes at least one frame.
+// Parses --frames and reports what is wrong with it.
+// There must be a frame.
 #include "jobs/frame_range.hpp"
 #include <fmt/format.h>
 #include <charconv>

@@ -1,4 +1,4 @@
-// --frames: which frames of a run are computed.
+// --frames: the frames of a run that are computed.
 // Frames are numbered from 0; ranges include both ends.
 #pragma once
 #include <cstdint>
@@ -11,7 +11,7 @@ struct FrameRange {
   uint64_t count() const { return uint64_t{last} - first + 1; }
 };
 
-// text: "A:B", "A:", ":B", "A", or nothing for all of the frame_count frames. Throws ConfigError.
+// text: "A:B", "A:", ":B", "A", or empty for all of the frame_count frames. Throws ConfigError.
 FrameRange parse_frames(const std::string& text, uint64_t frame_count);
 
 }  // namespace wavetracer

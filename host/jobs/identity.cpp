@@ -1,4 +1,4 @@
-// Hashes of the configuration without its places, and of the contents of its inputs.
+// Hashes the configuration without its places, and the contents of its inputs.
 #include "jobs/identity.hpp"
 #include <fmt/format.h>
 #include "base/hash.hpp"
@@ -18,11 +18,12 @@ std::string hash_of(const std::vector<InputFile>& inputs) {
 
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range) {
   Config elsewhere = config;
-  elsewhere.output.directory.clear();  // a folder that was moved is still that of its run
-  // What becomes of shards changes none.
+  elsewhere.output.directory.clear();  // a folder that was moved still belongs to its run
+  // These keys do not affect results.
   elsewhere.output.keep_shards = OutputConfig().keep_shards;
   elsewhere.output.compression = OutputConfig().compression;
-  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();  // likewise; contents count
+  // Places of inputs do not count, contents do.
+  for (const config::NamedFile& file : config::input_files(elsewhere)) file.path->clear();
   return {summary.version,
           fnv1a_128(resolved_config(elsewhere)),
           summary.device.gpu ? "gpu" : "cpu",

@@ -1,4 +1,4 @@
-// Which run the parts in a folder belong to.
+// Tells which run the parts in a folder belong to.
 #pragma once
 #include "jobs/frame_range.hpp"
 #include "jobs/manifest.hpp"
@@ -6,8 +6,8 @@
 
 namespace wavetracer {
 
-// Two runs of one identity write the same frames: version, kind of device, configuration, contents of all input files,
-// frames and repeats. Where the outputs and the inputs lie, and whether shards are kept, does not count.
+// Two runs with the same identity write the same frames: version, kind of device, configuration, contents of all input
+// files, frames and repeats. The places of outputs and inputs, and whether shards are kept, do not count.
 RunIdentity identity_of(const Config& config, const RunSummary& summary, const FrameRange& range);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// The signal handler sets a flag and says so by write(), which a handler may call; nothing else.
+// The signal handler sets a flag and reports it by write(), which a handler may call, and does nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
 #include "jobs/interrupt.hpp"
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // Set by the thread that handles the signal, and read by others.
 std::atomic<bool> raised{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler might not touch it
+static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a handler must not use it
 
 sigset_t ending_signals() {
   sigset_t set;
@@ -30,7 +30,7 @@ sigset_t ending_signals() {
   return set;
 }
 
-// The path and the folders above it, the innermost first, as far as they are not there.
+// Returns the path and the folders above it that do not exist, the innermost first.
 std::vector<fs::path> missing(fs::path path) {
   std::vector<fs::path> out;
   std::error_code ignored;
@@ -47,12 +47,12 @@ std::vector<fs::path> missing(fs::path path) {
 // named_before: final_names() before anything was written.
 [[noreturn]] void remove_and_end(const fs::path& temporary, const std::vector<fs::path>& folders,
                                  uint64_t named_before) {
-  const auto hold = hold_pending();  // to the end of the process
+  const auto hold = hold_pending();  // held until the process ends
   std::error_code ignored;
   fs::remove_all(temporary, ignored);
   const bool nothing = final_names() == named_before;
   if (nothing)
-    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // those that are empty
+    for (const fs::path& folder : folders) fs::remove(folder, ignored);  // only empty ones are removed
   end_interrupted(std::string("interrupted; ") + (nothing ? "nothing was written" : "what was written is complete"));
 }
 
@@ -63,12 +63,13 @@ void catch_interrupts(bool acknowledge) {
   if (acknowledge)
     action.sa_handler = [](int) {
       raised = true;
-      constexpr std::string_view text = "\ninterrupted: stopping after the step in progress; once more ends at once\n";
-      if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody is there to read it
+      constexpr std::string_view text =
+          "\ninterrupted: stopping after the step in progress; a second signal ends at once\n";
+      if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // if nobody reads it, that does not matter
     };
   else
     action.sa_handler = [](int) { raised = true; };
-  action.sa_flags = SA_RESTART | SA_RESETHAND;  // a write to a file goes on
+  action.sa_flags = SA_RESTART | SA_RESETHAND;  // an interrupted write to a file continues
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }

@@ -1,5 +1,5 @@
-// Ctrl-C: the first one asks the run to stop after what it is doing, the second one stops it at once.
-// One process has one such request; it is never taken back.
+// Ctrl-C: the first one asks the run to stop after its current step, the second one ends it at once.
+// A process has one such request, which is never withdrawn.
 #pragma once
 #include <signal.h>
 #include <filesystem>
@@ -9,28 +9,28 @@
 
 namespace wavetracer {
 
-// From now on SIGINT and SIGTERM only raise the request. acknowledge: and say so on stderr, at once.
+// From now on SIGINT and SIGTERM only set the request. acknowledge: also print a line on stderr at once.
 void catch_interrupts(bool acknowledge = true);
 bool interrupted();
 
-// While it lives, SIGINT and SIGTERM go to a thread of its own, which may do what a handler may not.
+// While it exists, SIGINT and SIGTERM go to a thread, which may do what a handler may not.
 class SignalThread {
  public:
-  // end: called there, once one of them has come, and ends the process. handled_too: also where it came to the handler
-  // of catch_interrupts(), as threads that were there before do not block the signals.
+  // end: called on that thread once a signal has come; it ends the process. handled_too: also if the handler of
+  // catch_interrupts() got the signal, since threads that existed before do not block the signals.
   SignalThread(bool handled_too, std::function<void()> end);
   ~SignalThread();
   SignalThread(const SignalThread&) = delete;
   SignalThread& operator=(const SignalThread&) = delete;
 
  private:
-  sigset_t before_;  // the signals that were blocked
+  sigset_t before_;  // the signals that were blocked before
   std::jthread waiting_;
 };
 
-// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130. It is for work that takes long and
-// leaves nothing to keep, such as loading a scene. clean_up: called before, on another thread; message: said on stderr,
-// if it is not empty.
+// While it exists, SIGINT and SIGTERM end the process at once, with exit code 130. It is for work that takes long and
+// leaves nothing to keep, such as loading a scene. clean_up: called before, on another thread; message: printed on
+// stderr if it is not empty.
 class EndOnInterrupt {
  public:
   EndOnInterrupt(std::function<void()> clean_up, std::string message);
@@ -39,9 +39,9 @@ class EndOnInterrupt {
   SignalThread thread_;
 };
 
-// While it lives, SIGINT and SIGTERM end the process at once, with exit code 130, and leave nothing of what is being
-// written to `output` (PendingFile and PendingFolder) behind, nor the folders above it that are not there yet. It is
-// for commands whose work has no places to stop at.
+// While it exists, SIGINT and SIGTERM end the process at once, with exit code 130, and remove everything that is being
+// written to `output` (PendingFile and PendingFolder), and the folders above it that did not exist. It is for commands
+// whose work cannot stop midway.
 class RemoveOnInterrupt {
  public:
   explicit RemoveOnInterrupt(const std::filesystem::path& output);

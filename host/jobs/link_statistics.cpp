@@ -1,5 +1,5 @@
-// Blocks of rows on all cores, then one block after the other: memory holds two numbers per row and a sum per pair, and
-// what comes out does not depend on the number of cores. Columns are found by their names.
+// All cores handle blocks of rows, which are then joined in order: memory holds two numbers per row and a sum per pair,
+// and the result does not depend on the number of cores. Columns are found by their names.
 #include "jobs/link_statistics.hpp"
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -25,7 +25,7 @@ struct LinkFields {
   bool los;
 };
 
-// Of a pair of ends; tx and rx are those of its first row.
+// Sums of a pair of ends; tx and rx are those of its first row.
 struct Sum {
   std::string tx, rx;
   bool forwards = false, backwards = false;
@@ -44,22 +44,22 @@ struct Sum {
   }
 };
 
-using GridOf = std::unordered_map<std::string, size_t>;  // of each receiver of a grid, the number of the grid
+using GridOf = std::unordered_map<std::string, size_t>;  // for each receiver of a grid, the number of the grid
 
-// What some rows add up to.
+// Sums over some rows.
 struct LinkSums {
   uint64_t asked = 0, with_path = 0, los = 0;
   std::vector<double> gains_db, delay_spreads_s;
-  std::unordered_map<std::string, Sum> pairs;       // by pair_name
-  std::unordered_map<std::string, double> best_db;  // of each receiver of a grid
+  std::unordered_map<std::string, Sum> pairs;       // keys are those of pair_name()
+  std::unordered_map<std::string, double> best_db;  // for each receiver of a grid
 
-  // The names of both ends, the smaller first.
+  // Makes a name of both ends, the smaller one first.
   static void pair_name(std::string_view a, std::string_view b, std::string& name) {
     name.assign(std::min(a, b)) += '\0';
     name += std::max(a, b);
   }
 
-  // names: room for names.
+  // names: a buffer for names.
   void add(const LinkFields& row, const GridOf& grid_of, std::string& names) {
     ++asked;
     names.assign(row.rx);
@@ -87,7 +87,7 @@ struct LinkSums {
     sum->los_rows += row.los;
   }
 
-  // Those of the rows behind.
+  // Adds the sums of the rows that follow.
   void add(const LinkSums& other) {
     asked += other.asked;
     with_path += other.with_path;
@@ -163,7 +163,7 @@ class Reader {
     return value;
   }
 
-  // Off the first block.
+  // Removes the header from the first block.
   void take_header(std::string& block) {
     std::string_view text = block;
     if (!take_record(text, header_)) fail("it is empty");

@@ -1,4 +1,4 @@
-// What the links of a run amount to, for its closing report: read from its links.csv, whoever wrote the parts.
+// Statistics of a run's links for its closing report, read from its links.csv, whichever processes wrote the parts.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -13,31 +13,32 @@ struct Quantiles {
   double low = 0, median = 0, high = 0;
 };
 
-// Of values that are all finite; zeros where there is none. Linear between neighbours, as numpy.quantile() has it.
+// Returns the quantiles of finite values; zeros if there are none. They are interpolated linearly, as numpy.quantile()
+// does.
 Quantiles quantiles(std::vector<double> values);
 
-// A pair of ends, both ways as one.
+// A pair of ends, with both directions as one.
 struct PairSummary {
-  std::string name;                 // "rsu -> car", or "a <-> b" where both ways are asked for
-  double mean_gain_db = 0;          // of the mean power over all frames in which it has a path
+  std::string name;                 // "rsu -> car", or "a <-> b" if both directions were computed
+  double mean_gain_db = 0;          // gain of the mean power over all frames in which it has a path
   double mean_delay_spread_s = 0;   // over these frames
-  uint64_t rows = 0, los_rows = 0;  // frames and ways with a path; of these in line of sight
+  uint64_t rows = 0, los_rows = 0;  // rows with a path (frames and directions); those of them with line of sight
 };
 
 struct GridSummary {
   std::string name;
-  uint64_t cells = 0, covered = 0;  // covered: with a path of any transmitter in any frame
-  Quantiles gain_db;                // of the best transmitter, over the cells that are covered
+  uint64_t cells = 0, covered = 0;  // covered: cells with a path from any transmitter in any frame
+  Quantiles gain_db;                // gain of the best transmitter, over the covered cells
 };
 
 struct LinkStatistics {
-  uint64_t asked = 0, with_path = 0, los = 0;  // rows; grids included
+  uint64_t asked = 0, with_path = 0, los = 0;  // numbers of rows, including grids
   Quantiles gain_db, delay_spread_s;           // over rows with power
-  std::vector<PairSummary> pairs;              // with a path, the strongest first; grids left out
+  std::vector<PairSummary> pairs;              // pairs with a path, the strongest first, without grids
   std::vector<GridSummary> grids;              // in the order of the configuration
 };
 
-// config: with all receivers of the run. Throws RuntimeError where the file is not one that a run writes.
+// config: with all receivers of the run. Throws RuntimeError if the file was not written by a run.
 LinkStatistics link_statistics(const std::filesystem::path& links_csv, const Config& config);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// What a simulation says of itself, gathered for the outputs.
-// In this folder because the output folder knows no simulation.
+// Gathers the description of a simulation for the outputs.
+// It is in this folder because the output folder does not know simulations.
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/hash.hpp"
@@ -19,7 +19,7 @@ void add_input(std::vector<InputFile>& inputs, const std::string& name, const st
   inputs.push_back({name, file, hash->bytes, hash->hash});
 }
 
-// The files of a scene but for the first, which its key names.
+// Adds the files of a scene except the first, which is named by its key.
 void add_named_by(std::vector<InputFile>& inputs, const std::string& key, const Scene& scene) {
   const fs::path folder = fs::path(scene.file).parent_path();
   for (const std::string& file : scene.files)

@@ -1,5 +1,5 @@
-// JSON both ways. A line counts once its line end is there.
-// Assumes that only this program writes manifests; what is not understood is an error, not a guess.
+// Converts to and from JSON. A line counts once it has its line end.
+// Only this program writes manifests, so a line that is not understood is an error.
 #include "jobs/manifest.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr uint64_t most_manifest_bytes = uint64_t{1} << 32;
 
 [[noreturn]] void refuse(const std::string& what) { throw Json::other_error::create(501, what, nullptr); }
 
-// Names lead to files of the folder and nowhere else.
+// Names must be those of files in the folder.
 void check_outputs(const Shard& whole) {
   for (const ShardFile& file : whole.files)
     if (file.name.empty() || file.name.find('/') != std::string::npos) refuse("\"" + file.name + "\" is no output");
@@ -173,7 +173,7 @@ std::vector<Shard> decode_manifest(std::string_view text, const std::string& nam
   std::vector<Shard> shards;
   for (size_t number = 1; !text.empty(); ++number) {
     const size_t end = text.find('\n');
-    if (end == std::string_view::npos) break;  // half written
+    if (end == std::string_view::npos) break;  // the line is incomplete
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
     try {
@@ -208,7 +208,7 @@ std::vector<Shard> NewLines::read() {
     std::ifstream in(file, std::ios::binary);
     if (!in.seekg(static_cast<std::streamoff>(done)).read(text.data(), static_cast<std::streamsize>(text.size())))
       continue;
-    text.erase(text.rfind('\n') + 1);  // nothing of it without a line end
+    text.erase(text.rfind('\n') + 1);  // removes a line without a line end
     done += text.size();
     std::ranges::move(decode_manifest(text, file.string()), std::back_inserter(shards));
   }

@@ -1,6 +1,6 @@
-// What a merge can do before the last unit is finished: of the units that are finished without a gap from the first one
-// on, the tables of their files are found and their rows compressed. All of it is in this process alone, so nothing is
-// left of it where the process ends; whoever merges then begins anew.
+// Does the part of a merge that is possible before the last unit is finished: for finished units without a gap from the
+// first one on, it finds the tables of their files and compresses their rows. All of this is in the memory of this
+// process, so nothing is left if it ends; another process that merges then starts from the beginning.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace wavetracer {
 
-// An output as far as it goes.
+// An output as far as it is known.
 struct OutputAhead {
   OutputAhead(const H5Output& output, IdleThreads& threads, const std::filesystem::path& scratch, uint32_t compression)
       : parts(output.growing_groups), chunks(threads, scratch, compression) {}
@@ -27,18 +27,18 @@ struct OutputAhead {
 
 class MergeAhead {
  public:
-  // directory: of the run; nothing is touched yet. units: of frames.
+  // directory: folder of the run; no file is touched yet. units: of frames.
   MergeAhead(const Config& config, const Units& units, std::filesystem::path directory);
 
-  // Takes units that have finished since the last call, this process's and others'. Speaks to HDF5. Throws nothing:
-  // where something is wrong with a part or the disk, the merge will meet it.
+  // Takes units of all processes that have finished since the last call. It calls HDF5. It never throws: if something
+  // is wrong with a part or the disk, the merge will find it.
   void look() noexcept;
 
-  // Compressed chunks of all outputs that are made so far.
+  // Returns the number of compressed chunks of all outputs so far.
   size_t chunks() const;
 
-  // To merge: what is known of an output (its number among h5_outputs()) that is made of these parts, or nothing. No
-  // look() is allowed then.
+  // For the merge: returns what is known about an output (its index in h5_outputs()) made of these parts, or null.
+  // look() must not be called afterwards.
   OutputAhead* of(size_t output, std::span<const std::filesystem::path> parts);
 
  private:
@@ -47,11 +47,12 @@ class MergeAhead {
   Units units_;
   std::filesystem::path directory_;
   NewLines lines_;
-  uint64_t next_ = 0;                                      // index of the first unit that was not taken
-  std::map<uint32_t, std::vector<std::string>> finished_;  // by first frame: names of files of units that wait for it
+  uint64_t next_ = 0;  // index of the first unit that was not taken
+  // By first frame: names of files of finished units that wait for an earlier unit.
+  std::map<uint32_t, std::vector<std::string>> finished_;
   bool given_up_ = false;
-  std::vector<std::unique_ptr<OutputAhead>> ahead_;  // one an output, from the first unit on
-  std::unique_ptr<IdleThreads> threads_;             // last: they use the others
+  std::vector<std::unique_ptr<OutputAhead>> ahead_;  // one per output, from the first unit on
+  std::unique_ptr<IdleThreads> threads_;             // declared last, since the threads use the other members
 
   void take(const std::vector<std::string>& files);
 };

@@ -1,5 +1,5 @@
-// Looks for gaps along the frames that the run was asked for, or among its blocks.
-// Two parts of one unit must agree; the first that is found is taken.
+// Finds gaps among the frames that the run was asked for, or among its blocks.
+// If two parts hold the same unit, they must agree, and the first that is found is taken.
 #include "jobs/merge_folders.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -42,8 +42,8 @@ void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIde
   if (a.inputs == b.inputs) return;
   const std::string which = changed_input(inputs_in(folder_a), inputs_in(folder_b));
   throw InputError(
-      fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files "
-                  "of the other, or merge each by itself",
+      fmt::format("{} and {} hold parts of different runs: {}; compute one of them again with the input files of "
+                  "the other, or merge each by itself",
                   folder_a.string(), folder_b.string(),
                   which.empty() ? "one of their input files differs" : which + " in the first"));
 }
@@ -69,7 +69,7 @@ void find_missing(FoundParts& found) {
   if (next <= found.run.last) add_missing(found, {static_cast<uint32_t>(next), found.run.last, 0, 1});
 }
 
-// No two parts may hold the same frames, or be of different cuts.
+// No two parts may hold the same frames, unless they are the same unit.
 void check_cut(const FoundParts& found) {
   const Shard* before = nullptr;
   for (const auto& [key, shard] : found.shards) {
@@ -83,15 +83,14 @@ void check_cut(const FoundParts& found) {
   }
 }
 
-// Two parts of one unit, computed twice, say the same.
+// Two parts of one unit, computed twice, must be equal.
 void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
   const bool same = a.unit == b.unit && a.totals.counts.paths == b.totals.counts.paths &&
                     a.totals.links == b.totals.links && a.totals.vertices == b.totals.vertices &&
                     a.totals.kinds == b.totals.kinds;
   if (!same)
     throw InputError(
-        fmt::format("{}: {} differs from the same part elsewhere ({} paths and {}); leave one of the "
-                    "folders out",
+        fmt::format("{}: {} differs from the same part elsewhere ({} paths and {}); leave one of the folders out",
                     folder.string(), unit_words(b.unit), b.totals.counts.paths, a.totals.counts.paths));
 }
 
@@ -106,8 +105,8 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
     const std::vector<fs::path> manifests = manifests_in(folder);
     if (manifests.empty() && fs::exists(merged_record(directory), none))
       throw InputError(
-          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, and its parts were removed "
-                      "when that was proved (output.keep_shards = true keeps them)",
+          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, "
+                      "and its parts were removed when that was proved (output.keep_shards = true keeps them)",
                       directory.string()));
     if (manifests.empty())
       throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
@@ -155,8 +154,8 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
   });
   if (parts.files.size() != h5_outputs(record.config).size() + 1)
     throw RuntimeError(found.record.string() +
-                       " does not belong to the parts beside it: keys that say which files are written differ, such as "
-                       "output.waypoints or response.bandwidth_hz");
+                       " does not belong to the parts beside it: keys that say which files are written differ, "
+                       "such as output.waypoints or response.bandwidth_hz");
   PendingDirectory folder(directory);
   std::vector<PendingFile> files = merge_outputs(record.config, parts, Parts::foreign, Proof::none, directory,
                                                  [&](const H5Output& output, const fs::path& first, hdf5::File& head) {

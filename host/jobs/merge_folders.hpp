@@ -1,5 +1,5 @@
-// Folders that parts of one run were written to, on whatever machines, made one: `wavetracer merge`.
-// Needs no device and none of the run's input files. Parts are files from elsewhere: all that they say is checked.
+// Merges folders with parts of one run, written on any machines: `wavetracer merge`.
+// It needs no device and none of the run's input files. Parts are files from elsewhere: everything in them is checked.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,18 +12,18 @@ namespace wavetracer {
 struct FoundParts {
   RunIdentity run;
   ShardMap shards;                                             // each unit once
-  std::map<ShardMap::key_type, std::filesystem::path> places;  // the folder of its files
-  std::filesystem::path record;                                // a run.json
-  std::vector<Unit> missing;  // blocks, or stretches of frames: the first of them, at most 1000
+  std::map<ShardMap::key_type, std::filesystem::path> places;  // folder of each unit's files
+  std::filesystem::path record;                                // path of a run.json
+  std::vector<Unit> missing;  // missing blocks, or ranges of frames: the first of them, at most 1000
   uint64_t missing_count = 0;
-  std::vector<std::string> damaged;  // parts whose files are not as they were written, which count as missing
+  std::vector<std::string> damaged;  // parts whose files have changed since they were written; they count as missing
 };
 
-// Looks through DIR/shards of each. Throws InputError where there are no parts, or parts of different runs, and
-// RuntimeError where a manifest is damaged.
+// Searches DIR/shards of each folder. Throws InputError if there are no parts, or parts of different runs, and
+// RuntimeError if a manifest is damaged.
 FoundParts find_parts(const std::vector<std::filesystem::path>& directories);
 
-// Writes the outputs into `directory` and returns their paths. Parts stay where they are. Throws RuntimeError.
+// Writes the outputs into `directory` and returns their paths. The parts are not changed. Throws RuntimeError.
 std::vector<std::filesystem::path> merge_found(const FoundParts& found, const std::filesystem::path& directory,
                                                const std::string& command_line);
 

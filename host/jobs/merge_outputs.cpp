@@ -1,5 +1,5 @@
-// Frames follow each other; blocks share one frame, so its row is taken once and the paths it points to are added up.
-// What the disk does (sync) and the text of the links go beside the rest, which is bound by one thread of HDF5.
+// Frames follow each other; blocks share one frame, so its row is taken once and the paths that it points to are added
+// up. Disk syncs and the text of the links run beside the rest, which is limited by HDF5's one thread.
 #include "jobs/merge_outputs.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using hdf5::File;
 
-// Work in a thread of its own; wait() throws what it threw.
+// Runs work in a thread of its own; wait() rethrows its exception.
 class Beside {
  public:
   template <typename Work>
@@ -29,7 +29,7 @@ class Beside {
   std::future<void> done_;  // its destructor waits, too
 };
 
-// An output on its way: all that the HDF5 library does to it, before the rows are copied.
+// An output in progress: all calls of the HDF5 library, before the rows are copied.
 struct Draft {
   const H5Output& output;
   std::span<const fs::path> parts;
@@ -37,7 +37,7 @@ struct Draft {
   const WriteHead& write_head;
   PendingFile& file;
   uint32_t compression;
-  OutputAhead* ahead;  // the first of the parts, or none
+  OutputAhead* ahead;  // prepared for the first parts, or null
 
   Pieces tables(const BeginPart& begin) const {
     begin(parts.front());
@@ -53,7 +53,7 @@ struct Draft {
   }
 };
 
-// Pieces as bytes: of each part their number, then they themselves.
+// Sends pieces as bytes: for each part the number of its pieces, then the pieces.
 void send(const Pieces& pieces, LimitedChild::Reply& reply) {
   for (const std::vector<Piece>& of_part : pieces) {
     const uint64_t count = of_part.size();

@@ -1,5 +1,5 @@
-// The parts of a run, made its outputs: what Shards and `wavetracer merge` share.
-// Of the parts, memory holds a block of rows at most.
+// Merges the parts of a run into its outputs, for Shards and `wavetracer merge`.
+// At most one block of rows is in memory.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -11,21 +11,21 @@
 
 namespace wavetracer {
 
-// Writes what of an output does not grow with frames.
+// Writes the parts of an output that do not grow with frames.
 using WriteHead = std::function<void(const H5Output&, const std::filesystem::path& first_part, hdf5::File&)>;
 
-// Whose parts they are: those of others are read in a child process (limited_child.hpp).
+// The origin of the parts: foreign ones are read in a child process (limited_child.hpp).
 enum class Parts { own, foreign };
 
-// Whether all rows are read back and compared with those of the parts.
+// Tells whether all rows are read back and compared with those of the parts.
 enum class Proof { none, rows };
 
-// Is called with the whole table of links, beside the rest of a merge.
+// Called with the whole table of links, in parallel with the rest of a merge.
 using ReadLinks = std::function<void(const std::filesystem::path&)>;
 
-// Synced, but not in place: the HDF5 outputs, then links.csv. config: output.waypoints and output.compression alone are
-// used. ahead: what is done of it already, of own parts. Throws InputError that names the part that cannot be merged,
-// and RuntimeError.
+// Returns the files, synced but not in place: the HDF5 outputs, then links.csv. config: only output.waypoints and
+// output.compression are used. ahead: the work that is done already, for own parts. Throws InputError that names the
+// part that cannot be merged, and RuntimeError.
 std::vector<PendingFile> merge_outputs(
     const Config& config, const MergeParts& parts, Parts whose, Proof proof, const std::filesystem::path& directory,
     const WriteHead& write_head, MergeAhead* ahead = nullptr,

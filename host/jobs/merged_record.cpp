@@ -1,4 +1,4 @@
-// One line of a manifest, of a unit that is the whole run and whose files are the outputs.
+// The record is one line of a manifest, with a unit that is the whole run and whose files are the outputs.
 #include "jobs/merged_record.hpp"
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
-// DIR/shards/merged.json: that the outputs in DIR hold a whole run, whose shards were removed when that was proved. It
-// stays with run.json, so that --resume knows what is there.
+// DIR/shards/merged.json says that the outputs in DIR hold a complete run, whose shards were removed once that was
+// proved. It stays with run.json, so that --resume knows that the run is complete.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -11,13 +11,12 @@
 
 namespace wavetracer {
 
-// Writes it for outputs that are in place in the folder. Throws RuntimeError.
+// Writes the record for outputs that are in place in the folder. Throws RuntimeError.
 void write_merged_record(const std::filesystem::path& directory, const RunIdentity& run, const Totals& totals,
                          std::span<const PendingFile> outputs);
 
-// The run that is whole in this folder, its files those of the folder; nothing where there is no record, or where one
-// of its files is not as it was written. damaged: gets what is wrong with them, in words. Throws RuntimeError where the
-// record is not one.
+// Returns the run that is complete in this folder, with its output files; nothing if there is no record, or if one of
+// its files has changed. damaged: gets messages about changed files. Throws RuntimeError if the record is invalid.
 std::optional<Shard> read_merged_record(const std::filesystem::path& directory, std::vector<std::string>& damaged);
 
 }  // namespace wavetracer

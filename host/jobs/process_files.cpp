@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = "process_";
-constexpr size_t most_process_bytes = 4096;  // of a process file
+constexpr size_t most_process_bytes = 4096;  // largest size of a process file
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -39,14 +39,14 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-// Containers of one machine may number their processes apart.
+// Containers on one machine may number their processes separately.
 std::string machine_name() {
   std::error_code none;
   return first_line("/proc/sys/kernel/random/boot_id") + " " + fs::read_symlink("/proc/self/ns/pid", none).string();
 }
 
-// Field 22 of /proc/PID/stat; the second field, in parentheses, may hold blanks. Nothing where there is no such
-// process, or it is a zombie.
+// Returns field 22 of /proc/PID/stat; the second field, in parentheses, may contain blanks. Returns nothing if there is
+// no such process, or it is a zombie.
 std::optional<uint64_t> start_of(int64_t pid) {
   const std::string stat = first_line(fmt::format("/proc/{}/stat", pid));
   const size_t name_end = stat.rfind(") ");
@@ -68,7 +68,7 @@ double modified_s(const fs::path& file) {
   return static_cast<double>(status.st_mtim.tv_sec) + 1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
 }
 
-// The clock of a shared file system is that of its server.
+// A shared file system has the clock of its server.
 double now_in(const fs::path& folder) {
   std::string name = (folder / "clock_XXXXXX").string();
   const int file = mkstemp(name.data());
@@ -79,7 +79,7 @@ double now_in(const fs::path& folder) {
   return now;
 }
 
-// Processes that enter a folder do so one after the other, where its file system lets folders be locked.
+// Makes processes enter a folder one after the other, if its file system can lock folders.
 class Turn {
  public:
   explicit Turn(const fs::path& folder) : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -173,8 +173,9 @@ void check_not_in_use(const fs::path& folder, const std::optional<ProcessInfo>& 
     if (me && (process.name == me->name || (process.job == me->job && process.rank != me->rank))) continue;
     if (!alive(process)) continue;
     throw RuntimeError(fmt::format(
-        "{}: process {} on {} writes there since {}; wait until it is done, or choose another folder with -o (a "
-        "process on another host that was killed counts as running until {:.0f} s after its last sign of life)",
+        "{}: process {} on {} writes there since {}; wait until it is done, or choose another folder "
+        "with -o (a process on another host that was killed counts as running until {:.0f} s after its last sign "
+        "of life)",
         folder.string(), process.pid, process.host, process.since, heartbeat_limit_s));
   }
 }
@@ -191,7 +192,8 @@ Presence::Presence(fs::path folder, ProcessInfo process) : process_(std::move(pr
   PendingFile file(file_, std::as_bytes(std::span(text)));
   {
     const Turn turn(folder);
-    file.commit();  // before the look around: where there are no turns, two that come at once may both be refused
+    file.commit();  // before the check of other files: without locks, two processes that come at once may both be
+                    // refused
     try {
       check_not_in_use(folder, process_);
     } catch (...) {
@@ -204,7 +206,7 @@ Presence::Presence(fs::path folder, ProcessInfo process) : process_(std::move(pr
   heart_ = std::thread([this] {
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, std::chrono::duration<double>(heartbeat_s), [this] { return done_; }))
-      ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);  // at the file system's own time
+      ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);  // sets the time of the file system
   });
 }
 

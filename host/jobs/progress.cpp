@@ -1,5 +1,5 @@
-// A bar is one line that is written over with spaces and carriage returns, which every terminal knows.
-// Anything that is no terminal gets whole lines only.
+// A bar is one line that is overwritten with spaces and carriage returns, which every terminal knows.
+// Outputs that are no terminal only get whole lines.
 #include "jobs/progress.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double bar_interval_s = 0.1, line_interval_s = 10;
 
-// 1:05, 1:02:03
+// such as 1:05, 1:02:03
 std::string clock_time(double seconds) {
   const auto whole = static_cast<uint64_t>(seconds + 0.5);
   const uint64_t hours = whole / 3600, minutes = whole / 60 % 60;

@@ -1,4 +1,4 @@
-// Variables of launchers, read as they document them.
+// Reads variables of launchers, as their documentation describes them.
 // A batch script that starts the program without srun has variables of Slurm, but no step: that is one process.
 #include "jobs/ranks.hpp"
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint32_t most_ranks = 1u << 20;
-constexpr uint32_t last_slurm_step = 0xFFFFFFEFu;  // beyond are the batch script, interactive and external steps
+constexpr uint32_t last_slurm_step = 0xFFFFFFEFu;  // higher numbers are batch script, interactive and external steps
 
 std::optional<uint32_t> count_in(std::string_view text) {
   uint32_t value = 0;
@@ -27,12 +27,12 @@ std::string text_of(const Environment& variable, const char* name) {
   return value ? value : "";
 }
 
-// Nothing where it is not set or no number.
+// Returns nothing if the variable is not set or is no number.
 std::optional<uint32_t> number_of(const Environment& variable, const char* name) {
   return count_in(text_of(variable, name));
 }
 
-// The first of these variables that is set.
+// Returns the first of these variables that is set.
 std::string first_of(const Environment& variable, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const std::string value = text_of(variable, name); !value.empty()) return std::string(name) + "=" + value;
@@ -53,8 +53,8 @@ std::optional<Ranks> from(const Launcher& launcher, const Environment& variable)
   const auto rank = number_of(variable, launcher.rank), size = number_of(variable, launcher.size);
   if (!rank || !size || *size == 0 || *rank >= *size || *size > most_ranks)
     throw ConfigError(fmt::format(
-        "{}={}, {}={}: these are not a rank and a number of ranks (up to {}); unset both variables to run one "
-        "process",
+        "{}={}, {}={}: these are not a rank and a number of ranks (up to {}); "
+        "unset both variables to run one process",
         launcher.rank, text_of(variable, launcher.rank), launcher.size, text_of(variable, launcher.size), most_ranks));
   Ranks ranks;
   ranks.rank = *rank;
@@ -65,14 +65,14 @@ std::optional<Ranks> from(const Launcher& launcher, const Environment& variable)
   return ranks;
 }
 
-// PMI itself has no name for a launch: on one host its proxy is everybody's parent.
+// PMI itself has no name for a launch: on one host, all ranks have its proxy as their parent.
 std::string pmi_job(const Environment& variable, const Ranks& ranks) {
   const std::string named = first_of(variable, {"PMI_JOBID", "PMIX_NAMESPACE", "PMI_PORT"});
   if (!named.empty()) return named + first_of(variable, {"SLURM_STEP_ID"});
   if (ranks.local_size == ranks.size) return fmt::format("parent {}", getppid());
   throw ConfigError(
-      "this launcher (PMI_RANK, PMI_SIZE) does not say which launch the ranks belong to; set "
-      "WAVETRACER_JOB to a text that no other run has, the same for all ranks");
+      "this launcher (PMI_RANK, PMI_SIZE) does not say which launch the ranks belong to; "
+      "set WAVETRACER_JOB to a text that no other run has, the same for all ranks");
 }
 
 }  // namespace
@@ -129,8 +129,8 @@ ShardChoice parse_shard(const std::string& text) {
   const auto count = slash == std::string::npos ? std::nullopt : count_in(std::string_view(text).substr(slash + 1));
   if (!index || !count || *count == 0 || *count > most_ranks)
     throw ConfigError(
-        fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; parts are "
-                    "counted from 0",
+        fmt::format("--shard {}: give K/N, that is part K (from 0 to N - 1) of N parts, with N up to {}; "
+                    "parts are counted from 0",
                     text, most_ranks));
   if (*index >= *count)
     throw ConfigError(fmt::format("--shard {}: parts are counted from 0, so the last of {} is {}/{}", text, *count,

@@ -1,4 +1,4 @@
-// What a run comes to: sums over its frames, statistics of its links, the files that hold it.
+// The results of a run: sums over its frames, statistics of its links, and its files.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// links: where there are frames.
+// links: set if there are frames.
 struct Results {
   Totals totals;
   LinkStatistics links;

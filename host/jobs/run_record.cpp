@@ -1,5 +1,5 @@
-// JSON both ways.
-// Of vehicles only the number is kept: that is all that summary.json tells.
+// Converts to and from JSON.
+// Only the number of vehicles is kept, since summary.json has nothing else of them.
 #include "jobs/run_record.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -67,7 +67,7 @@ std::string encode_run_record(const Run& run) {
 
 namespace {
 
-// As much of the configuration as says which files of elements the run writes; older versions write none.
+// Restores the part of the configuration that says which files of elements the run writes; older versions write none.
 void restore_element_outputs(const Json& json, Config& config) {
   if (json.value("responses", false)) config.response.bandwidth_hz = 1;
   if (json.value("beams", false)) config.arrays.emplace_back().codebook = "dft";
@@ -106,7 +106,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   out.config.cache.key = CacheKey::named(json.at("cache").at("key").get<std::string>());
   out.scene.file = json.at("scene_file");
   out.scene.report.warnings = json.at("scene_warnings").get<std::vector<std::string>>();
-  if (const auto flat = json.find("scene_flattened"); flat != json.end()) {  // older versions write none
+  if (const auto flat = json.find("scene_flattened"); flat != json.end()) {  // older versions do not write it
     out.scene.report.flattened_vertices = whole_at<uint64_t>(*flat, "vertices");
     out.scene.report.flattened_by_m = flat->at("by_m").get<double>();
     out.scene.report.bent_triangles = whole_at<uint64_t>(*flat, "left_triangles");

@@ -1,4 +1,4 @@
-// DIR/shards/run.json: what is known of a run beyond its frames, so that `wavetracer merge` can write summary.json
+// DIR/shards/run.json: the facts about a run beyond its frames, so that `wavetracer merge` can write summary.json
 // without a device, the scene, or the configuration's files.
 #pragma once
 #include <filesystem>

@@ -1,4 +1,5 @@
-// The record of the run that wrote the shards, run.json, has its configuration and inputs, so that messages name them.
+// run.json, the record of the run that wrote the shards, has its configuration and inputs, so that messages can name
+// them.
 #include "jobs/same_run.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 const char* const run_record_name = "run.json";
 
-// Frames of two worlds must not come together.
+// Frames of two different worlds must not be mixed.
 void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const fs::path& folder,
                        const std::vector<InputFile>& inputs) {
   if (there.inputs == asked.inputs) return;
@@ -23,12 +24,12 @@ void check_same_inputs(const RunIdentity& there, const RunIdentity& asked, const
   std::string which;
   if (fs::exists(record, none)) which = changed_input(read_run_record(record).summary.inputs, inputs);
   throw InputError(
-      fmt::format("{} since the shards in {} were written; put the input files back as they were, or choose "
-                  "another folder with -o, or remove the shards",
+      fmt::format("{} since the shards in {} were written; put the input files back as they were, "
+                  "or choose another folder with -o, or remove the shards",
                   which.empty() ? "an input file has changed" : which, folder.string()));
 }
 
-// The keys that differ, by the record of the run that wrote the shards; empty where that does not tell.
+// Returns the keys that differ, by the record of the run that wrote the shards; empty if the record does not tell.
 std::string changed_keys(const fs::path& folder, const std::string& config) {
   constexpr size_t shown = 5;
   std::error_code none;
@@ -48,14 +49,14 @@ void check_same_keys(const RunIdentity& there, const RunIdentity& asked, const f
   if (there.version == asked.version && there.config != asked.config)
     if (const std::string keys = changed_keys(folder, config); !keys.empty())
       throw ConfigError(
-          fmt::format("the shards in {} were written with another configuration: {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
+          fmt::format("the shards in {} were written with another configuration: {}; run it as before, "
+                      "or choose another folder with -o, or remove the shards",
                       folder.string(), keys));
   const auto differs = [&](const std::string& what, const auto& was, const auto& is) {
     if (was != is)
       throw ConfigError(
-          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, or "
-                      "choose another folder with -o, or remove the shards",
+          fmt::format("the shards in {} were written with {} {}, this run has {}; run it as before, "
+                      "or choose another folder with -o, or remove the shards",
                       folder.string(), what, was, is));
   };
   differs("version", there.version, asked.version);

@@ -1,4 +1,4 @@
-// Files are read from the cache of the system where they were written just now.
+// Files that were just written are read from the system's cache.
 #include "jobs/shard_files.hpp"
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-// The files of a manifest's lines on the disk: what they were when they were written, and what is wrong with them now.
+// The files on the disk that a manifest's lines list: their state when they were written, and damage since.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace wavetracer {
 
-// Name, length and hash of a file that is complete, in its place or under its temporary name. Throws RuntimeError.
+// Returns name, length and hash of a complete file, in its place or under its temporary name. Throws RuntimeError.
 ShardFile written_as(const PendingFile& file);
 
-// Says what is wrong with a file, in words that begin with its name: it is gone, or not what was written. Empty where
-// all is well. Reads it to its end.
+// Returns what is wrong with a file, in words that begin with its name: it is missing, or has changed. Empty if it is
+// unchanged. It reads the whole file.
 std::string damage_of(const ShardFile& file, const std::filesystem::path& folder);
-// The same of the files of each shard, on all cores.
+// Does the same for the files of each shard, on all cores.
 std::vector<std::string> damages(const std::vector<Shard>& shards, const std::filesystem::path& folder);
 
-// Are all files of the shard in the folder, in full length? Reads none.
+// Tells whether all files of the shard are in the folder, with their full length. It does not read them.
 bool is_whole(const Shard& shard, const std::filesystem::path& folder);
 
 }  // namespace wavetracer

@@ -1,5 +1,6 @@
-// Order makes it safe to be killed anywhere: files of a shard first, then its line in the manifest. What no manifest
-// lists is rubbish; what one lists is whole. Where two list a unit, both hold the same.
+// The order of writes makes it safe to be killed at any time: files of a shard come first, then its line in the
+// manifest. A file that no manifest lists is garbage; one that is listed is complete. If two manifests list a unit,
+// both parts are equal.
 #include "jobs/shards.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,7 +30,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-// Where the files of a unit go.
+// Returns the files of a unit.
 std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs::path& folder) {
   std::vector<fs::path> paths;
   for (const H5Output& output : h5_outputs(config)) paths.push_back(folder / (unit_name(unit) + output.part_suffix));
@@ -37,7 +38,7 @@ std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs:
   return paths;
 }
 
-// That the merged file holds all that the shards held, as far as its rows tell.
+// Checks that the merged file has all rows of the shards.
 void check_merged(const fs::path& directory, const Run& run, const Totals& totals) {
   for (const H5Output& output : h5_outputs(run.config)) {
     if (std::string_view(output.name) != "paths.h5") continue;
@@ -121,7 +122,7 @@ bool Shards::find_complete() {
 
 size_t Shards::resume() {
   if (find_complete()) {
-    remove_merged_shards(directory_);  // of a run that was killed over that, some may be left
+    remove_merged_shards(directory_);  // a run that was killed during that may have left some
     remove_temporaries(folder_);
     remove_temporaries(directory_);
     return 0;
@@ -133,7 +134,7 @@ size_t Shards::resume() {
   fresh_ = false;
   std::vector<Shard> whole;
   for (const auto& [key, shard] : shards_) whole.push_back(shard);
-  save(whole);  // without a torn line, after which nothing can be appended
+  save(whole);  // removes an incomplete line, after which nothing could be appended
   for (const fs::path& file : manifests_in(folder_))
     if (file != manifest_) fs::remove(file);
   remove_temporaries(folder_);

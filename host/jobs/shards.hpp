@@ -1,6 +1,7 @@
-// A run on disk, unit by unit: shards of frames (or blocks of transmitters) as it goes, and at the end the same outputs
-// as those of a run that is written at once. DIR/shards holds UNIT.h5, .csv and with output.waypoints .waypoints.h5,
-// each a paths.h5, links.csv or waypoints.h5 of its frames, run.json, and the manifests of who wrote them.
+// A run on disk, unit by unit: shards of frames (or blocks of transmitters) while it runs, and at the end the same
+// outputs as those of a run that is written at once. DIR/shards holds UNIT.h5, .csv and with output.waypoints
+// .waypoints.h5, each a paths.h5, links.csv or waypoints.h5 of its frames, run.json, and the manifests of the processes
+// that wrote them.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -20,11 +21,11 @@
 
 namespace wavetracer {
 
-// By first frame and block.
+// Keys are first frame and block.
 using ShardMap = std::map<std::pair<uint32_t, uint32_t>, Shard>;
 
 Totals totals_of(const ShardMap& shards);
-// Their files, in the order of their units.
+// Returns their files, in the order of their units.
 MergeParts parts_of(const ShardMap& shards, const std::function<std::filesystem::path(const Shard&)>& folder_of);
 
 // The files of a unit, under temporary names until it is closed.
@@ -41,68 +42,68 @@ class OpenUnit {
   Unit unit_;
   PendingDirectory directory_, folder_;
   FrameFiles files_;
-  double seconds_ = 0;  // of writing
+  double seconds_ = 0;  // seconds of writing
 
   friend class Shards;
 };
 
 class Shards {
  public:
-  // Nothing is touched yet. inputs: those of the run, for messages.
+  // Touches no file yet. inputs: those of the run, for messages.
   // config: the text of the run's configuration (Config::text), so that a message can name the keys that differ.
   Shards(std::filesystem::path directory, RunIdentity run, std::vector<InputFile> inputs = {}, std::string config = {});
 
-  // Takes over what the run that was interrupted in this folder has finished: its shards, or the whole run, see
-  // complete(). Returns the number of shards; 0 where there is none. A shard whose
-  // files are not as they were written is not finished, see damaged(). Throws ConfigError where they are of another
-  // run, InputError where an input file has changed since. No other process may be writing there.
+  // Takes over what an interrupted run has finished in this folder: its shards, or the complete run, see complete().
+  // Returns the number of shards; 0 if there is none. A shard whose
+  // files have changed since they were written is not finished, see damaged(). Throws ConfigError if the shards belong
+  // to another run, InputError if an input file has changed since. No other process may be writing there.
   size_t resume();
   // Removes what any run left in the folder. No other process may be writing there.
   void clear();
-  // From now on other processes write there, too: what they have finished is looked at, and this one notes what it
-  // writes in a manifest of its own, manifest.NAME.jsonl. keep: what an earlier process of this name wrote counts, but
-  // for shards whose files are not as they were written. Throws as resume() does where something there is of another
-  // run.
+  // Declares that other processes write there, too: their finished units are read, and this process lists its own in a
+  // manifest of its own, manifest.NAME.jsonl. keep: units of an earlier process of this name count, except those whose
+  // files have changed since they were written. Throws as resume() does if something there belongs to another run.
   void share(const std::string& name, bool keep);
-  // Writes run.json, which else the first unit does.
+  // Writes run.json, which the first unit writes otherwise.
   void write_record(const Run& run) const;
-  // That this process, which shares, has nothing to do: its manifest is there, and empty, so that merge knows of it.
+  // Notes that this process, which shares, has nothing to do: it writes an empty manifest, so that merge knows of it.
   void note_empty(const Run& run) const;
   // Reads again what other processes have finished.
   void look();
 
-  // Whether the outputs in the folder hold the whole run, whose shards were removed. Throws as resume() does.
+  // Tells whether the outputs in the folder hold the complete run, whose shards were removed. Throws as resume() does.
   bool find_complete();
-  // After find_complete() or resume(): the outputs hold the whole run, so there is nothing to compute or to merge.
+  // After find_complete() or resume(): the outputs hold the complete run, so there is nothing to compute or to merge.
   bool complete() const { return complete_.has_value(); }
   bool finished(const Unit& unit) const { return complete() || shards_.contains(key(unit)); }
-  // Of the finished shards.
+  // Returns the totals of the finished shards.
   Totals totals() const;
-  // Of a complete run: its outputs.
+  // Returns the outputs of a complete run.
   std::vector<std::filesystem::path> outputs() const;
   size_t count() const { return shards_.size(); }
-  // Names what was left out because it is not as it was written, in words that begin with the file.
+  // Names parts that were rejected because they have changed since they were written, in words that begin with the
+  // file.
   const std::vector<std::string>& damaged() const { return damaged_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  // A unit on its way into the folder, frame by frame. The first one of a run that neither resumes nor shares takes the
-  // place of all that an earlier run left in the folder, once it is closed.
+  // Begins a unit in the folder, to be written frame by frame. The first unit of a run that neither resumes nor shares
+  // replaces everything that an earlier run left in the folder, once it is closed.
   std::unique_ptr<OpenUnit> open(const Run& run, const Unit& unit) const;
-  // Puts the files of a whole unit in place and notes them in the manifest. It counts as finished after finish(). While
-  // another thread opens, fills and closes units, finished() alone may be asked here.
+  // Puts the files of a whole unit in place and adds them to the manifest. It counts as finished after finish(). While
+  // another thread opens, fills and closes units, only finished() may be called here.
   Shard close(OpenUnit& unit);
   void finish(Shard shard);
-  // All of it for frames in memory.
+  // Does all of this for frames in memory.
   void write(const Run& run, Frames frames, uint32_t block = 0, uint32_t blocks = 1);
 
-  // Writes the outputs, and returns their paths, as write_outputs() does: of the finished shards and of `unfinished`,
-  // the first frames of the one that was interrupted, if any. At least one frame is needed. Of finished shards, memory
-  // holds a block of rows at most. Where the run is whole and output.keep_shards is off, all rows were read back and
-  // compared with those of the shards, and a record says so: remove_merged() is next. ahead: has looked at this folder,
-  // and does so no more. links: gets the figures of links.csv.
+  // Writes the outputs, as write_outputs() does, and returns their paths: of the finished shards and of `unfinished`,
+  // the first frames of the interrupted one, if any. There must be a frame. At most one block of rows of finished
+  // shards is in memory. If the run is complete and output.keep_shards is off, all rows are read back and compared with
+  // those of the shards, and a record says so: remove_merged() must be called next. ahead: has looked at this folder,
+  // and must not look again. links: gets the figures of links.csv.
   std::vector<std::filesystem::path> merge(const Run& run, std::unique_ptr<OpenUnit> unfinished,
                                            MergeAhead* ahead = nullptr, LinkStatistics* links = nullptr);
-  // Removes the shards that merge() has proved to be in the outputs. No other process may look for them any more.
+  // Removes the shards that merge() has proved to be in the outputs. No other process may need them any more.
   void remove_merged();
 
  private:
@@ -112,15 +113,15 @@ class Shards {
   RunIdentity run_;
   std::vector<InputFile> inputs_;
   std::string config_;
-  bool fresh_ = true;  // nothing in the folder is of this run
+  bool fresh_ = true;  // nothing in the folder belongs to this run
   bool shared_ = false;
-  bool recorded_ = false;  // run.json is of this run
+  bool recorded_ = false;  // run.json is that of this run
   ShardMap shards_;
-  std::optional<Shard> complete_;  // the whole run, its files the outputs
-  std::vector<Shard> own_;         // lines of manifest_, where it is shared
+  std::optional<Shard> complete_;  // the complete run, whose files are the outputs
+  std::vector<Shard> own_;         // lines of manifest_, if the folder is shared
   std::vector<std::string> damaged_;
   double write_seconds_ = 0;
-  bool proved_ = false;  // that the outputs hold the shards
+  bool proved_ = false;  // the outputs were proved to hold the shards
 
   void take(std::vector<Shard> shards);
   std::vector<Shard> undamaged(std::vector<Shard> lines);

@@ -1,5 +1,5 @@
-// Repeats of a frame must agree; a device that answers differently is not to be trusted. But with a quantised cache
-// chance decides which of two like rays answers for both.
+// Repeats of a frame must agree: a device with different answers cannot be trusted. But with a quantised cache, chance
+// decides which of two similar rays answers for both.
 // The first repeat is part of the median, as every frame of a drive is.
 #include "jobs/solve_frame.hpp"
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, b
                                        std::optional<TransmitterRange> block) {
   simulation.observe([alone, &progress](const FrameProgress& at) {
     const bool rays = at.stage == "rays";
-    if (alone && at.parts > 1) {  // each traces and solves: the batches are what one clock can count
+    if (alone && at.parts > 1) {  // each part traces and solves: one clock can only count the batches
       progress.bar(fmt::format("batch {}", at.part + 1), at.part, at.parts, "batches");
       progress.within(rays ? "tracing" : "solving paths");
     } else if (alone)

@@ -1,5 +1,5 @@
-// Frames of a run, as often as --repeat asks for. A repeat goes over all frames of a unit again, from a cold first one
-// on, so each repeat finds what a run without repeats finds. An interrupt ends a frame between two steps.
+// Solves frames of a run, repeated as --repeat says. A repeat solves all frames of a unit again, the first one without
+// earlier results, so each repeat finds what a run without repeats finds. An interrupt ends a frame between two steps.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,27 +12,27 @@
 
 namespace wavetracer {
 
-// One frame, once; nothing where it was interrupted. block: the links of these transmitters alone. alone: the run has
-// this one frame and no repeats, so the progress tells how far the frame is.
+// Solves one frame once; returns nothing if it was interrupted. block: only the links of these transmitters. alone: the
+// run has this one frame and no repeats, so progress is shown within the frame.
 std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, bool alone, Progress& progress,
                                        std::optional<TransmitterRange> block = {});
 
-// The result of repeating one frame.
+// The results of repeating one frame.
 class FrameRepeats {
  public:
   void add(const FrameResult& frame);
-  // Gives the result of the last repeat the median time of each stage and the warnings of all repeats. must_agree: a
-  // warning says where repeats found different numbers of paths.
+  // Gives the result of the last repeat the median time of each stage and the warnings of all repeats. must_agree: adds
+  // a warning if repeats found different numbers of paths.
   void finish(FrameResult& last, bool must_agree) const;
   uint32_t count() const { return static_cast<uint32_t>(paths_.size()); }
 
  private:
-  std::map<std::string, std::vector<double>> seconds_;  // by stage, of each repeat
+  std::map<std::string, std::vector<double>> seconds_;  // by stage, one value per repeat
   std::vector<uint64_t> paths_;
   std::set<std::string> warnings_;
 };
 
-// Do repeats of a frame find the same paths on a device that works?
+// Tells whether repeats of a frame must find the same paths on a device that works.
 bool repeats_agree(const Config& config);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// posix_spawn and one pipe for each child for its messages.
+// Uses posix_spawn, and one pipe per child for its messages.
 // Children are in process groups of their own, so that Ctrl-C on the terminal reaches them once, through the parent.
 #include "jobs/start.hpp"
 #include <fcntl.h>
@@ -34,7 +34,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return out;
 }
 
-// This process's variables and those that say which rank a child is.
+// Returns this process's variables and those that tell a child its rank.
 std::vector<std::string> environment_of(uint32_t rank, const ProcessPlan& plan, const std::string& job) {
   std::vector<std::string> out;
   for (char** entry = environ; *entry; ++entry)
@@ -71,7 +71,7 @@ Child start_child(uint32_t rank, const ProcessPlan& plan, const std::string& job
   return child;
 }
 
-// The messages of children, once each where they do not begin with who says it.
+// Messages of children; each is printed once, unless it begins with the name of the child.
 class Messages {
  public:
   explicit Messages(Progress& progress) : progress_(progress) {}
@@ -98,7 +98,7 @@ class Messages {
   }
 };
 
-// Until all children have closed their pipes.
+// Runs until all children have closed their pipes.
 void listen(std::vector<Child>& children, Progress& progress) {
   Messages messages(progress);
   bool told = false;
@@ -112,7 +112,7 @@ void listen(std::vector<Child>& children, Progress& progress) {
     for (const Child& child : children)
       if (child.messages >= 0) waiting.push_back({child.messages, POLLIN, 0});
     if (waiting.empty()) return;
-    // An interrupt may come just before poll(), which then would not return for it.
+    // An interrupt may come just before poll(), which would then not return because of it.
     if (poll(waiting.data(), waiting.size(), 200) <= 0) continue;
     for (const pollfd& ready : waiting) {
       if (ready.revents == 0) continue;
@@ -150,7 +150,7 @@ ExitCode start_processes(const ProcessPlan& plan, Progress& progress) {
   };
   if (any(ExitCode::interrupted)) return ExitCode::interrupted;
   if (any(ExitCode::partial)) return ExitCode::partial;
-  if (any(ExitCode::ok)) return ExitCode::ok;  // who ends well has seen all parts finished
+  if (any(ExitCode::ok)) return ExitCode::ok;  // a child that ends well has seen all parts finished
   for (const Child& child : children)
     if (code_of(child) > 0) return static_cast<ExitCode>(code_of(child));
   return ExitCode::runtime;

@@ -1,5 +1,5 @@
-// Processes that share a folder. One of them prepares it, all take units, one of them leads and merges: each is a claim
-// (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
+// Processes that share a folder. One of them prepares it, all take units, one of them leads and merges: each role is a
+// claim (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
 #include "jobs/team.hpp"
 #include <fmt/format.h>
 #include <chrono>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto poll_interval = 100ms;
-const char* const leading = "lead";  // the claim of who prepares the merge
+const char* const leading = "lead";  // the claim of the process that prepares the merge
 
 class Team {
  public:
@@ -37,9 +37,9 @@ class Team {
   Shared run() {
     if (prepared() && merged()) return {};
     if (!wait_until_prepared()) return {{}, units_.count()};
-    claims_.look();  // before the manifests: who is gone by now has written its last line
+    claims_.look();  // before the manifests: a process that is dead by now has written its last line
     shards_.share(name_, true);
-    if (merged()) return {};  // asked after the shards were looked at, as they go once it is true
+    if (merged()) return {};  // asked after the shards were read, as they are removed once it is true
     say_if_idle();
     lead();
     first_pass();
@@ -67,7 +67,7 @@ class Team {
   Shards shards_;
   Claims claims_;
   Units units_;
-  std::optional<MergeAhead> ahead_;  // of the one process that is to merge
+  std::optional<MergeAhead> ahead_;  // only in the process that is to merge
   UnitWriter writer_;
   std::string name_;
 
@@ -86,7 +86,7 @@ class Team {
     PendingFile(job_file(), std::as_bytes(std::span(text))).commit();
   }
 
-  // One process makes the folder ready; false where an interrupt came first.
+  // One process prepares the folder; returns false if an interrupt came first.
   bool wait_until_prepared() {
     const std::string claim = "prepare_" + fnv1a_128(ranks_.job);
     for (; !interrupted(); std::this_thread::sleep_for(poll_interval)) {
@@ -97,7 +97,7 @@ class Team {
       if (!claims_.take(claim)) continue;
       prepare();
       mark(shards_.complete());
-      if (shards_.complete()) remove_claims(shards_.folder());  // whoever comes later sees the mark
+      if (shards_.complete()) remove_claims(shards_.folder());  // later processes see the mark
       return true;
     }
     return false;
@@ -135,7 +135,7 @@ class Team {
     writer_.tell(*ahead_);
   }
 
-  // All take the first unit that is left, so that few wait for one that comes before them and can be merged ahead.
+  // Each process takes the first unit that is left, so that the finished units have few gaps and can be merged ahead.
   void first_pass() {
     const uint64_t count = units_.count();
     for (uint64_t i = 0; i < count && !interrupted(); ++i) {
@@ -147,12 +147,12 @@ class Team {
     writer_.finish();
   }
 
-  // Until nobody computes any more: what dead processes left. Returns how many units are missing in the end.
+  // Computes what dead processes left, until no process computes any more. Returns the number of missing units.
   uint64_t last_passes() {
     for (;; std::this_thread::sleep_for(poll_interval)) {
-      claims_.look();  // likewise
+      claims_.look();  // for the same reason as above
       shards_.look();
-      if (merged()) return 0;  // likewise asked after the look
+      if (merged()) return 0;  // asked after look(), for the same reason as above
       if (ahead_) ahead_->look();
       uint64_t taken = 0, missing = 0;
       for (uint64_t index = 0; index < units_.count(); ++index) {
@@ -172,13 +172,14 @@ class Team {
     }
   }
 
-  // Whether this process is to merge. Who is not stays until somebody has: whoever merges may die over it.
+  // Tells whether this process must merge. A process that need not merge waits until another one has merged, since that
+  // one may die while merging.
   bool take_merge(bool whole) {
     for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
       claims_.look();
-      if (!ahead_ && claims_.state(leading) == ClaimState::taken) continue;  // that one is about to
+      if (!ahead_ && claims_.state(leading) == ClaimState::taken) continue;  // that process is about to merge
       const bool taken = claims_.take("merge");
-      if (taken && merged()) remove_claims(shards_.folder());  // this one came after the others had gone
+      if (taken && merged()) remove_claims(shards_.folder());  // this process came after the others had gone
       if (taken || !whole) return taken && !merged();
       if (claims_.state("merge") == ClaimState::failed && !merged())
         throw RuntimeError("the processes that merged " + shards_.folder().string() +
@@ -192,11 +193,11 @@ class Team {
     for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
       if (const Unit unit = units_.at(index); !shards_.finished(unit))
         which += (shown++ ? ", " : "") + unit_words(unit);
-    progress_.line(fmt::format(
-        "missing: {}{}; the processes that computed them ended too early. Continue with --resume, or write what is "
-        "computed with `wavetracer merge --partial {}`",
-        which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
-        task_.run.config.output.directory));
+    progress_.line(
+        fmt::format("missing: {}{}; the processes that computed them ended too early. Continue with --resume, "
+                    "or write what is computed with `wavetracer merge --partial {}`",
+                    which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
+                    task_.run.config.output.directory));
     return shared;
   }
 };
@@ -209,7 +210,7 @@ Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessIn
 
 Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
   Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
-  remove_claims(shards.folder());  // of processes that shared the folder otherwise, and were killed
+  remove_claims(shards.folder());  // left by processes that shared the folder in another way, and were killed
   remove_dead_temporaries(shards.folder());
   if (task.resume) shards.find_complete();
   shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);

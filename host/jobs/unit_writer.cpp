@@ -1,5 +1,5 @@
-// One thread, which alone speaks to HDF5 until it has finished.
-// Assumes that what a Run refers to does not change while frames are computed.
+// One thread alone calls HDF5 until it has finished.
+// Objects that a Run refers to must not change while frames are computed.
 #include "jobs/unit_writer.hpp"
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@ namespace {
 
 constexpr size_t most_waiting_bytes = size_t{1} << 26;
 
-// About what a frame takes in memory.
+// Estimates the memory of a frame.
 size_t bytes_of(const FrameResult& frame) {
   constexpr size_t path = 180, vertex = 33, waypoint = 53, entry = 36, beam = 24, fields = 80;
   const WorldState& world = frame.world;
@@ -84,7 +84,7 @@ void UnitWriter::enqueue(size_t bytes, std::function<void()> task) {
   changed_.notify_all();
 }
 
-// What is written counts as finished from here on; throws what writing threw.
+// Units written so far count as finished from here on; throws the writer's exception.
 void UnitWriter::collect(std::unique_lock<std::mutex>& lock) {
   const std::vector<Shard> written = std::exchange(written_, {});
   const std::exception_ptr failure = failure_;

@@ -15,49 +15,50 @@ namespace wavetracer {
 
 class UnitWriter {
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   UnitWriter(const Run& run, Shards& shards, Progress& progress);
-  // What was given to it is written, though nobody hears of an error.
+  // Writes what it was given, but errors are lost.
   ~UnitWriter();
   UnitWriter(const UnitWriter&) = delete;
   UnitWriter& operator=(const UnitWriter&) = delete;
 
-  // Is told from now on of each unit that is whole, by the thread that writes. Must outlive this.
+  // From now on, the writing thread tells `ahead` of each whole unit. It must outlive this object.
   void tell(MergeAhead& ahead);
-  // The frames that follow are of this unit.
+  // The following frames belong to this unit.
   void begin(const Unit& unit);
-  // Waits while frames of more than some megabytes wait to be written. Like all that follow, throws what writing threw.
+  // Waits while frames of more than some megabytes wait to be written. Like all functions below, it throws the writer's
+  // exception.
   void add(FrameResult frame);
-  // The unit is whole. Waits until the one before is on the disk, so that a process that is killed loses two at most.
+  // Ends the unit. Waits until the one before is on the disk, so that a process that is killed loses two at most.
   void end();
-  // The unit that was begun is not kept.
+  // Drops the unit that was begun.
   void drop();
-  // Waits until all is written; units that are whole count as finished then. Nothing else may touch files of the shards
-  // before.
+  // Waits until everything is written; whole units count as finished then. Before that, no other code may touch files
+  // of the shards.
   void finish();
-  // After finish(): the unit that was begun and neither ended nor dropped; nothing where there is none.
+  // After finish(): returns the unit that was begun and neither ended nor dropped, or null.
   std::unique_ptr<OpenUnit> unfinished() { return std::move(open_); }
 
  private:
   struct Task {
     std::function<void()> run;
-    size_t bytes;  // of frames in it
+    size_t bytes;  // size of its frames
   };
   const Run& run_;
   Shards& shards_;
   Progress& progress_;
-  // Of the thread, between finish() and begin() of the caller.
+  // Used by the thread, between finish() and begin() of the caller.
   MergeAhead* ahead_ = nullptr;
   std::unique_ptr<OpenUnit> open_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  // What follows is guarded by the mutex.
+  // The mutex guards the following members.
   std::deque<Task> tasks_;
   size_t waiting_bytes_ = 0;
   bool busy_ = false, closing_ = false, done_ = false;
-  std::vector<Shard> written_;  // that do not count as finished yet
+  std::vector<Shard> written_;  // units that do not count as finished yet
   std::exception_ptr failure_;
-  std::thread thread_;  // last: it uses all the others
+  std::thread thread_;  // declared last, since it uses all other members
 
   void enqueue(size_t bytes, std::function<void()> task);
   void work();

@@ -1,5 +1,5 @@
-// Arithmetic only: a run may have 2^32 frames, so units are never listed.
-// Assumes first <= last and shard_frames > 0.
+// This is arithmetic only: a run may have 2^32 frames, so units are never listed.
+// first <= last and shard_frames > 0.
 #include "jobs/units.hpp"
 #include <fmt/format.h>
 #include <algorithm>

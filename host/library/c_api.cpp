@@ -1,5 +1,5 @@
-// The functions of wavetracer.h, but for the columns: thin, and no exception leaves them.
-// Assumes what the header asks of the caller: no object is used after it was given back.
+// The functions of wavetracer.h, except for the columns: they are thin, and no exception leaves them.
+// The caller must follow the header: no object is used after it was given back.
 #include <unistd.h>
 #include <atomic>
 #include <filesystem>
@@ -86,7 +86,7 @@ CarrierColumns carrier_columns(const FrameResult& frame) {
   return out;
 }
 
-// Tells whoever watches now, and says whether to go on.
+// Calls the current observer, and returns whether to continue.
 bool observed(wavetracer_simulation& self, const FrameProgress& progress) {
   wavetracer_observer observer = nullptr;
   void* user = nullptr;

@@ -1,5 +1,5 @@
-// The columns of wavetracer.h: one row of a table each, its type and width told by the vector that holds it.
-// Assumes that vectors of glm and of std::complex are their numbers side by side.
+// The columns of wavetracer.h: each is a row of a table, whose type and width follow from the vector that holds it.
+// Vectors of glm and of std::complex must be their numbers side by side.
 #include <string_view>
 #include "library/handles.hpp"
 

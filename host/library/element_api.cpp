@@ -39,7 +39,7 @@ void check_row(const char* function, const wavetracer_frame& frame, size_t row) 
                       std::to_string(frame.result.paths.size()) + " counted from 0");
 }
 
-// What the functions about paths have in common: whose frame it is, and its carrier.
+// Returns the element model of a frame and its carrier, after the checks that the functions about paths share.
 ElementModel model_of(const char* function, const wavetracer_simulation& self, const wavetracer_frame& frame,
                       uint32_t carrier) {
   if (frame.owner != self.number) throw ConfigError(std::string(function) + ": the frame is of another simulation");
@@ -58,7 +58,7 @@ void copy_values(const char* function, const std::vector<std::complex<double>>& 
   }
 }
 
-// Phases have no digits left beyond, and NaN would be an answer.
+// Refuses larger numbers, whose phases would have no digits left, and NaN.
 void check_numbers(const char* here, const char* name, std::span<const double> values, double least, double most) {
   for (size_t i = 0; i < values.size(); ++i)
     if (!(values[i] >= least && values[i] <= most))

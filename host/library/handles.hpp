@@ -1,5 +1,5 @@
-// What the opaque types of wavetracer.h are, and the one place where exceptions end and errors begin.
-// Assumes that a frame is filled once, by wavetracer_run_frame, and read only from then on.
+// Defines the opaque types of wavetracer.h, and the one place where exceptions become errors.
+// wavetracer_run_frame fills a frame once; after that it is only read.
 #pragma once
 #include <sys/types.h>
 
@@ -24,14 +24,14 @@ struct wavetracer_error {
 struct wavetracer_simulation {
   wavetracer::Simulation simulation;
   std::string warnings;
-  uint64_t number;  // of this process, so that frames know whose they are
-  pid_t process;    // that opened it
+  uint64_t number;  // number in this process, so that frames know their simulation
+  pid_t process;    // the process that opened it
 
-  // Holds whose turn it is (Turn).
+  // The mutex of the current user (Turn).
   mutable std::mutex turn = {};
   mutable std::atomic<std::thread::id> user = {};
 
-  // Guards the function that watches: it may change while a frame is solved, and may change itself.
+  // Guards the observer: it may change while a frame is solved, and may change itself.
   std::mutex watching = {};
   wavetracer_observer observer = nullptr;
   void* observer_user = nullptr;
@@ -51,7 +51,7 @@ struct LinkColumns {
 // Fields at every carrier, one row per path; empty where there is only one.
 struct CarrierColumns {
   size_t carriers = 0;
-  std::vector<std::complex<double>> a;  // packed: ports that are there
+  std::vector<std::complex<double>> a;  // packed: only ports that exist
   std::vector<double> gain_db, doppler_hz;
 };
 
@@ -61,7 +61,7 @@ struct wavetracer_frame {
   uint64_t owner;  // wavetracer_simulation::number
   wavetracer::FrameResult result;
   std::string warnings;
-  std::vector<std::complex<double>> a;                                  // packed: ports that are there
+  std::vector<std::complex<double>> a;                                  // packed: only ports that exist
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
   wavetracer::c_api::LinkColumns links;
   wavetracer::c_api::CarrierColumns carriers;
@@ -73,7 +73,7 @@ namespace wavetracer::c_api {
 void report(::wavetracer_error** error, ExitCode code, const char* message) noexcept;
 void report_out_of_memory(::wavetracer_error** error) noexcept;
 
-// What body returns; where it throws, an error is stored and `failed` returned.
+// Returns the result of body; if it throws, stores an error and returns `failed`.
 template <class Body, class Result>
 Result guarded(::wavetracer_error** error, Result failed, const Body& body) noexcept {
   if (error) *error = nullptr;
@@ -93,12 +93,12 @@ Result guarded(::wavetracer_error** error, Result failed, const Body& body) noex
   return failed;
 }
 
-// Throws RuntimeError in a process that was forked from one that has used OpenCL: the threads of its drivers are not in
-// it, and would be waited for without end. What is called before a device is used for the first time.
+// Throws RuntimeError in a process that was forked from one that has used OpenCL: the threads of its drivers do not
+// exist there, and would be waited for without end. It must be called before each use of a device.
 void check_process(const char* function);
 
-// The use of a simulation by one thread, as long as this lives. Others wait until it ends. Throws as check_process()
-// does, and ConfigError where this thread has its turn already, as an observer has.
+// The use of a simulation by one thread, as long as this object exists; other threads wait. Throws as check_process()
+// does, and ConfigError if this thread uses the simulation already, as an observer does.
 class Turn {
  public:
   Turn(const wavetracer_simulation& self, const char* function);
@@ -110,10 +110,11 @@ class Turn {
   const wavetracer_simulation& self_;
 };
 
-// Waits for whoever has its turn, and ends the simulation. Does nothing in a forked process, or for an observer of it.
+// Waits for the current user, then ends the simulation. Does nothing in a forked process, or if an observer of the
+// simulation calls it.
 void close_simulation(wavetracer_simulation* self) noexcept;
 
-// Throws ConfigError where a pointer that is needed is null.
+// Throws ConfigError if a required pointer is null.
 template <class T>
 T& needed(T* pointer, const char* function, const char* argument) {
   if (!pointer) throw ConfigError(std::string(function) + ": " + argument + " is null");

@@ -1,5 +1,5 @@
 // Threads and processes of the C interface.
-// Assumes that nobody begins to use a simulation that is being closed.
+// No thread may begin to use a simulation that is being closed.
 #include <unistd.h>
 #include <string>
 #include "library/handles.hpp"
@@ -7,13 +7,14 @@
 namespace wavetracer::c_api {
 namespace {
 
-std::atomic<pid_t> first_process{0};  // that has used a device; inherited by those that are forked from it
+// The first process that used a device; processes forked from it inherit the value.
+std::atomic<pid_t> first_process{0};
 
 [[noreturn]] void refuse_fork(const char* function) {
   throw RuntimeError(
       std::string(function) +
-      ": this process was forked from one that has used wavetracer, and the threads of OpenCL are not in "
-      "it: start a process of its own instead of forking (in Python: "
+      ": this process was forked from one that has used wavetracer, and the threads of OpenCL are not in it: "
+      "start a process of its own instead of forking (in Python: "
       "multiprocessing.get_context(\"spawn\")), or use wavetracer only after the fork");
 }
 
@@ -28,8 +29,8 @@ Turn::Turn(const wavetracer_simulation& self, const char* function) : self_(self
   if (self.process != getpid()) refuse_fork(function);
   if (self.user == std::this_thread::get_id())
     throw ConfigError(std::string(function) +
-                      ": this simulation is solving a frame, and what watches the frame cannot do this; do it when the "
-                      "frame is there");
+                      ": this simulation is solving a frame, and what watches the frame cannot do this; "
+                      "do it when the frame is there");
   self.turn.lock();
   self.user = std::this_thread::get_id();
 }

@@ -1,5 +1,5 @@
-// Lines are written by hand: a frame of a hundred vehicles has some 10^5 numbers, and a tree of them would be built to
-// be thrown away. Assumes paths sorted by transmitter and receiver, as Paths promises, and links likewise.
+// Lines are written directly: a frame of a hundred vehicles has some 10^5 numbers, and building a JSON tree of them
+// would be a waste. Paths and links must be sorted by transmitter and receiver, as Paths promises.
 #include "live/answer.hpp"
 
 #include <fmt/compile.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Text from anywhere as a JSON string; what is no UTF-8 becomes U+FFFD.
+// Writes any text as a JSON string; bytes that are not UTF-8 become U+FFFD.
 std::string text_of(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 class Line {
@@ -32,13 +32,13 @@ class Line {
   }
   void integer(uint64_t value) { fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value); }
   void text(std::string_view value) { raw(text_of(value)); }
-  // "key": with the comma before it.
+  // Writes "key": with the comma before it.
   void key(std::string_view name) {
     raw(",\"");
     raw(name);
     raw("\":");
   }
-  // [item(0), item(1), ...]
+  // Writes [item(0), item(1), ...].
   template <class Item>
   void list(size_t first, size_t end, const Item& item) {
     raw("[");
@@ -100,7 +100,7 @@ void write_vertices(Line& line, const LiveFrame& frame, size_t first, size_t end
 
 void write_links(Line& line, const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail) {
   const Paths& paths = frame.result.paths;
-  size_t row = 0;  // of the link's first path
+  size_t row = 0;  // row of the link's first path
   line.list(0, figures.size(), [&](size_t i) {
     const LinkFigures& link = figures[i];
     line.raw("{\"tx\":");
@@ -133,7 +133,7 @@ void write_links(Line& line, const LiveFrame& frame, const std::vector<LinkFigur
   });
 }
 
-// What rays may have missed in the frame.
+// Writes the power that rays may have missed in the frame.
 void write_missed(Line& line, const Missed& missed) {
   const auto range = [&](const char* name, const MissedRange& of) {
     line.raw(name);
@@ -185,7 +185,7 @@ std::string world_line(const Simulation& simulation) {
     places += type.count;
   }
   out["types"] = std::move(types);
-  // Those that stand come first, before the mounted ones of the first place.
+  // Fixed ends come before the mounted ones of the first place.
   const auto standing = [&](const std::vector<RadioEnd>& ends, MountRole role) {
     size_t mounted = 0;
     for (const LiveType& type : simulation.live_types())

@@ -1,5 +1,5 @@
-// What the server says: one line of JSON a message, newline included; docs/live.md is the schema.
-// Doubles are printed with as many digits as read back to the same bits; what is not finite is null.
+// Writes the messages of the server: one line of JSON per message, newline included; docs/live.md has the schema.
+// Doubles are printed with enough digits to read back to the same bits; values that are not finite are null.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -11,23 +11,23 @@
 
 namespace wavetracer::live {
 
-// The answer to hello: what there is, and what is allowed.
+// Returns the answer to hello: the ends and vehicles of the world, and the limits.
 std::string world_line(const Simulation& simulation);
 
 struct FrameTimes {
-  double wait_s = 0, solve_s = 0;  // from the end of the message to the solver; there
+  double wait_s = 0, solve_s = 0;  // from the end of the message to the start of the solver; in the solver
 };
 struct AnswerForm {
   Detail detail = Detail::links;
   Encoding encoding = Encoding::json;
 };
-// With Encoding::cbor the line has "bytes" instead of "links", and so many bytes of channel_columns() follow it.
-// skipped: frames of a free-running client since its last answer that newer ones replaced. frequency_hz: of the
+// With Encoding::cbor the line has "bytes" instead of "links", and that number of bytes of channel_columns() follows
+// it. skipped: frames of a free-running client since its last answer that newer ones replaced. frequency_hz: of the
 // carrier.
 std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, const AnswerForm& form, uint64_t skipped,
                           const FrameTimes& times, double frequency_hz);
 
-// fatal: the connection ends with it.
+// fatal: the connection ends after it.
 std::string error_line(std::string_view code, std::string_view text, std::optional<uint64_t> frame, bool fatal);
 std::string bye_line(std::string_view reason);
 

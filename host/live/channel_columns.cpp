@@ -1,4 +1,4 @@
-// Columns go out as they are in memory: no number is converted. Assumes a little-endian machine, as the tags say.
+// Columns are sent as they are in memory, without conversion. The machine must be little-endian, as the tags say.
 #include "live/channel_columns.hpp"
 
 #include <bit>
@@ -12,10 +12,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-// What CBOR writes into the three highest bits of an item's first byte.
+// The major type in the three highest bits of a CBOR item's first byte.
 enum class Major : uint8_t { text = 3 << 5, bytes = 2 << 5, array = 4 << 5, map = 5 << 5, tag = 6 << 5 };
 
-// Typed arrays (RFC 8746, section 2.1), little-endian.
+// Writes typed arrays (RFC 8746, section 2.1), little-endian.
 template <class T>
 constexpr uint64_t tag_of = 0;
 template <>

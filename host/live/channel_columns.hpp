@@ -1,5 +1,5 @@
-// The channels of a frame as columns in CBOR (RFC 8949): one map, whose columns are typed arrays (RFC 8746), which
-// numpy and others read without a copy. docs/live.md has every key.
+// Writes the channels of a frame as columns in CBOR (RFC 8949): one map, whose columns are typed arrays (RFC 8746),
+// which numpy and others read without a copy. docs/live.md lists the keys.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace wavetracer::live {
 
-// figures: of the frame's links, in their order.
+// figures: figures of the frame's links, in their order.
 std::string channel_columns(const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail);
 
 }  // namespace wavetracer::live

@@ -1,5 +1,5 @@
-// Buffers are bounded: of input by max_message_bytes and one read, of output by max_queue_bytes and one answer.
-// Whoever sends faster than answers are read is not read from, so that TCP itself slows it down.
+// Buffers are bounded: the input by max_message_bytes and one read, the output by max_queue_bytes and one answer. If a
+// client sends faster than it reads answers, the server stops reading from it, so that TCP itself slows it down.
 #include "live/client.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ Client::Client(uint64_t number, Descriptor socket, const LiveConfig& limits, Clo
       spoke_(now),
       took_(now) {}
 
-// A free-running client may always bring a newer frame, which takes the place of the one that waits.
+// A free-running client may always send a newer frame, which replaces the waiting one.
 bool Client::may_speak() const {
   const bool free_running = hello && hello->free_running;
   const auto replaced = [](const Pending& p) { return !p.message.between; };
@@ -54,7 +54,7 @@ std::optional<Clock::duration> Client::pause(Clock::time_point now) {
 
 short Client::events(Clock::time_point now) {
   const bool listens = !finished_ && (ending() || (may_speak() && !pause(now)));
-  if (!listens || in_.empty()) line_began_ = now;  // what waits here is not the client's delay
+  if (!listens || in_.empty()) line_began_ = now;  // waiting in our buffer is not the client's delay
   return static_cast<short>((listens ? POLLIN : 0) | (sent_ < out_.size() ? POLLOUT : 0));
 }
 
@@ -101,7 +101,7 @@ void Client::say(std::string_view line, Clock::time_point now) {
     took_ = now;
   }
   out_ += line;
-  spoke_ = now;  // the client's time runs from its answer on
+  spoke_ = now;  // the client's time limit starts with its answer
   send(now);
 }
 
@@ -130,7 +130,7 @@ void Client::send(Clock::time_point now) {
 void Client::check_time(Clock::time_point now) {
   const bool unread = sent_ < out_.size();
   if (ending()) {
-    // Closing a socket with bytes unread would reset the connection, and the last line might be lost with it.
+    // Closing a socket with unread bytes would reset the connection, and the last line might be lost.
     if (!unread && !shut_) shut_ = shutdown(*socket_, SHUT_WR) == 0;
     if (finished_ || now >= *ends_at_) gone_ = true;
     return;
@@ -140,7 +140,7 @@ void Client::check_time(Clock::time_point now) {
   if (finished_ && has_answers() && !has_line() && !unread)
     gone_ = true;
   else if (unread && late(took_, limits_.send_timeout_s))
-    gone_ = true;  // it would not read why
+    gone_ = true;  // the client would not read the reason
   else if (!hello && !reading && late(connected_, limits_.hello_timeout_s))
     drop(fmt::format("the hello message did not arrive within {} s", limits_.hello_timeout_s));
   else if (!in_.empty() && late(line_began_, limits_.message_timeout_s))

@@ -1,5 +1,5 @@
-// Sockets by the book: W. R. Stevens, UNIX Network Programming, vol. 1, chapters 4, 15 and 16.
-// A Unix socket is bound under a umask, so that it is private from its first moment on.
+// Sockets are used as in W. R. Stevens, UNIX Network Programming, vol. 1, chapters 4, 15 and 16.
+// A Unix socket is bound under a umask, so that it is private from the first moment.
 #include "live/endpoint.hpp"
 
 #include <arpa/inet.h>
@@ -39,10 +39,10 @@ sockaddr_un unix_address(const std::string& path) {
 
 const sockaddr* general(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
 
-// Removes the socket of a server that is dead. Whatever else has the name stays.
+// Removes the socket of a server that is dead. Any other file of that name is kept.
 void clear(const std::string& path, const sockaddr_un& address) {
   struct stat status;
-  if (lstat(path.c_str(), &status) != 0) return;  // bind() says what is wrong with the folder
+  if (lstat(path.c_str(), &status) != 0) return;  // bind() reports problems of the folder
   if (!S_ISSOCK(status.st_mode))
     throw ConfigError(
         fmt::format("--listen unix:{}: a file of this name exists, and it is not a socket; choose another path", path));
@@ -77,8 +77,8 @@ Addresses resolve(const std::string& host, const std::string& port) {
   addrinfo* found = nullptr;
   if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); failed != 0)
     throw ConfigError(
-        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, such as "
-                    "tcp:127.0.0.1:7710 or tcp:[::1]:7710",
+        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, "
+                    "such as tcp:127.0.0.1:7710 or tcp:[::1]:7710",
                     host, port, gai_strerror(failed)));
   return {found, freeaddrinfo};
 }
@@ -159,7 +159,7 @@ void Listener::listen_tcp(const Endpoint& endpoint) {
 
 Descriptor Listener::accept() const {
   Descriptor out(accept4(*socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  const int on = 1;  // answers are wanted at once; a Unix socket has no such option, and needs none
+  const int on = 1;  // answers are sent at once; a Unix socket has no such option, and needs none
   if (*out >= 0) setsockopt(*out, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   return out;
 }

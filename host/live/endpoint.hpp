@@ -1,12 +1,12 @@
-// Where a server listens: unix:PATH or tcp:ADDRESS:PORT, addresses as numbers, so that no name server is asked.
-// Assumes POSIX sockets. Descriptors are closed on exec, and never block.
+// The place where a server listens: unix:PATH or tcp:ADDRESS:PORT, with numeric addresses, so that no name server is
+// asked. It uses POSIX sockets. Descriptors are closed on exec and are non-blocking.
 #pragma once
 #include <string>
 #include <utility>
 
 namespace wavetracer::live {
 
-// A file descriptor that is closed with its owner; -1: none.
+// A file descriptor that is closed with its owner; -1 if there is none.
 class Descriptor {
  public:
   explicit Descriptor(int value = -1) : value_(value) {}
@@ -24,27 +24,27 @@ class Descriptor {
 
 struct Endpoint {
   bool unix_socket = false;
-  std::string path;        // of a Unix socket
-  std::string host, port;  // of TCP; the host is an IPv4 or IPv6 address
-  bool loopback = false;   // nobody beyond this machine can connect
+  std::string path;        // path of a Unix socket
+  std::string host, port;  // for TCP; the host is an IPv4 or IPv6 address
+  bool loopback = false;   // only programs on this machine can connect
 };
 
 // Throws ConfigError.
 Endpoint parse_endpoint(const std::string& text);
 
-// Listens while it lives. A Unix socket is a file of mode 0600, removed at the end; that of a server that is dead is
-// replaced, and nothing else ever is.
+// Listens while it exists. A Unix socket is a file of mode 0600, removed at the end; the socket of a dead server is
+// replaced, but no other file is.
 class Listener {
  public:
-  // Throws ConfigError where the path is taken, RuntimeError where the system says no.
+  // Throws ConfigError if the path is taken, RuntimeError if the system reports an error.
   explicit Listener(const Endpoint& endpoint);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
   int descriptor() const { return *socket_; }
-  std::string name() const { return name_; }  // with the port that was given for port 0
-  // A new connection; none where nobody waits any more, or no descriptor is left.
+  std::string name() const { return name_; }  // with the real port if port 0 was asked for
+  // Returns a new connection, or none if nobody is waiting any more or no descriptor is left.
   Descriptor accept() const;
 
  private:
@@ -53,7 +53,7 @@ class Listener {
 
   Descriptor socket_;
   std::string name_, file_;
-  unsigned long long device_ = 0, inode_ = 0;  // of the file that this made
+  unsigned long long device_ = 0, inode_ = 0;  // identify the file that this object made
 };
 
 }  // namespace wavetracer::live

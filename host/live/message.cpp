@@ -1,4 +1,4 @@
-// Every object is read by a list of its keys, so that what nobody asked for is refused with the nearest name.
+// Every object is read by a list of its keys, so that an unknown key is refused with the nearest name.
 #include "live/message.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +17,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t max_id_bytes = 128;  // of ids and types
+constexpr size_t max_id_bytes = 128;  // limit of ids and types
 constexpr size_t max_token_bytes = 4096;
 constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6;
 
-// The keys of one object, each asked for by name.
+// The keys of one object; each is read by name.
 class Object {
  public:
   Object(const json& value, std::string where, std::vector<std::string> known)
@@ -46,7 +46,7 @@ class Object {
     if (out.size() > max_bytes) refuse("bad_value", fmt::format("{} has more than {} bytes", name(key), max_bytes));
     return out;
   }
-  // One that names a thing: not empty, no control characters.
+  // Returns a text that names something: not empty, without control characters.
   std::string id(const char* key) const {
     std::string out = text(key, max_id_bytes);
     if (out.empty()) refuse("bad_value", name(key) + " is empty");
@@ -78,7 +78,7 @@ class Object {
     const auto [x, y, z] = numbers<3>(key, most);
     return {x, y, z};
   }
-  // The index of the word among the choices.
+  // Returns the index of the word among the choices.
   size_t choice(const char* key, const std::vector<std::string>& choices) const {
     const std::string word = text(key, max_id_bytes);
     const auto found = std::ranges::find(choices, word);
@@ -117,7 +117,7 @@ Hello hello_of(const json& value) {
   return out;
 }
 
-// Yaw as trajectories have it, so that the same angle gives the same bits.
+// Yaw is treated as in trajectories, so that the same angle gives the same bits.
 glm::dquat orientation_of(const Object& vehicle) {
   if (vehicle.has("yaw_deg") == vehicle.has("orientation"))
     refuse("bad_value", "vehicle: give either \"yaw_deg\" or \"orientation\"");

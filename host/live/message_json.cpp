@@ -1,5 +1,5 @@
-// nlohmann's parser tells what comes, and values are built here: with a callback it would build them itself, and takes
-// the square of the number of objects in an array.
+// nlohmann's parser reports events, and values are built here: with its callback it would build them itself, and take
+// time that grows as the square of the number of objects in an array.
 #include "live/message_json.hpp"
 
 #include <fmt/format.h>
@@ -17,16 +17,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t max_depth = 4;     // message, vehicles, vehicle, vector
-constexpr size_t max_entries = 16;  // of arrays and objects, vehicles excepted
+constexpr size_t max_depth = 4;     // levels: message, vehicles, vehicle, vector
+constexpr size_t max_entries = 16;  // limit for arrays and objects except "vehicles"
 
-// Depth, numbers of entries and repeated keys are looked at before anything is built of them.
+// Depth, numbers of entries and repeated keys are checked before a value is built.
 class MessageReader : public nlohmann::json_sax<json> {
  public:
   explicit MessageReader(size_t max_vehicles) : max_vehicles_(max_vehicles) {}
 
   json take() { return std::move(message_); }
-  // The number of the frame, once it was there.
+  // Returns the number of the frame, once it was read.
   std::optional<uint64_t> frame() const { return frame_ <= max_frame ? frame_ : std::nullopt; }
 
   bool null() override { return add(nullptr); }
@@ -38,7 +38,7 @@ class MessageReader : public nlohmann::json_sax<json> {
   }
   bool number_float(number_float_t value, const string_t&) override { return add(value); }
   bool string(string_t& value) override { return add(std::move(value)); }
-  bool binary(binary_t&) override { return false; }  // JSON has none
+  bool binary(binary_t&) override { return false; }  // JSON has no binary values
   bool start_object(size_t) override { return start(json::object()); }
   bool start_array(size_t) override { return start(json::array()); }
   bool end_object() override { return end(); }
@@ -53,14 +53,14 @@ class MessageReader : public nlohmann::json_sax<json> {
   }
 
   bool parse_error(size_t, const std::string&, const json::exception& error) override {
-    // nlohmann's texts begin with [json.exception...] and may quote bytes that are no UTF-8.
+    // nlohmann's texts begin with [json.exception...] and may quote bytes that are not UTF-8.
     problem_ = error.what();
     if (const size_t end = problem_.find("] "); end != problem_.npos) problem_.erase(0, end + 2);
     for (char& c : problem_)
       if (c < ' ' || c > '~') c = '?';
     return false;
   }
-  // Why the text is no JSON.
+  // Returns why the text is no JSON.
   std::string problem() const { return problem_.substr(0, 300); }
 
  private:
@@ -68,10 +68,10 @@ class MessageReader : public nlohmann::json_sax<json> {
     json* value;
     size_t entries = 0;
     std::set<std::string> keys = {};
-    std::string key = {};  // the one whose value comes next
+    std::string key = {};  // the key whose value comes next
   };
 
-  // Where the value is now: it stays there until what is around it gets the next one.
+  // Stores the value and returns its place, which is valid until the object around it gets the next one.
   json* place(json value) {
     if (open_.empty()) return &(message_ = std::move(value));
     Open& around = open_.back();
@@ -94,13 +94,13 @@ class MessageReader : public nlohmann::json_sax<json> {
     open_.pop_back();
     return true;
   }
-  // Of vehicles as many as have places, of anything else more than the protocol ever asks for.
+  // The limit for vehicles is max_vehicles, for any other list more than the protocol needs.
   void count_entry() {
     const size_t count = ++open_.back().entries;
     const bool vehicles = open_.size() == 2 && open_.back().value->is_array() && key_ == "vehicles";
     if (vehicles && count > max_vehicles_)
-      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: raise the "
-                                     "counts of [[live_vehicle]]",
+      refuse("no_place", fmt::format("frame: more than {} vehicles, which is the total count of all types: "
+                                     "raise the counts of [[live_vehicle]]",
                                      max_vehicles_));
     if (!vehicles && count > max_entries)
       refuse("bad_json",
@@ -109,8 +109,8 @@ class MessageReader : public nlohmann::json_sax<json> {
 
   size_t max_vehicles_;
   json message_;
-  std::vector<Open> open_;  // from the message inwards
-  std::string key_;         // of the message
+  std::vector<Open> open_;  // open objects and arrays, from the message inwards
+  std::string key_;         // key of the message
   std::string problem_;
   std::optional<uint64_t> frame_;
 };

@@ -1,4 +1,4 @@
-// The order in which things are checked, opened and made.
+// Decides the order in which things are checked, opened and made.
 // Clients that connect while the kernels compile wait in the listener's queue.
 #include "live/serve.hpp"
 
@@ -13,10 +13,10 @@ namespace wavetracer::live {
 
 namespace {
 
-// Without what answers have no room for, which would be computed for nobody.
+// Removes the parts that answers cannot contain, which would be computed in vain.
 Config answered(Config config, const Log& log) {
   const auto drop = [&log](const char* key, const char* file) {
-    log(fmt::format("warning: {} is left out: answers have paths and links, not what {} has", key, file));
+    log(fmt::format("warning: {} is left out: answers have paths and links, but not the contents of {}", key, file));
   };
   if (config.response.bandwidth_hz) drop("response.bandwidth_hz", "responses.h5");
   config.response.bandwidth_hz.reset();
@@ -35,15 +35,15 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
            const std::function<void(const std::string&)>& ready) {
   if (config.live_vehicles.empty())
     throw ConfigError(
-        fmt::format("{}: no [[live_vehicle]]: a server needs to know how many vehicles of which types may "
-                    "come; add one with type and count",
+        fmt::format("{}: no [[live_vehicle]]: a server needs to know how many vehicles of which types may come; "
+                    "add one with type and count",
                     config.file));
   const Endpoint endpoint = parse_endpoint(options.listen);
   const std::string token = options.token_file.empty() ? "" : read_token(options.token_file);
   if (token.empty() && !endpoint.loopback)
     throw ConfigError(
-        fmt::format("--listen {}: other machines can connect to this address: give --token-file, or listen on "
-                    "unix:PATH or tcp:127.0.0.1:PORT",
+        fmt::format("--listen {}: other machines can connect to this address: give --token-file, "
+                    "or listen on unix:PATH or tcp:127.0.0.1:PORT",
                     options.listen));
   std::signal(SIGPIPE, SIG_IGN);
   const Listener listener(endpoint);
@@ -51,7 +51,7 @@ void serve(const Config& config, const ServeOptions& options, const std::functio
   Simulation simulation(answered(config, log), options.device);
   simulation.profile_every(profiled_frames);
   for (const std::string& warning : simulation.warnings()) log("warning: " + warning);
-  simulation.run_frame(0);  // with nobody there: buffers are made, drivers finish compiling
+  simulation.run_frame(0);  // before any client connects: buffers are made, drivers finish compiling
   simulation.forget();
   Server server(simulation, listener, token, log, options.solved);
   ready(listener.name());

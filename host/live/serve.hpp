@@ -1,5 +1,5 @@
-// `wavetracer serve`, without its command line: where to listen, whom to trust, then the server until it is told to
-// stop. Assumes that the caller has seen to signals.
+// Runs `wavetracer serve`, without its command line: where to listen, who may connect, then the server until it is told
+// to stop. The caller must handle signals.
 #pragma once
 #include <functional>
 #include <string>
@@ -11,13 +11,14 @@ namespace wavetracer::live {
 
 struct ServeOptions {
   std::string listen = "tcp:127.0.0.1:7710";  // unix:PATH or tcp:ADDRESS:PORT
-  std::string device;                         // as for Simulation
-  std::string token_file;                     // empty: no token
-  FrameSolved solved = {};                    // called with every frame, on the thread that solves
+  std::string device;                         // in the form of Simulation's argument
+  std::string token_file;                     // empty: no token is needed
+  FrameSolved solved = {};                    // called with every frame, on the solver's thread
 };
 
 // ready: called once, with the name of the endpoint. Everything that needs no device is checked first. Throws
-// ConfigError for an endpoint beyond this machine without a token, and whatever Simulation and Server throw.
+// ConfigError if other machines can connect to the endpoint and there is no token, and the errors of Simulation and
+// Server.
 void serve(const Config& config, const ServeOptions& options, const std::function<bool()>& stop, const Log& log,
            const std::function<void(const std::string&)>& ready);
 

@@ -1,5 +1,5 @@
-// poll() over the listener, the solver's eventfd and the clients; then everyone who has something to say is heard.
-// Assumes few clients: each round looks at all of them.
+// poll() watches the listener, the solver's eventfd and the clients; then every client with a message is handled. Each
+// round looks at all clients, so there should be few.
 #include "live/server.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +15,9 @@ namespace wavetracer::live {
 namespace {
 
 constexpr std::chrono::milliseconds longest_wait{100};
-constexpr unsigned most_errors = 100;    // of a client, before it is dropped
+constexpr unsigned most_errors = 100;    // errors of a client before it is dropped
 constexpr size_t most_turned_away = 16;  // clients that are told at once why they cannot stay
-constexpr size_t short_bytes = 16384;    // lines that are read at once take less than a millisecond
+constexpr size_t short_bytes = 16384;    // lines up to this length are read in less than a millisecond
 
 size_t count_of(const std::vector<LiveType>& types) {
   size_t out = 0;
@@ -55,14 +55,14 @@ void Server::run(const std::function<bool()>& stop) {
       if (client->gone()) log_(fmt::format("client {} left", client->number()));
       return client->gone();
     });
-    if (knocks) accept(now);  // after those who left have given up their places
+    if (knocks) accept(now);  // after clients that left have given up their places
     give_next();
   }
   const Clock::time_point now = Clock::now();
   for (const auto& client : clients_) client->end(bye_line("the server stops"), now);
 }
 
-// Waits for whatever comes first, and moves bytes. Returns true where somebody wants to connect.
+// Waits for the first event, and moves bytes. Returns true if a client wants to connect.
 bool Server::wait(Clock::time_point now) {
   std::vector<pollfd> polled{
       {listener_.descriptor(), POLLIN, 0}, {solver_.descriptor(), POLLIN, 0}, {parser_.descriptor(), POLLIN, 0}};
@@ -155,7 +155,7 @@ void Server::read(Client& client, Clock::time_point now) {
         parser_.give(std::move(line));
       }
     }
-  } while (flush_refusals(client, now));  // which makes room for more lines
+  } while (flush_refusals(client, now));  // this makes room for more lines
   if (client.leaving && client.has_answers()) client.end(bye_line("goodbye"), now);
 }
 
@@ -180,7 +180,7 @@ void Server::handle(Client& client, ReadLine line, Clock::time_point now) {
   if (auto* hello = std::get_if<Hello>(&message)) {
     greet(client, std::move(*hello), now);
   } else if (std::holds_alternative<Bye>(message)) {
-    client.leaving = true;  // once it has its answers (read())
+    client.leaving = true;  // it leaves once it has its answers (read())
   } else if (!client.hello) {
     end(client, "hello_first", "the first message must be hello", now);
   } else {
@@ -204,8 +204,8 @@ void Server::greet(Client& client, Hello hello, Clock::time_point now) {
   client.say(world_line_, now);
 }
 
-// A frame of a free-running client takes the place of the one that waits, and does what that one was to do besides: to
-// forget. What asks for a time between frames ("at") neither replaces a frame nor is replaced.
+// A frame of a free-running client replaces the waiting one, and also forgets earlier results if that one was to do so.
+// A frame for a time between frames ("at") neither replaces a frame nor is replaced.
 void Server::queue(Client& client, FrameMessage message, Clock::time_point received) {
   if (client.hello->free_running && !message.between) {
     const auto older = std::ranges::find_if(client.pending, [](const auto& p) { return !p.message.between; });
@@ -219,7 +219,7 @@ void Server::queue(Client& client, FrameMessage message, Clock::time_point recei
   client.pending.push_back({std::move(message), received, {}});
 }
 
-// Answers come in the order of frames, refusals among them; a free-running client has no order to keep.
+// Answers, including refusals, come in the order of frames; a free-running client has no such order.
 void Server::refuse(Client& client, const ProtocolError& error, Clock::time_point now) {
   if (++client.errors >= most_errors) {
     flush_refusals(client, now);
@@ -255,7 +255,7 @@ void Server::take_answer(Clock::time_point now) {
   throw DeviceError("the device failed: " + answer->failure);
 }
 
-// In turn: the first client after the last one served that has a frame and room for its answer.
+// Takes turns: the first client after the last one served that has a frame and room for its answer.
 void Server::give_next() {
   if (!solver_.idle()) return;
   const auto ready = [](const auto& c) {

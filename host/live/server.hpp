@@ -1,6 +1,6 @@
-// The protocol: who may speak, what is answered, whose frame is solved next. One thread of sockets, one that solves,
-// and one that reads long messages, so that no client waits for what another one has sent. Assumes that the simulation
-// has [[live_vehicle]], and is used by nobody else meanwhile.
+// The protocol: who may send, what is answered, whose frame is solved next. One thread handles sockets, one solves, and
+// one reads long messages, so that no client waits for another one's data. The simulation must have [[live_vehicle]],
+// and must not be used by other code meanwhile.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,13 +18,13 @@ using Log = std::function<void(const std::string&)>;
 
 class Server {
  public:
-  // token: empty where none is asked for. solved: as for solve_with().
+  // token: empty if none is needed. solved: as for solve_with().
   Server(Simulation& simulation, const Listener& listener, std::string token, Log log, FrameSolved solved = {});
-  // Until stop() says so, which is asked ten times per second. Throws DeviceError where the device fails.
+  // Runs until stop() returns true; it is called ten times per second. Throws DeviceError if the device fails.
   void run(const std::function<bool()>& stop);
 
  private:
-  // A line that is long enough to be read on a thread of its own, and what it was.
+  // A line that is long enough to be read on another thread, and the result.
   struct Line {
     uint64_t client = 0;
     Clock::time_point received;
@@ -45,16 +45,16 @@ class Server {
   void refuse(Client& client, const ProtocolError& error, Clock::time_point now);
   void take_lines(Clock::time_point now);
   void take_answer(Clock::time_point now);
-  // What fails in talking to a client, as for want of memory, is the end of that client alone.
+  // An error while talking to a client, such as lack of memory, ends that client alone.
   void talk(Client& client, const std::function<void()>& action) const;
-  Client* find(uint64_t number) const;  // null: it has left
+  Client* find(uint64_t number) const;  // null if it has left
   size_t count(bool (*which)(const Client&)) const;
   void give_next();
-  // Says the refusals that no frame is before any more; false where there was none.
+  // Sends refusals that wait for no frame any more; returns false if there were none.
   bool flush_refusals(Client& client, Clock::time_point now);
   bool wait(Clock::time_point now);
   void end(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
-  // The same, without words where many are being told already.
+  // Does the same, but silently if many clients are being told already.
   void turn_away(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
 
   const LiveConfig& limits_;

@@ -1,4 +1,4 @@
-// Errors of poses are the client's, those of a frame cost that frame, and those of the device end the server.
+// Errors of poses are the client's, other errors cost the frame, and errors of the device end the server.
 #include "live/solver.hpp"
 
 #include <fmt/format.h>

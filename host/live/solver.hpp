@@ -1,5 +1,5 @@
-// Solves one frame at a time on a thread of its own, from whichever client the server says, and makes every failure an
-// answer. Assumes one giver and taker of jobs, the thread of the sockets; what solves is used on no other thread
+// Solves one frame at a time on its own thread, for the client that the server chooses, and turns every failure into an
+// answer. Jobs are given and taken by one thread, that of the sockets; no other thread may use the simulation
 // meanwhile.
 #pragma once
 #include <chrono>
@@ -25,21 +25,21 @@ struct Job {
   Encoding encoding = Encoding::json;
   uint64_t skipped = 0;
   Clock::time_point received;
-  std::shared_ptr<LiveTraffic> traffic;  // of the client
+  std::shared_ptr<LiveTraffic> traffic;  // the client's
 };
 
 struct Answer {
   uint64_t client = 0;
-  std::string line;     // and the bytes that follow it
-  std::string failure;  // what the log is told, empty where the frame was solved or the client's poses were wrong
-  bool fatal = false;   // of the server: the device failed
-  uint64_t untold = 0;  // frames that were skipped before this one, where the line does not say so
+  std::string line;     // the answer, and the bytes that follow it
+  std::string failure;  // text for the log; empty if the frame was solved or the client's poses were wrong
+  bool fatal = false;   // the device failed, which ends the server
+  uint64_t untold = 0;  // skipped frames before this one, if the line does not mention them
 };
 
-// The answer to a job. afresh: nothing of earlier frames is to be relied upon. Throws PoseError where the poses are
-// wrong, DeviceError where the device is of no use any more, anything else where this one frame failed.
+// Solves a job and returns the answer. afresh: results of earlier frames must not be used. Throws PoseError if the
+// poses are wrong, DeviceError if the device has failed, any other exception if only this frame failed.
 using Solve = std::function<std::string(const Job& job, bool afresh)>;
-// solved: told of every frame before it is answered; must not throw; may be empty.
+// solved: called for every frame before it is answered; must not throw; may be empty.
 using FrameSolved = std::function<void(const Simulation&, const LiveFrame&)>;
 Solve solve_with(Simulation& simulation, FrameSolved solved = {});
 
@@ -47,10 +47,10 @@ class Solver {
  public:
   explicit Solver(Solve solve);
 
-  // From give() to take() there is one job at most.
+  // From give() to take() there is at most one job.
   bool idle() const { return !busy_; }
   void give(Job job);
-  // Readable once an answer is there.
+  // Returns a descriptor that is readable once an answer is ready.
   int descriptor() const { return worker_.descriptor(); }
   std::optional<Answer> take();
 
@@ -58,8 +58,8 @@ class Solver {
   Answer answer(const Job& job);
 
   Solve solve_;
-  bool afresh_ = false;  // of the worker's thread: the frame before failed in the middle
-  bool busy_ = false;    // of the giver's thread
+  bool afresh_ = false;  // used by the worker's thread: the frame before failed midway
+  bool busy_ = false;    // used by the giver's thread
   Worker<Job, Answer> worker_;
 };
 

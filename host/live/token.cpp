@@ -1,5 +1,5 @@
-// Reads no more of the file than a token may have, whatever it is.
-// Assumes POSIX permissions.
+// Reads no more of the file than a token may have.
+// It assumes POSIX permissions.
 #include "live/token.hpp"
 
 #include <fmt/format.h>

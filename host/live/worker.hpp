@@ -1,5 +1,5 @@
 // A thread that does jobs one after the other, in the order in which they came, and an eventfd that wakes poll() for
-// each that is done. Assumes one giver and taker, the thread of the sockets.
+// each finished job. Jobs are given and taken by one thread, that of the sockets.
 #pragma once
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -22,13 +22,13 @@ namespace wavetracer::live {
 template <class Job, class Result>
 class Worker {
  public:
-  // work: makes an answer of every failure that it knows; what it throws, take() throws.
+  // work: turns every failure that it knows into an answer; take() rethrows its other exceptions.
   explicit Worker(std::function<Result(Job&)> work)
       : work_(std::move(work)), event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)) {
     if (*event_ < 0) throw RuntimeError("no file descriptor is left for a thread of the server: raise ulimit -n");
     thread_ = std::thread([this] { run(); });
   }
-  ~Worker() {  // after the job that it is at
+  ~Worker() {  // waits for the current job
     {
       const std::lock_guard lock(mutex_);
       ends_ = true;
@@ -40,7 +40,7 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void give(Job job) {
-    std::list<Task> task;  // whose memory does for the result, too
+    std::list<Task> task;  // a list node that is reused for the result
     task.push_back({std::move(job), {}, {}});
     {
       const std::lock_guard lock(mutex_);
@@ -48,7 +48,7 @@ class Worker {
     }
     wake_.notify_one();
   }
-  // Readable as long as take() has something.
+  // Readable as long as take() has a result.
   int descriptor() const { return *event_; }
   std::optional<Result> take() {
     uint64_t ignored = 0;
@@ -86,7 +86,8 @@ class Worker {
       const std::lock_guard lock(mutex_);
       results_.splice(results_.end(), task);
       const uint64_t one = 1;
-      [[maybe_unused]] const ssize_t written = write(*event_, &one, sizeof one);  // far from the limit of 2^64
+      // The counter is far from its limit of 2^64.
+      [[maybe_unused]] const ssize_t written = write(*event_, &one, sizeof one);
     }
   }
 

@@ -1,5 +1,5 @@
-// Polygons of all features of a vector map, by OGR.
-// Curves become lines, collections their polygons; heights of points are not used here.
+// Reads the polygons of all features of a vector map by OGR.
+// Curves become lines, collections become their polygons; heights of points are not used here.
 #include <cpl_error.h>
 #include <ogr_api.h>
 
@@ -28,7 +28,7 @@ class LayerReader {
   LayerReader(const wt_maps_query& query, Visit visit, void* user, wt_maps_layers& layers)
       : query_(query), visit_(visit), user_(user), layers_(layers) {}
 
-  // Whether all was read.
+  // Returns whether everything was read.
   bool read(OGRLayerH layer, bool as_they_are) {
     name_ = OGR_L_GetName(layer);
     transformation_ = as_they_are ? Transformation() : to_degrees(OGR_L_GetSpatialRef(layer));
@@ -59,7 +59,7 @@ class LayerReader {
     }
   }
 
-  // The field of exactly this name; without one, that which differs by case alone. Of several it is the first.
+  // Returns the field with exactly this name, or else the first one that differs by case alone.
   int find_field(const std::vector<std::string>& names, size_t k) {
     const char* const wanted = query_.fields[k];
     int exact = -1, alike = -1;
@@ -80,7 +80,7 @@ class LayerReader {
       values_.push_back(column >= 0 && OGR_F_IsFieldSetAndNotNull(feature, column)
                             ? OGR_F_GetFieldAsString(feature, column)
                             : nullptr);
-    // Texts of fields are overwritten by the next one that is asked for.
+    // Texts of fields are overwritten by the next call.
     texts_.assign(values_.size(), "");
     for (size_t k = 0; k < columns_.size(); ++k)
       if (values_[k]) texts_[k] = OGR_F_GetFieldAsString(feature, columns_[k]);
@@ -94,7 +94,7 @@ class LayerReader {
   }
 
   bool take_geometry(OGRGeometryH geometry, int depth) {
-    constexpr int deepest = 16;  // of collections in collections
+    constexpr int deepest = 16;  // nesting of collections
     const OGRwkbGeometryType type = OGR_GT_Flatten(OGR_G_GetGeometryType(geometry));
     if (type == wkbPolygon) return take_polygon(geometry);
     if (depth == deepest || (type != wkbMultiPolygon && type != wkbGeometryCollection)) return true;
@@ -149,7 +149,7 @@ class LayerReader {
   wt_maps_layers& layers_;
   std::string name_;
   Transformation transformation_;
-  std::vector<int> columns_;  // of the fields of the query in the layer; -1: it has none
+  std::vector<int> columns_;  // columns of the query's fields in the layer; -1 if it has none
   std::vector<std::string> texts_;
   std::vector<const char*> values_;
   int64_t feature_ = 0;
@@ -178,7 +178,7 @@ void read_all(GDALDatasetH dataset, const wt_maps_query& query, Visit visit, voi
   layers.in_degrees = on_earth > 0;
   LayerReader reader(query, visit, user, layers);
   for (const OGRLayerH layer : all) {
-    if (on_earth > 0 && !to_degrees(OGR_L_GetSpatialRef(layer))) continue;  // tables beside the map
+    if (on_earth > 0 && !to_degrees(OGR_L_GetSpatialRef(layer))) continue;  // tables without a place, beside the map
     if (!reader.read(layer, on_earth == 0)) return;
   }
 }

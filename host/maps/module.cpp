@@ -1,5 +1,5 @@
-// GDAL set up for files of strangers: quiet, no network.
-// Assumes one thread, as the program converts one map at a time.
+// Sets GDAL up for files that are not trusted: quiet, without network.
+// There is one thread, as the program converts one map at a time.
 #include "maps/module.hpp"
 
 #include <cpl_conv.h>
@@ -29,7 +29,8 @@ std::string last_error() {
   return text.empty() ? "GDAL does not say why" : text;
 }
 
-// GDAL's reader of GML writes the fields that it has found to this file beside its input; empty where there is one.
+// Returns the file that GDAL's reader of GML would write beside its input, with the fields that it found; empty if that
+// file exists already.
 std::filesystem::path new_schema(const char* file) {
   const std::filesystem::path schema = std::filesystem::path(file).replace_extension(".gfs");
   std::error_code ignored;
@@ -42,13 +43,13 @@ struct FreeSystem {
 using System = std::unique_ptr<void, FreeSystem>;
 
 bool is_on_earth(OGRSpatialReferenceH system) {
-  // GeoPackage calls what nobody has named "Undefined geographic SRS".
+  // GeoPackage names an unknown system "Undefined geographic SRS".
   const char* const name = system ? OSRGetName(system) : nullptr;
   if (name && (STARTS_WITH_CI(name, "Undefined") || STARTS_WITH_CI(name, "Unknown"))) return false;
   return system && (OSRIsProjected(system) || OSRIsGeographic(system) || OSRIsCompound(system));
 }
 
-// Axes as x, y on maps: longitude before latitude, whatever the authority says.
+// Axes are x, y as on maps: longitude before latitude, whatever the authority's order is.
 Transformation between(OGRSpatialReferenceH system, bool to_earth) {
   if (!is_on_earth(system)) return {};
   const System own(OSRClone(system)), degrees(OSRNewSpatialReference(nullptr));

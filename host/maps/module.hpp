@@ -1,5 +1,5 @@
-// What the files of the module share: GDAL opened once, its errors as texts, coordinate systems.
-// GDAL's C interface alone.
+// Functions that the files of the module share: GDAL is opened once, its errors become texts, coordinate systems.
+// Only GDAL's C interface is used.
 #pragma once
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -14,9 +14,9 @@
 
 namespace wavetracer::maps {
 
-// Closes a dataset, and removes what GDAL has written beside its file: the folder is the user's.
+// Closes a dataset, and removes the file that GDAL wrote beside the input, since the folder is the user's.
 struct CloseDataset {
-  std::filesystem::path new_schema;  // what there was not before
+  std::filesystem::path new_schema;  // the file to remove, which did not exist before
   void operator()(GDALDatasetH dataset) const;
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
@@ -26,16 +26,16 @@ struct FreeTransformation {
 };
 using Transformation = std::unique_ptr<void, FreeTransformation>;
 
-// Opens a file for reading, by no driver that would ask the network. Throws std::runtime_error with GDAL's reason.
+// Opens a file for reading, by a driver that does not use the network. Throws std::runtime_error with GDAL's reason.
 Dataset open(const char* file, unsigned kind);
 std::string driver_of(GDALDatasetH dataset);
 
-// Between a coordinate system and longitude and latitude in degrees (WGS84), in this order. Empty where `system` is
-// null or says nothing of the earth; throws where PROJ knows no way.
+// Converts between a coordinate system and longitude and latitude in degrees (WGS84), in this order. Empty if `system`
+// is null or not on the Earth; throws if PROJ knows no transformation.
 Transformation to_degrees(OGRSpatialReferenceH system);
 Transformation from_degrees(OGRSpatialReferenceH system);
 
-// What a function of the interface does, with what it throws as a text: 0 or 1.
+// Calls a function of the interface and turns exceptions into a text; returns 0 or 1.
 template <class Function>
 int guarded(char* error, const Function& function) {
   try {
@@ -48,7 +48,7 @@ int guarded(char* error, const Function& function) {
   }
 }
 
-// Copies a text that is cut where it is too long.
+// Copies a text and cuts it if it is too long.
 template <size_t N>
 void put(char (&to)[N], const std::string& text) {
   to[text.copy(to, N - 1)] = '\0';

@@ -1,5 +1,5 @@
-// Heights of a raster around places, by GDAL: its first band, in metres.
-// Assumes that posts are the middles of pixels, as GDAL's geotransform has them.
+// Reads heights of a raster around places by GDAL: its first band, in metres.
+// Posts are the middles of pixels, as in GDAL's geotransform.
 #include <cpl_error.h>
 #include <cpl_string.h>
 

@@ -1,5 +1,5 @@
-// Chunks through zlib, whose gz functions hand plain files through unchanged.
-// Assumes nothing about the content; the length of a gzip stream and its checksum are verified by zlib.
+// Reads chunks through zlib, whose gz functions pass plain files through unchanged.
+// zlib verifies the length of a gzip stream and its checksum.
 #include "motion/byte_stream.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace wavetracer {
 namespace {
 
 constexpr unsigned chunk_bytes = 1u << 16;
-// Of text that repeats itself gzip makes a thousandth, of trajectories a tenth; of vehicles that only stand, a
+// gzip shrinks repeated text to a thousandth, trajectories to a tenth, and trajectories of standing vehicles to a
 // hundredth.
 constexpr uint64_t most_unpacked = 300, free_bytes = uint64_t{64} << 20;
 
@@ -50,8 +50,8 @@ std::string_view ByteStream::next() {
     size_ = count > 0 ? static_cast<size_t>(count) : 0;
     if ((bytes_ += size_) > most_bytes_) {
       throw InputError(
-          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for a {}; unpack it and look "
-                      "at its content",
+          fmt::format("{}: unpacks to more than {} times its {} bytes, which is too much for a {}; "
+                      "unpack it and look at its content",
                       file_, most_unpacked, (most_bytes_ - free_bytes) / most_unpacked, what_));
     }
     int error = Z_OK;

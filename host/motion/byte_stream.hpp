@@ -1,5 +1,5 @@
-// A file as a sequence of chunks, plain or gzip: the content decides, never the name.
-// Holds one chunk at a time, so that files of gigabytes can be read.
+// A file as a sequence of chunks, plain or gzip, recognised by content and not by name.
+// It holds one chunk at a time, so that files of gigabytes can be read.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace wavetracer {
 
 class ByteStream {
  public:
-  // what: the kind of file, for messages. Throws InputError when the file is missing, no plain file, or unreadable.
+  // what: the kind of file, for messages. Throws InputError if the file is missing, is no plain file, or is unreadable.
   explicit ByteStream(const std::filesystem::path& path, const char* what = "trajectory file");
   ~ByteStream();
 
   const std::string& file() const { return file_; }
-  // The next chunk, which stays for the following call of next(). Empty at the end.
+  // Returns the next chunk, which next() will return again; empty at the end.
   std::string_view peek();
-  // The next chunk, valid until the next call. Empty at the end. Throws InputError where a gzip stream is damaged, or
-  // holds far more than such files do.
+  // Returns the next chunk, valid until the next call; empty at the end. Throws InputError if a gzip stream is damaged,
+  // or unpacks to far more than such files do.
   std::string_view next();
 
  private:
@@ -29,9 +29,9 @@ class ByteStream {
   const char* what_;
   std::unique_ptr<Handle> handle_;
   std::string chunk_;
-  uint64_t bytes_ = 0, most_bytes_ = 0;  // unpacked so far, and the limit
+  uint64_t bytes_ = 0, most_bytes_ = 0;  // bytes unpacked so far, and the limit
   size_t size_ = 0;                      // bytes of chunk_ in use
-  bool peeked_ = false;                  // the chunk has not been given out by next() yet
+  bool peeked_ = false;                  // next() has not returned the chunk yet
 };
 
 }  // namespace wavetracer

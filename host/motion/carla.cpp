@@ -1,5 +1,5 @@
-// Lines by how they begin; all else that a recording tells is passed over.
-// Assumes that an actor keeps its number, and that its box, where it is known, comes anywhere in the text.
+// Lines are recognised by their beginnings; other lines of a recording are skipped.
+// An actor keeps its number; its box, if known, may come anywhere in the text.
 #include "motion/carla.hpp"
 
 #include <fmt/format.h>
@@ -24,18 +24,18 @@ constexpr double centimetre = 0.01, degrees = std::numbers::pi / 180;
 struct Actor {
   std::string blueprint, base_type, role;  // "vehicle.tesla.model3", "car", "hero"
   bool two_wheels = false;
-  std::optional<glm::dvec3> box_centre_m, box_half_m;  // from its location: ahead, left, up
+  std::optional<glm::dvec3> box_centre_m, box_half_m;  // relative to its location: ahead, left, up
   bool moves() const { return blueprint.starts_with("vehicle.") || blueprint.starts_with("walker."); }
 };
 
-// Where an actor was, in CARLA's numbers.
+// The place of an actor, in CARLA's units.
 struct CarlaSample {
   uint64_t actor, line;
   double time_s;
   glm::dvec3 location, rotation;  // roll, pitch, yaw
 };
 
-// A line, from its beginning on.
+// Reads a line from its beginning on.
 class Scanner {
  public:
   Scanner(const TextLines& lines, std::string_view text) : lines_(lines), rest_(text) {}
@@ -48,7 +48,7 @@ class Scanner {
   void expect(std::string_view words) {
     if (!skip(words)) lines_.fail(fmt::format("'{}' is expected where the line has '{}'", words, rest_.substr(0, 40)));
   }
-  // What comes before one of the characters.
+  // Returns the text before one of the characters.
   std::string_view until(std::string_view ends) {
     const std::string_view out = rest_.substr(0, rest_.find_first_of(ends));
     rest_.remove_prefix(out.size());
@@ -66,7 +66,7 @@ class Scanner {
       lines_.fail(fmt::format("{} is not the number of an actor", value));
     return static_cast<uint64_t>(value);
   }
-  glm::dvec3 vector() {  // "(1, 2, 3)"
+  glm::dvec3 vector() {  // Reads "(1, 2, 3)".
     glm::dvec3 out;
     expect("(");
     for (int axis = 0; axis < 3; ++axis) {
@@ -94,10 +94,10 @@ class CarlaReader {
       throw InputError(fmt::format(
           "{}: the text has no positions of vehicles; call show_recorder_file_info with show_all=True", lines_.file()));
     if (unsized_ > 0)
-      tracks_.warn(fmt::format(
-          "{}: {} samples are of actors without a bounding box, which have the size of their class: start the "
-          "recording with additional_data=True",
-          lines_.file(), unsized_));
+      tracks_.warn(
+          fmt::format("{}: {} samples are of actors without a bounding box, which have the size of their class: "
+                      "start the recording with additional_data=True",
+                      lines_.file(), unsized_));
     return tracks_.finish(ReferencePoint::centre);
   }
 
@@ -187,7 +187,7 @@ class CarlaReader {
   TrackBuilder tracks_;
   std::map<uint64_t, Actor> actors_;
   std::vector<CarlaSample> samples_;
-  Actor* created_ = nullptr;  // whose attributes follow
+  Actor* created_ = nullptr;  // the actor whose attributes follow
   std::optional<double> time_s_;
   uint64_t frame_line_ = 0, unsized_ = 0;
 };

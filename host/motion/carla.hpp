@@ -1,4 +1,4 @@
-// Recordings of CARLA as text: what client.show_recorder_file_info(file, show_all=True) returns.
+// Reads recordings of CARLA as text, which client.show_recorder_file_info(file, show_all=True) returns.
 // Lengths in it are Unreal's: centimetres, y to the right; angles in degrees. Sizes are in it only if the recording was
 // started with additional_data=True.
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// How such a text begins.
+// Tells whether a text begins like such a recording.
 bool is_carla_recording(std::string_view start);
 
 Trajectories read_carla(ByteStream& stream, const TrajectoryOptions& options);

@@ -1,5 +1,4 @@
-// CSV row by row: a header tells which column is what.
-// Assumes nothing of the order of columns.
+// Reads CSV row by row; a header names the columns, which may be in any order.
 #include "motion/csv.hpp"
 
 #include <fmt/format.h>
@@ -19,13 +18,13 @@ namespace {
 
 enum Column : size_t { time_column, id_column, x_column, y_column, z_column, yaw_column, speed_column, type_column };
 constexpr std::array<std::string_view, 8> column_names = {"time", "id", "x", "y", "z", "yaw", "speed", "type"};
-constexpr size_t needed = 4;  // of the names
+constexpr size_t needed = 4;  // number of names that are needed
 constexpr size_t absent = ~size_t{0};
 constexpr std::string_view columns_advice =
     "the first line must be a header with the columns time,id,x,y and optionally z,yaw,speed,type; lat,lon (degrees) "
     "may stand in the place of x,y";
 
-// What stands in x or y where the file is in degrees.
+// A column name that replaces x or y if the file is in degrees.
 struct DegreeName {
   std::string_view name;
   Column column;
@@ -119,7 +118,7 @@ class CsvReader {
 
   CsvRows rows_;
   TrackBuilder tracks_;
-  std::array<size_t, column_names.size()> column_;  // place of each of the names in a row
+  std::array<size_t, column_names.size()> column_;  // index of each name's column in a row
   size_t width_ = 0;                                // cells of a row
   bool in_degrees_ = false;
 };

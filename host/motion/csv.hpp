@@ -1,5 +1,5 @@
-// Trajectories as comma-separated values, with a header that names the columns (RFC 4180, no line breaks in quotes).
-// Assumes what read.hpp says of CSV files; holds one chunk of the file, one line, and the samples.
+// Reads trajectories as comma-separated values with a header that names the columns (RFC 4180, no line breaks in
+// quotes). See read.hpp for the columns; it holds one chunk of the file, one line, and the samples.
 #pragma once
 #include "motion/byte_stream.hpp"
 #include "motion/read.hpp"

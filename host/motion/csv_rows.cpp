@@ -1,4 +1,4 @@
-// Lines into cells.
+// Splits lines into cells.
 #include "motion/csv_rows.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace wavetracer {
 
 bool CsvRows::next() {
   while (lines_.next()) {
-    text_ = separator_ == '\t' ? lines_.line() : trimmed(lines_.line());  // cells at the ends may be empty
+    text_ = separator_ == '\t' ? lines_.line() : trimmed(lines_.line());  // the first and last cells may be empty
     if (trimmed(text_).empty() || text_.front() == '#') continue;
     split(text_);
     return true;
@@ -19,7 +19,7 @@ bool CsvRows::next() {
   return false;
 }
 
-// A line into cells_, quotes removed.
+// Splits a line into cells_, with quotes removed.
 void CsvRows::split(std::string_view line) {
   cells_.clear();
   size_t at = 0;
@@ -36,7 +36,7 @@ void CsvRows::split(std::string_view line) {
   } while (at++ < line.size());
 }
 
-// A quoted cell whose text begins at `at`; returns the place of the separator after it, or the end of the line.
+// Reads a quoted cell whose text begins at `at`; returns the place of the separator after it, or the end of the line.
 size_t CsvRows::quoted(std::string_view line, size_t at, std::string& cell) const {
   for (;; ++at) {
     const size_t quote = line.find('"', at);

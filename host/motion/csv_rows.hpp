@@ -1,5 +1,5 @@
-// Values separated by commas, or by another character, row by row; blank lines and comments are passed over.
-// Assumes RFC 4180 without line breaks in quotes.
+// Reads values separated by commas, or by another character, row by row; blank lines and comments are skipped. The
+// format is RFC 4180 without line breaks in quotes.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,9 +13,9 @@ class CsvRows {
  public:
   explicit CsvRows(ByteStream& stream, char separator = ',') : lines_(stream), separator_(separator) {}
 
-  // The next row; false at the end of the file.
+  // Reads the next row; returns false at the end of the file.
   bool next();
-  // Of the row: its cells without blanks around them and quotes; the line, counted from 1, and its text.
+  // The current row: its cells without surrounding blanks and quotes, the line number, counted from 1, and the text.
   const std::vector<std::string>& cells() const { return cells_; }
   uint64_t number() const { return lines_.number(); }
   std::string_view text() const { return text_; }

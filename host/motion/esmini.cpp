@@ -1,5 +1,6 @@
-// Columns by their names in the header; those of the log come in blocks, one a vehicle that is there.
-// Assumes that the names of entities are unique, as OpenSCENARIO demands.
+// Columns are found by their names in the header; those of the log come in blocks, one for each vehicle that is
+// present.
+// Names of entities must be unique, as OpenSCENARIO demands.
 #include "motion/esmini.hpp"
 
 #include <fmt/format.h>
@@ -17,10 +18,10 @@
 namespace wavetracer {
 namespace {
 
-constexpr const char* esmini_type = "passenger";  // neither file tells what its entities are
-constexpr double axle_m = 1.4;                    // how far the centre of the cars of esmini's catalogue is ahead of it
+constexpr const char* esmini_type = "passenger";  // neither file gives the types of its entities
+constexpr double axle_m = 1.4;  // distance from the rear axle to the centre of the cars of esmini's catalogue
 
-// A finite number of a cell.
+// Parses a cell as a finite number.
 double cell_number(const CsvRows& rows, size_t column, std::string_view name) {
   const std::optional<double> value = finite_number(rows.cells()[column]);
   if (!value)
@@ -28,7 +29,7 @@ double cell_number(const CsvRows& rows, size_t column, std::string_view name) {
   return *value;
 }
 
-// "#12 bb_x [m]" without its number and unit: "bb_x".
+// Removes number and unit: "#12 bb_x [m]" becomes "bb_x".
 std::string_view quantity(std::string_view cell) {
   cell.remove_prefix(std::min(cell.find(' '), cell.size()));
   return trimmed(cell.substr(0, cell.find('[')));
@@ -63,7 +64,7 @@ class LogReader {
                                                                      "World_Position_Z",
                                                                      "World_Heading_Angle",
                                                                      "World_Pitch_Angle"};
-  static constexpr size_t first_block = 2;  // after index and time
+  static constexpr size_t first_block = 2;  // comes after index and time
 
   void read_header() {
     const std::vector<std::string>& cells = rows_.cells();
@@ -73,14 +74,14 @@ class LogReader {
     for (size_t i = 0; i < quantities; ++i) {
       for (size_t k = first_block; k < end; ++k) {
         const std::string_view found = quantity(cells[k]);
-        // Until 2023 it was misspelt.
+        // Until 2023 esmini misspelt it.
         if (found == names[i] || (i == name && found == "Entitity_Name")) place_[i] = k - first_block;
       }
       if (!place_[i]) rows_.fail(fmt::format("the header has no column '#1 {}'; is this a log of esmini?", names[i]));
     }
   }
 
-  // Entities may be added and deleted, so blocks have no fixed places; each names its entity.
+  // Entities may be added and deleted, so blocks have no fixed places; each block names its entity.
   void add_row() {
     if (rows_.cells().size() < first_block)
       rows_.fail(fmt::format("the row has {} cells, and so no time", rows_.cells().size()));
@@ -105,8 +106,8 @@ class LogReader {
 
   CsvRows rows_;
   TrackBuilder tracks_;
-  size_t width_ = 0;                                     // columns of an entity
-  std::array<std::optional<size_t>, quantities> place_;  // in its block
+  size_t width_ = 0;                                     // number of columns of an entity
+  std::array<std::optional<size_t>, quantities> place_;  // index in its block
 };
 
 class RecordingReader {
@@ -122,10 +123,11 @@ class RecordingReader {
     } while (rows_.cells()[0] != "time");
     read_header();
     while (rows_.next()) add_row();
-    tracks_.warn(fmt::format(
-        "{}: a recording of esmini tells no sizes and types: entities are cars of SUMO's size, whose centre is {} m "
-        "ahead of the rear axle; its log (--csv_logger) or an OSI trace (--osi_file) tells them",
-        rows_.file(), axle_m));
+    tracks_.warn(
+        fmt::format("{}: a recording of esmini tells no sizes and types: entities are cars of SUMO's size, "
+                    "whose centre is {} m ahead of the rear axle; its log (--csv_logger) or an OSI trace (--osi_file) "
+                    "tells them",
+                    rows_.file(), axle_m));
     return tracks_.finish(ReferencePoint::centre);
   }
 

@@ -1,5 +1,4 @@
-// FCD as XML: elements to samples.
-// Assumes what fcd_samples.hpp says.
+// Turns XML elements of FCD into samples, as fcd_samples.hpp says.
 #include "motion/fcd.hpp"
 
 #include <fmt/format.h>
@@ -55,14 +54,14 @@ class FcdReader : private XmlStream {
     }
   }
 
-  // SUMO begins a file with its configuration in a comment, options at their defaults left out.
+  // SUMO begins a file with its configuration in a comment, which leaves out options at their defaults.
   void comment(std::string_view text) override {
     constexpr std::string_view key = "<fcd-output.geo value=\"";
     const size_t at = text.find(key);
     if (at == text.npos) return;
     text.remove_prefix(at + key.size());
     const std::string value = lower_case(text.substr(0, text.find('"')));
-    // The words for true of SUMO's options.
+    // SUMO's options use these words for true.
     if (value == "true" || value == "1" || value == "yes" || value == "on" || value == "t" || value == "x") {
       samples_.in_degrees(line());
     }
@@ -85,7 +84,7 @@ class FcdReader : private XmlStream {
   }
 
   FcdSamples samples_;
-  int depth_ = 0;  // of open elements
+  int depth_ = 0;  // number of open elements
   std::set<std::string, std::less<>> unknown_;
 };
 

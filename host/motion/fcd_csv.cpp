@@ -1,5 +1,5 @@
 // A row has the cells of its timestep, and those of one vehicle, person or container, or of a vehicle with a rider.
-// Assumes nothing of the order of columns. A row without ids is a timestep in which nobody is there.
+// Columns may be in any order. A row without ids is a timestep without vehicles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view sumo_columns_advice =
-    "the CSV of SUMO's --fcd-output has timestep_time, vehicle_id, vehicle_x and vehicle_y at least; if "
-    "--fcd-output.attributes was given to sumo, it must name x and y";
+    "the CSV of SUMO's --fcd-output has timestep_time, vehicle_id, vehicle_x and vehicle_y at least; "
+    "if --fcd-output.attributes was given to sumo, it must name x and y";
 
 std::string_view header_of(std::string_view text) {
   const size_t begin = std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size());
@@ -46,7 +46,7 @@ class FcdCsvReader {
   struct Columns {
     const FcdKind* kind;
     size_t id = absent;
-    std::map<std::string, size_t, std::less<>> others = {};  // by attribute
+    std::map<std::string, size_t, std::less<>> others = {};  // by name of the attribute
   };
   static constexpr size_t absent = ~size_t{0};
 
@@ -99,7 +99,8 @@ class FcdCsvReader {
       samples_.add_rider();
       ++riders;
     }
-    if (riders > 0 && !carrying_.insert(vehicle).second) return;  // the vehicle is in a row for each of its riders
+    // The vehicle appears in one row for each of its riders.
+    if (riders > 0 && !carrying_.insert(vehicle).second) return;
     for (const Columns& of : columns_)
       if (!cell(of.id).empty() && (riders == 0 || of.kind == &fcd_vehicle)) add(of);
   }
@@ -137,7 +138,8 @@ bool is_fcd_csv(std::string_view text) {
   }
   const auto has = [&](const char* name) { return names.contains(name); };
   if (has("timestep_time")) return true;
-  if (!has("id")) return has("vehicle_id") || has("person_id") || has("container_id");  // another output, to be named
+  // It is another output, which the message names.
+  if (!has("id")) return has("vehicle_id") || has("person_id") || has("container_id");
   return separator == ';' && has("time") && has("x") && has("y") &&
          (has("angle") || has("lane") || has("slope") || has("edge"));
 }

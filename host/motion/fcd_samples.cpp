@@ -1,5 +1,5 @@
-// FCD as SUMO writes it ("FCDOutput" of its documentation, fcd_file.xsd).
-// Assumes nothing of texts: every number is checked.
+// Reads FCD as SUMO writes it ("FCDOutput" of its documentation, fcd_file.xsd).
+// Texts are not trusted: every number is checked.
 #include "motion/fcd_samples.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +18,9 @@ namespace {
 constexpr double fcd_degree = std::numbers::pi / 180;
 
 constexpr std::string_view geo_advice =
-    "the coordinates are longitude and latitude (--fcd-output.geo), which need a georeference.json beside the scene "
-    "file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); or run sumo without that "
-    "option, so that it writes metres";
+    "the coordinates are longitude and latitude (--fcd-output.geo), which need a georeference.json beside "
+    "the scene file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one); "
+    "or run sumo without that option, so that it writes metres";
 
 size_t decimals(std::string_view text) {
   const size_t point = text.find('.');
@@ -90,9 +90,9 @@ void FcdSamples::in_degrees(uint64_t line) {
   degrees_ = true;
 }
 
-// Compares how far vehicles drive by their speeds with how far their coordinates move meanwhile.
+// Compares the distances that vehicles drive by their speeds with the changes of their coordinates.
 FcdSamples::Motion FcdSamples::motion() const {
-  const double longest_s = 1.5 * median_step(tracks_.tracks());  // not across gaps
+  const double longest_s = 1.5 * median_step(tracks_.tracks());  // gaps are left out
   Motion out;
   for (const Track& track : tracks_.tracks()) {
     for (size_t k = 1; k < track.samples.size(); ++k) {
@@ -106,9 +106,9 @@ FcdSamples::Motion FcdSamples::motion() const {
   return out;
 }
 
-// A file may not tell SUMO's options. Degrees betray themselves: all within the globe, and vehicles that drive by their
-// speeds but hardly move: a metre is 1e-5 degrees, and 1e-4 of longitude at 85 degrees. Nor is what it tells always so:
-// without a projection SUMO writes metres although it is asked for degrees.
+// A file may not say which of SUMO's options were used, and may be wrong: without a projection SUMO writes metres
+// although degrees were asked for. So the data decide. Coordinates are degrees if all are on the globe, and vehicles
+// drive by their speeds but hardly move: a metre is 1e-5 degrees, and 1e-4 of longitude at a latitude of 85 degrees.
 bool FcdSamples::is_in_degrees() const {
   const Motion motion = this->motion();
   const bool drives = motion.driven_m > 1;
@@ -126,19 +126,19 @@ bool FcdSamples::is_in_degrees() const {
   return drives && motion.moved < 1e-3 * motion.driven_m;
 }
 
-// Networks without heights have no z: their vehicles are on the ground, wherever that is.
+// Networks without heights have no z: their vehicles are on the ground, at whatever height that is.
 void FcdSamples::place_degrees() {
   constexpr size_t enough = 8;  // half a millimetre
   if (!options_.from_degrees) throw InputError(fmt::format("{}: {}", tracks_.file(), geo_advice));
   if (!degrees_)
     tracks_.warn(
-        fmt::format("{}: x and y are taken as longitude and latitude (--fcd-output.geo): as metres they would hardly "
-                    "move, whatever their speeds are",
+        fmt::format("{}: x and y are taken as longitude and latitude (--fcd-output.geo): "
+                    "as metres they would hardly move, whatever their speeds are",
                     tracks_.file()));
   if (decimals_ < enough)
     tracks_.warn(
-        fmt::format("{}: positions have {} decimals of a degree, and so an error of {:.2g} m: run sumo with "
-                    "--precision.geo 9 where phases or Doppler matter",
+        fmt::format("{}: positions have {} decimals of a degree, and so an error of {:.2g} m: "
+                    "run sumo with --precision.geo 9 where phases or Doppler matter",
                     tracks_.file(), decimals_, 111195 * 0.5 * std::pow(10, -static_cast<double>(decimals_))));
   tracks_.in_degrees(!has_z_);
 }

@@ -1,4 +1,4 @@
-// Samples of all tracks, by time and then by track.
+// Writes the samples of all tracks by time and then by track.
 // Times that agree to a microsecond are one timestep.
 #include "motion/fcd_writer.hpp"
 

@@ -1,5 +1,5 @@
-// Trajectories as SUMO writes them (FCD), for other tools and for read.hpp.
-// Assumes steps of more than a microsecond. Types are written by name: a reader must know their sizes.
+// Writes trajectories as SUMO does (FCD), for other tools and for read.hpp.
+// Steps must be longer than a microsecond. Types are written by name: a reader must know their sizes.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// As with --precision 6: centre of the front bumper, compass angle, speed, slope and type.
+// Writes as with --precision 6: centre of the front bumper, compass angle, speed, slope and type.
 std::string format_fcd(const Trajectories& trajectories);
 
 }  // namespace wavetracer

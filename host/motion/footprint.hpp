@@ -1,5 +1,5 @@
-// From the reference point of another program to the centre of the footprint of a vehicle.
-// Assumes that vehicles do not roll.
+// Converts the reference point of another program to the centre of the footprint of a vehicle.
+// Roll is ignored.
 #pragma once
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// What `arm` is in the axes of the scene: ahead, left, up of a vehicle that looks along yaw and pitch (nose up).
+// Turns `arm` (ahead, left, up of a vehicle with this yaw and pitch, nose up) into the axes of the scene.
 inline glm::dvec3 turned_arm(const glm::dvec3& arm, double yaw_rad, double pitch_rad) {
   const glm::dvec3 ahead = heading(yaw_rad, pitch_rad), left(-std::sin(yaw_rad), std::cos(yaw_rad), 0);
   const glm::dvec3 up(-std::sin(pitch_rad) * std::cos(yaw_rad), -std::sin(pitch_rad) * std::sin(yaw_rad),
@@ -16,7 +16,7 @@ inline glm::dvec3 turned_arm(const glm::dvec3& arm, double yaw_rad, double pitch
   return arm.x * ahead + arm.y * left + arm.z * up;
 }
 
-// Whether a file's length, width and height can be those of a vehicle.
+// Tells whether a file's length, width and height can be those of a vehicle.
 inline bool is_size(const glm::dvec3& size_m) {
   constexpr double longest_m = 1000;
   for (int axis = 0; axis < 3; ++axis)

@@ -1,5 +1,5 @@
-// Times of frames by multiplication, never by summing steps, so that the millionth frame is where it should be.
-// Assumes nothing beyond its header.
+// Times of frames are computed by multiplication, never by summing steps, so that even the millionth frame has the
+// right time.
 #include "motion/frame_clock.hpp"
 
 #include <fmt/format.h>
@@ -22,15 +22,15 @@ FrameClock::FrameClock(double first_time_s, double last_time_s, double step_s)
                                   time_text(first_time_s), time_text(last_time_s)));
   }
   const double steps = (last_time_s - first_time_s) / step_s;
-  constexpr double most = 9007199254740992;  // 2^53: beyond, doubles do not count in ones
+  constexpr double most = 9007199254740992;  // 2^53: doubles above it do not represent every whole number
   if (!(steps < most - 1)) throw ConfigError(fmt::format("{:g} frames are too many: use a longer time step", steps));
   const double largest_s = std::max(std::abs(first_time_s), std::abs(last_time_s)),
                rounding_s = time_spacing_s(largest_s);
   if (steps > 0 && !(step_s >= 4 * rounding_s)) {
-    throw ConfigError(fmt::format(
-        "the time step of frames is {:g} s, but times near {} s are only known to {:.2g} s: use a longer time step, or "
-        "subtract the time of the beginning from all times",
-        step_s, time_text(largest_s), rounding_s));
+    throw ConfigError(
+        fmt::format("the time step of frames is {:g} s, but times near {} s are only known to {:.2g} s: "
+                    "use a longer time step, or subtract the time of the beginning from all times",
+                    step_s, time_text(largest_s), rounding_s));
   }
   frame_count_ = static_cast<uint64_t>(std::floor(steps + 1e-9 * std::max(1.0, steps) + rounding_s / step_s)) + 1;
 }

@@ -1,5 +1,5 @@
-// The instants that frames show, and who is there in each.
-// Assumes finished trajectories: tracks in order of their first sample.
+// The times of frames, and the vehicles that are present in each.
+// Trajectories must be finished: tracks in order of their first sample.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace wavetracer {
 
-// Frames at first_time_s + k * step_s up to last_time_s, which is a frame itself where only rounding says no: that of
-// the sum, and that of both times, which doubles keep the worse the larger they are.
+// Frames are at first_time_s + k * step_s up to last_time_s. The last time is itself a frame if only rounding excludes
+// it: rounding of the sum and of both times, which grows with the times.
 class FrameClock {
  public:
-  // Throws ConfigError unless the step is positive, the end not before the beginning, frames fewer than 2^53, and times
-  // precise enough for the step.
+  // Throws ConfigError unless the step is positive, the end is not before the beginning, frames are fewer than 2^53,
+  // and times are precise enough for the step.
   FrameClock(double first_time_s, double last_time_s, double step_s);
 
   uint64_t frame_count() const { return frame_count_; }
@@ -30,7 +30,7 @@ struct PresentVehicle {
   Pose pose;
 };
 
-// The vehicles that are present at a time, in the order of their tracks.
+// Returns the vehicles that are present at a time, in the order of their tracks.
 std::vector<PresentVehicle> vehicles_at(const Trajectories& trajectories, double time_s);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// GPX (https://www.topografix.com/GPX/1/1/gpx.xsd): <trk> of <trkseg> of <trkpt lat lon> with a <time>.
-// Assumes that points of a track are in order; routes and single waypoints have no times and move nobody.
+// Reads GPX (https://www.topografix.com/GPX/1/1/gpx.xsd): <trk> of <trkseg> of <trkpt lat lon> with a <time>.
+// Points of a track must be in order; routes and single waypoints have no times and are skipped.
 #include "motion/gpx.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr size_t longest_text = 4096;  // of a name or a time
+constexpr size_t longest_text = 4096;  // longest name or time
 
 struct TrackPoint {
   std::optional<UtcTime> time;
@@ -133,13 +133,13 @@ class GpxReader : private XmlStream {
   TrackBuilder tracks_;
   std::vector<GpxTrack> found_;
   std::vector<std::string> open_;  // names of elements, from the root
-  std::string text_;               // of the innermost element
+  std::string text_;               // text of the innermost element
   TrackPoint point_{};
   std::set<std::string> ids_;
   uint64_t repeated_ = 0, elevations_ = 0;
 };
 
-// A whole number of so many digits from the front of the text.
+// Takes a whole number of this many digits from the front of the text.
 std::optional<int> take_digits(std::string_view& text, size_t count) {
   int value = 0;
   if (text.size() < count) return {};
@@ -155,7 +155,7 @@ bool take_letter(std::string_view& text, char letter) {
   return true;
 }
 
-// "Z", "+01:00" or nothing, to the end of the text: seconds east of Greenwich.
+// Parses "Z", "+01:00" or nothing, up to the end of the text; returns seconds east of Greenwich.
 std::optional<int> zone_seconds(std::string_view text) {
   if (text.empty() || text == "Z") return 0;
   const int sign = text.front() == '-' ? -1 : text.front() == '+' ? 1 : 0;

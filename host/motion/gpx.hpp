@@ -1,4 +1,4 @@
-// Tracks of GPS receivers: GPX 1.0 and 1.1.
+// Reads tracks of GPS receivers: GPX 1.0 and 1.1.
 #pragma once
 #include <compare>
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace wavetracer {
 
-// Every <trk> is a vehicle, called by its <name>; times are seconds after the earliest point of the file. Throws
+// Every <trk> becomes a vehicle, named by its <name>; times are seconds after the earliest point of the file. Throws
 // InputError.
 Trajectories read_gpx(ByteStream& stream, const TrajectoryOptions& options);
 
-// Since 1970. Whole seconds and the rest apart, as one double keeps today's times to 0.24 us only.
+// A time since 1970. Whole seconds and the rest are separate, as one double holds today's times to 0.24 us only.
 struct UtcTime {
   int64_t whole_s = 0;
   double rest_s = 0;  // below 1
@@ -22,7 +22,8 @@ struct UtcTime {
   }
 };
 
-// A time of XML Schema (ISO 8601), "2026-11-24T10:00:00.25Z"; without a zone it is UTC. Empty where the text is none.
+// Parses a time of XML Schema (ISO 8601), such as "2026-11-24T10:00:00.25Z"; without a zone it is UTC. Returns nothing
+// for other text.
 std::optional<UtcTime> utc_time(std::string_view text);
 
 }  // namespace wavetracer

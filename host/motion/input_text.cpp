@@ -1,5 +1,5 @@
-// std::from_chars with the checks that a trajectory file needs.
-// Assumes nothing about the text; NaN and infinity are not numbers here.
+// Parses with std::from_chars and the checks that a trajectory file needs.
+// NaN and infinity do not count as numbers here.
 #include "motion/input_text.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::optional<double> seconds(std::string_view text) {
     const size_t end = std::min(text.find(':'), text.size());
     const std::optional<double> part = finite_number(text.substr(0, end));
     if (!part || std::signbit(*part) || (unit < 3 && *part != std::floor(*part))) return std::nullopt;
-    if (unit > first && *part >= bounds[unit]) return std::nullopt;  // the first part has no bound
+    if (unit > first && *part >= bounds[unit]) return std::nullopt;  // the first part has no upper bound
     sum += *part * units_s[unit];
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -1,5 +1,5 @@
-// Text of trajectory files as numbers, and the form of their errors: file, line, what is wrong.
-// Assumes the C locale's decimal point, whatever the locale of the program is.
+// Parses text of trajectory files as numbers, and makes their error messages: file, line, what is wrong.
+// The decimal point is that of the C locale, whatever the locale of the program is.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,10 +14,10 @@ namespace wavetracer {
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);  // ASCII letters only
 
-// The whole text as a finite number, blanks around it allowed.
+// Parses the whole text as a finite number; blanks around it are allowed.
 std::optional<double> finite_number(std::string_view text);
 
-// Seconds, or SUMO's --human-readable-time: [days:]hours:minutes:seconds.
+// Parses seconds, or SUMO's --human-readable-time: [days:]hours:minutes:seconds.
 std::optional<double> seconds(std::string_view text);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Fields are read from the wire by protozero, in any order; what is not asked for is passed over.
-// Holds one message at a time.
+// protozero reads the fields in any order; other fields are skipped.
+// One message at a time is in memory.
 #include "motion/osi.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ using protozero::pbf_wire_type;
 
 constexpr uint64_t longest_message = uint64_t{1} << 28;
 
-// Visits the fields of a message; what visit does not take is passed over.
+// Visits the fields of a message; fields that visit does not take are skipped.
 template <class Visit>
 void visit_fields(const data_view& message, const Visit& visit) {
   pbf_reader reader(message);
@@ -42,7 +42,7 @@ bool is_number(const pbf_reader& reader, uint32_t field) {
   return reader.tag() == field && reader.wire_type() == pbf_wire_type::varint;
 }
 
-// The last one of a field that should come once.
+// Returns the last occurrence of a field that should appear once.
 std::optional<data_view> sub_message(const data_view& message, uint32_t field) {
   std::optional<data_view> out;
   visit_fields(message, [&](pbf_reader& reader) {
@@ -63,7 +63,7 @@ std::optional<uint64_t> sub_number(const data_view& message, uint32_t field) {
   return out;
 }
 
-// Three doubles; those that are not there are 0.
+// Reads three doubles; missing ones are 0.
 glm::dvec3 triple(const data_view& message) {
   glm::dvec3 out(0);
   visit_fields(message, [&](pbf_reader& reader) {
@@ -77,8 +77,9 @@ glm::dvec3 triple(const data_view& message) {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
-// Of a GroundTruth or a SensorView, whose field 7 is the GroundTruth. In a GroundTruth that is a traffic light, whose
-// field 2 holds messages; that of a GroundTruth is a time, which holds numbers.
+// Returns the GroundTruth of a SensorView, which is its field 7, or nothing if the message is a GroundTruth itself. To
+// tell them apart: field 7 of a GroundTruth is a traffic light, whose field 2 holds messages; field 2 of a GroundTruth
+// is a time, which holds numbers.
 std::optional<data_view> inner_ground_truth(const data_view& message) {
   const auto inside = sub_message(message, osi::sensor_view::global_ground_truth);
   if (!inside) return {};
@@ -92,7 +93,7 @@ std::optional<data_view> inner_ground_truth(const data_view& message) {
   return numbers ? inside : std::nullopt;
 }
 
-// What a moving object says of itself.
+// The fields of a moving object.
 struct OsiObject {
   std::optional<uint64_t> number;
   std::string id, type;
@@ -149,8 +150,8 @@ class OsiReader {
     }
     if (tracks_.tracks().empty())
       throw InputError(
-          fmt::format("{}: {} messages, and no moving object in them: a trace of GroundTruth or SensorView "
-                      "messages is needed",
+          fmt::format("{}: {} messages, and no moving object in them: a trace of GroundTruth "
+                      "or SensorView messages is needed",
                       stream_.file(), messages_));
     if (repeated_ > 0)
       tracks_.warn(
@@ -170,7 +171,7 @@ class OsiReader {
     throw InputError(fmt::format("{}: message {} {}", stream_.file(), messages_, what));
   }
 
-  // Appends at most so many bytes; returns how many.
+  // Appends at most this many bytes; returns how many it appended.
   size_t take(uint64_t count, std::string& to) {
     const size_t before = to.size();
     while (to.size() - before < count) {
@@ -259,14 +260,15 @@ class OsiReader {
 
   ByteStream& stream_;
   TrackBuilder tracks_;
-  std::string_view rest_;  // of the chunk
+  std::string_view rest_;  // unread part of the chunk
   std::optional<double> time_s_;
   uint64_t messages_ = 0, repeated_ = 0, tilted_ = 0;
 };
 
 }  // namespace
 
-// A length below 16 MiB, then a first field of at most 7 that is a message. No text begins so.
+// The file begins with a length below 16 MiB, then a field numbered at most 7 that is a message. No text begins like
+// this.
 bool is_osi_trace(std::string_view start) {
   if (start.size() < 5 || start[3] != 0) return false;
   const auto tag = static_cast<unsigned char>(start[4]);

@@ -1,6 +1,6 @@
-// ASAM Open Simulation Interface 3.8.0: the fields of its messages that traffic takes, by their numbers (osi_common,
-// osi_object, osi_groundtruth and osi_sensorview.proto), and its classes of vehicles.
-// Numbers never change between versions 3.x; what a newer one adds is passed over.
+// ASAM Open Simulation Interface 3.8.0: the numbers of the fields that are read (osi_common, osi_object,
+// osi_groundtruth and osi_sensorview.proto), and its classes of vehicles.
+// Numbers never change between versions 3.x; fields of newer versions are skipped.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -48,11 +48,11 @@ enum : uint32_t { reference = 1, type = 2, identifier = 3 };
 // MovingObject.Type
 enum : uint64_t { other_object = 1, vehicle_object = 2, pedestrian_object = 3 };
 
-// Our own source_reference: identifiers are the id of the vehicle and the name of its type.
+// The source_reference of this program: identifiers are the id of the vehicle and the name of its type.
 inline constexpr std::string_view reference = "wavetracer", reference_type = "org.wavetracer.vehicle";
 
-// MovingObject.VehicleClassification.Type, and the class of SUMO that is most like it. Of several rows of a number or
-// a class the first counts.
+// MovingObject.VehicleClassification.Type, and the SUMO class that is most like it. If a number or a class has several
+// rows, the first counts.
 struct ClassRow {
   uint64_t number;
   std::string_view word;
@@ -64,14 +64,14 @@ inline constexpr ClassRow classes[] = {
     {13, "tram"},     {14, "rail"},     {14, "rail_urban"}, {14, "rail_electric"}, {14, "rail_fast"}, {15, "bicycle"},
     {17, "bicycle"},  {18, "bicycle"},  {19, "truck"},      {20, "ship"}};
 
-// A vehicle of no known class is a car of its size.
+// A vehicle of an unknown class becomes a car of its size.
 constexpr std::string_view class_of_number(uint64_t number) {
   for (const ClassRow& row : classes)
     if (row.number == number) return row.word;
   return "passenger";
 }
 
-// What a type of ours is called there: MovingObject.Type, and the class of vehicles, 0 where it has none.
+// The OSI names of one of our types: MovingObject.Type, and the class of vehicles, 0 if it has none.
 struct ObjectClass {
   uint64_t object, vehicle;
 };

@@ -1,4 +1,4 @@
-// The columns by the header, then a row a place.
+// The header names the columns; each row is a place.
 #include "motion/parked.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 enum ParkedColumn : size_t { parked_x, parked_y, parked_z, parked_yaw, parked_type };
 constexpr std::array<std::string_view, 5> parked_names = {"x", "y", "z", "yaw", "type"};
-constexpr size_t parked_needed = 2;  // of the names
+constexpr size_t parked_needed = 2;  // number of names that are needed
 constexpr std::string_view parked_advice =
     "the first line must be a header with the columns x,y and optionally z,yaw,type";
 

@@ -1,5 +1,5 @@
-// Where vehicles are parked: CSV with a header that names the columns, in any order: x, y (m) are needed; z (m), yaw
-// (degrees counter-clockwise from +x) and type are optional, also cell by cell. Plain or gzip.
+// Reads places of parked vehicles: CSV with a header that names the columns, in any order: x, y (m) are needed; z (m),
+// yaw (degrees counter-clockwise from +x) and type are optional, and their cells may be empty. Plain or gzip.
 #pragma once
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -11,10 +11,10 @@ namespace wavetracer {
 struct ParkedPlace {
   glm::dvec3 position_m{0};  // centre of the footprint, on the ground
   double yaw_deg = 0;
-  std::string type;  // empty: not given
+  std::string type;  // empty if not given
 };
 
-// In the order of the file, at least one. Throws InputError.
+// Returns the places in the order of the file, at least one. Throws InputError.
 std::vector<ParkedPlace> read_parked(const std::filesystem::path& path);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Cubic Hermite interpolation of position, yaw and pitch, each with its derivative.
-// Assumes that differences of positions are small beside the positions: sums are written as sample plus difference.
+// Interpolates position, yaw and pitch by cubic Hermite polynomials, each with its derivative.
+// Differences of positions should be small beside the positions: sums are written as sample plus difference.
 #include "motion/pose.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Curve {
   double value, rate;
 };
 
-// The difference between the angles of two samples, the shorter way round for yaw.
+// Returns the difference between the angles of two samples, the shorter way round for yaw.
 double turn(const Sample& from, const Sample& to, double Sample::*angle) {
   return std::remainder(to.*angle - from.*angle, 2 * std::numbers::pi);
 }
@@ -24,8 +24,8 @@ bool starts_segment(const Track& track, size_t k) {
   return std::binary_search(track.segments.begin(), track.segments.end(), static_cast<uint32_t>(k));
 }
 
-// The rate of an angle at sample k: the weighted harmonic mean of the rates before and after (Fritsch and Butland),
-// zero where they differ in sign; the only one of them at the ends of a segment.
+// Returns the rate of an angle at sample k: the weighted harmonic mean of the rates before and after (Fritsch and
+// Butland), zero if they differ in sign; at an end of a segment, the one rate that exists.
 double rate_at(const Track& track, size_t k, double Sample::*angle) {
   const std::vector<Sample>& s = track.samples;
   const bool has_before = !starts_segment(track, k);
@@ -41,7 +41,7 @@ double rate_at(const Track& track, size_t k, double Sample::*angle) {
 }
 
 Pose make_pose(const glm::dvec3& position_m, const glm::dvec3& velocity_m_s, Curve yaw, Curve pitch) {
-  // Rotation about z by yaw, after rotation about y by -pitch: a positive rotation about y would lower the nose.
+  // A rotation about z by yaw is applied after one about y by -pitch: a positive rotation about y would lower the nose.
   const glm::dquat turned(std::cos(yaw.value / 2), 0, 0, std::sin(yaw.value / 2));
   const glm::dquat tilted(std::cos(pitch.value / 2), 0, -std::sin(pitch.value / 2), 0);
   const glm::dvec3 left(-std::sin(yaw.value), std::cos(yaw.value), 0);

@@ -1,5 +1,5 @@
-// Which reader a file needs, by its first bytes.
-// Assumes that XML begins with '<' after blanks and a byte order mark, and that no CSV file does.
+// Chooses the reader of a file by its first bytes.
+// XML begins with '<' after blanks and a byte order mark, and CSV files do not.
 #include "motion/read.hpp"
 
 #include <fmt/format.h>
@@ -18,18 +18,19 @@ namespace wavetracer {
 Trajectories read_trajectories(const std::filesystem::path& path, const TrajectoryOptions& options) {
   ByteStream stream(path);
   const std::string_view start = stream.peek();
-  // Blanks, the byte order marks of UTF-8 and UTF-16, and the zero bytes of UTF-16, which expat reads.
+  // These bytes are skipped: blanks, the byte order marks of UTF-8 and UTF-16, and the zero bytes of UTF-16, which
+  // expat reads.
   constexpr std::string_view passed_over(" \t\r\n\xEF\xBB\xBF\xFF\xFE\0", 10);
   if (is_osi_trace(start)) return read_osi(stream, options);
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {
-    throw InputError(fmt::format(
-        "{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX, CSV, an OSI trace, or what "
-        "esmini or CARLA has recorded",
-        stream.file()));
+    throw InputError(
+        fmt::format("{}: the file is empty; a trajectory file is the FCD output of SUMO, GPX, CSV, an OSI trace, "
+                    "or what esmini or CARLA has recorded",
+                    stream.file()));
   }
   if (start[first] == '<') {
-    const size_t gpx = start.find("<gpx");  // comments and instructions may come before
+    const size_t gpx = start.find("<gpx");  // comments and processing instructions may come first
     return gpx < start.find("<fcd-export") ? read_gpx(stream, options) : read_fcd(stream, options);
   }
   if (start.substr(0, first).find_first_of("\xFF\xFE") != start.npos) {

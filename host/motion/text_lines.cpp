@@ -1,4 +1,4 @@
-// Chunks into lines.
+// Splits chunks into lines.
 #include "motion/text_lines.hpp"
 
 #include "motion/input_text.hpp"

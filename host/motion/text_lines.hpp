@@ -1,5 +1,5 @@
-// A file line by line: line ends LF or CRLF, a byte order mark is passed over.
-// Assumes that no line is longer than a megabyte: such a file is something else.
+// Reads a file line by line: lines end with LF or CRLF, a byte order mark is skipped.
+// A line of more than a megabyte is an error: such a file is no table.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,9 +12,9 @@ class TextLines {
  public:
   explicit TextLines(ByteStream& stream) : stream_(stream) {}
 
-  // The next line; false at the end of the file.
+  // Reads the next line; returns false at the end of the file.
   bool next();
-  // Without its end.
+  // Returns the line without its end.
   const std::string& line() const { return line_; }
   uint64_t number() const { return number_; }  // counted from 1
   const std::string& file() const { return stream_.file(); }
@@ -23,7 +23,7 @@ class TextLines {
 
  private:
   ByteStream& stream_;
-  std::string_view rest_;  // of the chunk
+  std::string_view rest_;  // unread part of the chunk
   std::string line_;
   uint64_t number_ = 0;
 };

@@ -1,5 +1,5 @@
-// Samples into tracks, tracks into their final order.
-// Assumes that samples which agree in id are of one vehicle, whatever else the file says of them.
+// Collects samples into tracks, and puts tracks into their final order.
+// Samples with the same id belong to one vehicle.
 #include "motion/track_builder.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +16,10 @@
 namespace wavetracer {
 namespace {
 
-// As the keys of the configuration take them (config/field_table.hpp).
+// These are the limits of the configuration's keys (config/field_table.hpp).
 constexpr double farthest_m = 1e9, fastest_m_s = 1e8, most_time_s = 1e12;
 
-// The first of the names, for messages.
+// Returns the first of the names, for messages.
 std::string listed(const std::vector<std::string>& names) {
   constexpr size_t shown = 5;
   std::string out;
@@ -38,10 +38,10 @@ TrackBuilder::TrackBuilder(std::string file, const TrajectoryOptions& options)
   if (options.default_type) check_type(*options.default_type);
 }
 
-// Files are full of numbers that a program had no value for, such as 1e308.
+// Files contain numbers such as 1e308 that stand for a missing value.
 void TrackBuilder::check_sizes(const Sample& sample, uint64_t line, std::string_view what) const {
   const auto check = [&](double value, double most, const char* name, const char* unit) {
-    if (std::abs(value) > most)  // false for what is not given
+    if (std::abs(value) > most)  // the comparison is false for missing values
       fail_at(file_, line, fmt::format("{}: its {} is {:g} {}, and {:g} is the most", what, name, value, unit, most));
   };
   check(sample.time_s, most_time_s, "time", "s");
@@ -56,8 +56,8 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   if (found == track_of_.end()) {
     if (has_control_character(id) || has_control_character(type))
       fail_at(file_, line,
-              fmt::format("{}: its id or type contains a control character, such as a line break, which tables and "
-                          "plots cannot show: remove it",
+              fmt::format("{}: its id or type contains a control character, such as a line break, which tables "
+                          "and plots cannot show: remove it",
                           what));
     track_of_.emplace(id, static_cast<uint32_t>(out_.tracks.size()));
     out_.tracks.push_back({std::string(id), type_index(type, line, size_m), {sample}, {}});
@@ -97,8 +97,8 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const st
   if (!type) {
     if (!options_.default_type) {
       fail_at(file_, line,
-              fmt::format("the vehicle type '{}' is unknown: add a [[vehicle_type]] with its length_m, width_m and "
-                          "height_m, or give trajectories.default_type",
+              fmt::format("the vehicle type '{}' is unknown: add a [[vehicle_type]] with its length_m, width_m "
+                          "and height_m, or give trajectories.default_type",
                           name));
     }
     type = options_.default_type;
@@ -116,18 +116,18 @@ void TrackBuilder::in_degrees(bool above_ground) {
   above_ground_ = above_ground;
   if (!options_.from_degrees)
     throw InputError(
-        fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside the scene file "
-                    "(docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one)",
+        fmt::format("{}: positions are latitude and longitude, which need a georeference.json beside "
+                    "the scene file (docs/formats.md has its form; `wavetracer convert MAP -o FOLDER` writes one)",
                     file_));
   if (options_.scale != 1 || options_.offset_m != glm::dvec3(0))
     throw ConfigError(
-        fmt::format("{}: positions are latitude and longitude, which the georeference of the scene places: remove "
-                    "trajectories.offset_m and trajectories.scale",
+        fmt::format("{}: positions are latitude and longitude, which the georeference of the scene places: "
+                    "remove trajectories.offset_m and trajectories.scale",
                     file_));
 }
 
-// File coordinates to those of the scene; heights above the ground to z. A place without a ground below has the one of
-// the sample before.
+// Converts file coordinates to those of the scene, and heights above the ground to z. A place without ground below gets
+// the ground of the sample before.
 void TrackBuilder::place(Track& track) {
   const bool on_ground = (above_ground_ || options_.above_ground) && options_.ground;
   double ground_m = 0;
@@ -141,7 +141,7 @@ void TrackBuilder::place(Track& track) {
     off_ground_ += !below_m;
     ground_m = below_m.value_or(ground_m);
     s.position_m.z += ground_m;
-    s.pitch_rad = not_given;  // that of the ground
+    s.pitch_rad = not_given;  // pitch follows the ground
   }
 }
 
@@ -167,10 +167,10 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
                      options_.default_type->height_m));
   }
   if (off_network_ > 0) {
-    warn(fmt::format(
-        "{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: the vehicle is "
-        "absent at these times",
-        file_, off_network_, sumo_invalid));
+    warn(
+        fmt::format("{}: {} samples have x or y = {:.0f}, which SUMO writes for a vehicle off the network: "
+                    "the vehicle is absent at these times",
+                    file_, off_network_, sumo_invalid));
   }
   if (off_ground_ > 0) {
     warn(fmt::format("{}: {} samples are outside of the ground: their vehicles keep the height that they had before",

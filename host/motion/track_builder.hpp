@@ -1,5 +1,5 @@
-// Collects the samples of a file as they come, and makes Trajectories of them at its end.
-// Assumes file coordinates while it collects; the samples of one vehicle must come in order of time.
+// Collects the samples of a file, and makes Trajectories of them at its end.
+// Samples are in file coordinates while it collects; those of one vehicle must come in order of time.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace wavetracer {
 
-// What SUMO writes for a value that it does not know (its INVALID_DOUBLE_VALUE): as x or y, of a vehicle that is not on
-// the network.
+// The number that SUMO writes for an unknown value (its INVALID_DOUBLE_VALUE): as x or y, it marks a vehicle that is
+// not on the network.
 constexpr double sumo_invalid = -1073741824;
 
-// What the position of a sample is in the file.
+// The point of the vehicle that a sample's position refers to.
 enum class ReferencePoint { centre, front_bumper };
 
 class TrackBuilder {
@@ -25,25 +25,25 @@ class TrackBuilder {
   TrackBuilder(std::string file, const TrajectoryOptions& options);
 
   const std::string& file() const { return file_; }
-  // what: the sample as messages name it, "vehicle 'a'"; size_m: length, width and height, where the file tells them
-  // (those of TrajectoryOptions::types go before). Throws where the vehicle has a sample at this time or a later.
+  // what: the sample's name in messages, such as "vehicle 'a'"; size_m: length, width and height if the file gives them
+  // (those of TrajectoryOptions::types take precedence). Throws if the vehicle has a sample at this time or later.
   void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what,
            const std::optional<glm::dvec3>& size_m = {});
-  // Whether the vehicle is off the network, by its file coordinates. Such a sample is not to be added, but counted
-  // here: the vehicle is absent then.
+  // Tells whether the vehicle is off the network, by its file coordinates, and counts it. Such a sample must not be
+  // added: the vehicle is absent then.
   bool off_network(double x, double y) {
     const bool off = x == sumo_invalid || y == sumo_invalid;
     off_network_ += off;
     return off;
   }
-  // Positions are (longitude, latitude) in degrees and the height, which is above the ground unless the file has
-  // heights of its own. Throws where the options have nothing to place them with.
+  // Declares that positions are (longitude, latitude) in degrees and the height, which is above the ground unless the
+  // file has heights of its own. Throws if the options cannot place degrees.
   void in_degrees(bool above_ground = true);
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
-  // The samples so far, by first appearance in the file, in file coordinates.
+  // Returns the tracks so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }
 
-  // Scene coordinates, segments, headings, velocities, and the final order.
+  // Computes scene coordinates, segments, headings, velocities, and the final order.
   Trajectories finish(ReferencePoint reference);
 
  private:
@@ -61,7 +61,7 @@ class TrackBuilder {
   std::string file_;
   const TrajectoryOptions& options_;
   Trajectories out_;
-  std::vector<uint64_t> last_line_;  // of each track
+  std::vector<uint64_t> last_line_;  // for each track
   ByName<uint32_t> track_of_, type_of_;
   std::vector<std::string> unknown_types_;
   uint64_t changed_types_ = 0, off_network_ = 0, off_ground_ = 0;

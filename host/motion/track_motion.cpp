@@ -1,5 +1,5 @@
-// The order of tracks, the cuts between segments, headings and velocities from differences of positions.
-// Assumes nothing about the spacing of samples.
+// Sorts tracks, cuts segments, and computes headings and velocities from differences of positions, for samples at any
+// spacing.
 #include "motion/track_motion.hpp"
 
 #include <algorithm>
@@ -11,12 +11,13 @@
 namespace wavetracer {
 namespace {
 
-constexpr double standing_m = 1e-3;  // a vehicle that moves less between two samples stands
+constexpr double standing_m = 1e-3;  // a vehicle that moves less than this between two samples stands
 constexpr double gap_steps = 1.5;
-// A jump is what goes beyond: the higher of both speeds, with this factor for what it may be in between,
+// A jump is longer than the sum of three distances: by the higher of both speeds, with this factor since it may be
+// higher in between,
 constexpr double jump_factor = 1.5;
-constexpr double jump_acceleration_m_s2 = 10;  // braking or starting, beyond any tyre,
-constexpr double jump_margin_m = 5;            // and a change of lanes, which SUMO makes in one step.
+constexpr double jump_acceleration_m_s2 = 10;  // by braking or starting, harder than any tyre allows,
+constexpr double jump_margin_m = 5;            // and by a change of lanes, which SUMO makes in one step.
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -31,11 +32,11 @@ void append_steps(const Track& track, std::vector<double>& steps_s) {
   }
 }
 
-// The step without rounding. Near 1.7e9 s a step of 0.1 s reads as 0.10000014 s, and after some hundred thousand frames
-// none would be where a sample is. Where that is so, the step is the mean of the longest run of samples so far apart,
-// in as few digits as its error allows.
+// Returns the step without rounding. Near 1.7e9 s a step of 0.1 s reads as 0.10000014 s, so after some hundred thousand
+// frames no frame would fall on a sample. In such a case, the step is the mean of the longest run of equally spaced
+// samples, in as few digits as its error allows.
 double unrounded_step(const std::vector<Track>& tracks, double step_s, double largest_s) {
-  constexpr double negligible = 1e-9;  // of a step
+  constexpr double negligible = 1e-9;  // share of a step
   const double error_s = time_spacing_s(largest_s);
   if (!(error_s > negligible * step_s)) return step_s;
   double run_s = step_s, steps = 1;
@@ -64,7 +65,7 @@ bool is_jump(const Sample& a, const Sample& b, double max_speed_m_s) {
 struct LocalMotion {
   glm::dvec3 velocity_m_s{0};
   bool moves = false;   // before or after the sample
-  bool stands = false;  // before or after it
+  bool stands = false;  // before or after the sample
 };
 
 LocalMotion local_motion(const std::vector<Sample>& samples, size_t first, size_t end, size_t k) {
@@ -96,8 +97,8 @@ void for_each_motion(const Track& track, const Visit& visit) {
   }
 }
 
-// Samples that know no value take that of the sample before them, or of the first one that has a value.
-// Returns whether none has.
+// A sample without a value takes that of the sample before it, or of the first one that has a value.
+// Returns true if none has one.
 bool carry_over(std::vector<Sample>& samples, double Sample::*member) {
   const auto known = [&](const Sample& s) { return !std::isnan(s.*member); };
   const auto found = std::find_if(samples.begin(), samples.end(), known);
@@ -157,12 +158,12 @@ bool complete_headings(Track& track) {
   for_each_motion(track, [&](size_t k, const LocalMotion& motion) {
     const glm::dvec3& v = motion.velocity_m_s;
     const double level = std::hypot(v.x, v.y);
-    if (!motion.moves || level < 1e-6) return;  // standing, turning back, or going straight up
+    if (!motion.moves || level < 1e-6) return;  // it stands, turns back, or goes straight up
     Sample& s = samples[k];
     if (std::isnan(s.yaw_rad)) s.yaw_rad = std::atan2(v.y, v.x);
     if (std::isnan(s.pitch_rad)) {
       const double along = v.x * std::cos(s.yaw_rad) + v.y * std::sin(s.yaw_rad);
-      s.pitch_rad = std::atan(v.z / std::copysign(level, along));  // nose down where it reverses uphill
+      s.pitch_rad = std::atan(v.z / std::copysign(level, along));  // the nose is down if it reverses uphill
     }
   });
   carry_over(samples, &Sample::pitch_rad);  // a vehicle that never moves is level

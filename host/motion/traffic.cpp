@@ -1,5 +1,5 @@
-// Cars that follow one another along lanes and reserve crossings, step by step.
-// A vehicle belongs to the lane it came along until its centre has crossed; all braking obeys one limit.
+// Simulates cars that follow one another along lanes and reserve crossings, step by step.
+// A vehicle belongs to the lane it came from until its centre has crossed; all braking obeys one limit.
 #include "motion/traffic.hpp"
 
 #include <fmt/format.h>
@@ -16,14 +16,14 @@ namespace wavetracer {
 namespace {
 
 constexpr double acceleration_m_s2 = 2, braking_m_s2 = 3;
-constexpr double slowing_m_s2 = 2, sideways_m_s2 = 2.5;  // before turns, and in them
-constexpr double reaction_s = 1;                         // above every step, which is what makes the gaps safe
+constexpr double slowing_m_s2 = 2, sideways_m_s2 = 2.5;  // before turns, and in turns
+constexpr double reaction_s = 1;                         // longer than every step, which makes the gaps safe
 constexpr double gap_m = 2;                              // between standing vehicles
 constexpr double standing_m_s = 0.5;                     // slower than this counts as standing
 constexpr double margin_m = 1;                           // between a standing vehicle and a crossing
-constexpr double largest_step_s = 0.1;                   // of states; samples may be farther apart
-constexpr double warm_up_s = 20;                         // from standing on the slots to traffic
-constexpr uint32_t slot_m = 16;                          // of a lane, for one vehicle at the beginning
+constexpr double largest_step_s = 0.1;                   // largest step of the simulation; samples may be farther apart
+constexpr double warm_up_s = 20;                         // time from standing in the slots to normal traffic
+constexpr uint32_t slot_m = 16;  // length of lane in which one vehicle is placed at the beginning
 constexpr uint32_t none = 0xFFFFFFFFu;
 
 // SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014).
@@ -36,14 +36,15 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  // A whole number below `end`; the bias of the remainder is below 2^-32.
+  // Returns a whole number below `end`; the bias of the remainder is below 2^-32.
   uint32_t below(uint32_t end) { return static_cast<uint32_t>(next() % end); }
 
  private:
   uint64_t state_;
 };
 
-// The highest speed from which a vehicle stops behind one of leader_m_s that brakes now, after it has reacted.
+// Returns the highest speed from which a vehicle can still stop behind one of leader_m_s that brakes now, after its
+// reaction time.
 double safe_speed_m_s(double free_m, double leader_m_s) {
   constexpr double reaction_m_s = braking_m_s2 * reaction_s;
   return std::sqrt(reaction_m_s * reaction_m_s + leader_m_s * leader_m_s + 2 * braking_m_s2 * std::max(free_m, 0.0)) -
@@ -53,19 +54,19 @@ double safe_speed_m_s(double free_m, double leader_m_s) {
 struct Vehicle {
   uint32_t type;
   double length_m, wanted_m_s;
-  Random random;  // of its turns
+  Random random;  // decides its turns
   uint32_t lane;
-  double along_m;  // of its centre, from the beginning of the lane
+  double along_m;  // position of its centre, from the beginning of the lane
   Turn turn = Turn::straight;
   double speed_m_s = 0, next_m_s = 0;
-  bool waits = false, admitted = false;  // for and to the crossing ahead
+  bool waits = false, admitted = false;  // waits for the crossing ahead, may enter it
   double rear_m() const { return along_m - length_m / 2; }
 };
 
 struct Lane {
   std::vector<uint32_t> vehicles;  // the first one first
-  uint32_t left_by = none;         // the last vehicle that went on from here, while its rear is on the crossing
-  double left_m = 0;               // what it has come from the beginning of this lane to that of its own
+  uint32_t left_by = none;         // the last vehicle that left this lane, while its rear is still on the crossing
+  double left_m = 0;               // the distance that it has driven since the beginning of this lane
 };
 
 struct Reservation {
@@ -75,7 +76,7 @@ struct Reservation {
 
 struct Crossing {
   std::vector<uint32_t> waiting;      // in order of arrival
-  std::vector<Reservation> admitted;  // until their rear has left it
+  std::vector<Reservation> admitted;  // until their rear has left the crossing
 };
 
 class Traffic {
@@ -106,7 +107,7 @@ class Traffic {
   }
 
  private:
-  // Vehicles on slots of the lanes, chosen by chance.
+  // Places vehicles in slots of the lanes, at random.
   void place(const TrafficOptions& options) {
     const uint32_t slots_a_lane = options.grid.block_m / slot_m;
     std::vector<std::pair<uint32_t, uint32_t>> slots;  // lane, slot
@@ -138,17 +139,18 @@ class Traffic {
 
   void choose_turn(Vehicle& v) const {
     std::vector<Turn> turns;
-    for (const Turn turn : {Turn::straight, Turn::straight, Turn::left, Turn::right}) {  // straight on twice as often
+    for (const Turn turn : {Turn::straight, Turn::straight, Turn::left, Turn::right}) {
+      // Straight on is twice as likely.
       if (streets_.exists(streets_.lane_after(v.lane, turn))) turns.push_back(turn);
     }
     v.turn = turns[v.random.below(static_cast<uint32_t>(turns.size()))];
   }
 
   double way_end_m(const Vehicle& v) const { return streets_.lane_m() + streets_.way_m(v.turn); }
-  // From the front of the vehicle to where it waits for the crossing.
+  // Returns the distance from the front of the vehicle to the place where it waits for the crossing.
   double line_ahead_m(const Vehicle& v) const { return streets_.lane_m() - margin_m - v.length_m / 2 - v.along_m; }
 
-  // The first vehicle that has no reservation asks for one when it would have to brake without.
+  // The first vehicle without a reservation asks for one when it would otherwise have to brake.
   void ask(const Lane& lane) {
     const auto first =
         std::find_if(lane.vehicles.begin(), lane.vehicles.end(), [&](uint32_t i) { return !vehicles_[i].admitted; });
@@ -159,8 +161,8 @@ class Traffic {
     crossings_[streets_.crossing_after(v.lane)].waiting.push_back(*first);
   }
 
-  // In order of arrival. Who finds no room behind the crossing lets the next ones go first, and turns elsewhere once it
-  // stands: else vehicles around a block could wait for one another.
+  // Vehicles are admitted in order of arrival. A vehicle without room behind the crossing lets the next ones go first,
+  // and turns elsewhere once it stands; otherwise vehicles around a block could wait for one another for ever.
   void admit(Crossing& crossing) {
     for (size_t k = 0; k < crossing.waiting.size();) {
       const uint32_t i = crossing.waiting[k];
@@ -181,7 +183,8 @@ class Traffic {
     }
   }
 
-  // At the beginning of the lane, were all vehicles to stop that are on it or have a reservation on their way to it.
+  // Returns the free length at the beginning of the lane if all vehicles stopped that are on it or have a reservation
+  // for it.
   double room_behind_m(const Crossing& crossing, uint32_t lane) const {
     const std::vector<uint32_t>& there = lanes_[lane].vehicles;
     double room_m = there.empty() ? streets_.lane_m() : vehicles_[there.back()].rear_m();
@@ -192,7 +195,7 @@ class Traffic {
     return room_m;
   }
 
-  // The next speeds of the vehicles of a lane.
+  // Computes the next speeds of the vehicles of a lane.
   void follow(const Lane& lane, double step_s) {
     const Vehicle* leader = lane.left_by == none ? nullptr : &vehicles_[lane.left_by];
     double leader_rear_m = leader ? lane.left_m + leader->rear_m() : 0;
@@ -225,7 +228,7 @@ class Traffic {
     return std::sqrt(sideways_m_s2 * streets_.radius_m(v.turn) + 2 * slowing_m_s2 * ahead_m);
   }
 
-  // Vehicles that have crossed go on along the next lane.
+  // Moves vehicles that have crossed to the next lane.
   void hand_on(Lane& lane) {
     while (!lane.vehicles.empty()) {
       const uint32_t i = lane.vehicles.front();

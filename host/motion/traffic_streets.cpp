@@ -1,5 +1,5 @@
 // The geometry of lanes and turns: straight lines and quarter circles that begin and end at the edges of a crossing.
-// Only poses use trigonometry: what decides how vehicles move is the same on every platform.
+// Only poses use trigonometry: the decisions of the simulation are the same on every platform.
 #include "motion/traffic_streets.hpp"
 
 #include <fmt/format.h>
@@ -12,15 +12,15 @@
 namespace wavetracer {
 namespace {
 
-constexpr double lane_offset_m = 3;  // of a lane's middle from the centre line of the street
-// A right turn of radius 3 m, from which the corners of the longest vehicle stay on their side of the street.
+constexpr double lane_offset_m = 3;  // distance of a lane's middle from the centre line of the street
+// Allows a right turn of radius 3 m in which the corners of the longest vehicle stay on their side of the street.
 constexpr uint32_t narrowest_street_m = 12;
 
 constexpr std::array<std::array<int, 2>, 4> directions = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
 glm::dvec3 direction(uint32_t d) { return {directions[d % 4][0], directions[d % 4][1], 0}; }
 
-// Quarter turns counter-clockwise.
+// Returns the number of quarter turns counter-clockwise.
 uint32_t quarters(Turn turn) { return turn == Turn::left ? 1 : turn == Turn::right ? 3 : 0; }
 
 }  // namespace

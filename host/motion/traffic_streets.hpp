@@ -1,4 +1,4 @@
-// The lanes of a grid of streets: where they lie, how they join at crossings, and the poses along them.
+// The lanes of a grid of streets: their places, their connections at crossings, and the poses along them.
 // Traffic keeps to the right; every street has one lane each way. A lane begins where it leaves a crossing.
 #pragma once
 #include <array>
@@ -17,7 +17,7 @@ enum class Turn { straight, left, right };
 
 class Streets {
  public:
-  // Throws ConfigError where the streets are too narrow for vehicles to pass and turn.
+  // Throws ConfigError if the streets are too narrow for vehicles to pass and turn.
   explicit Streets(const StreetGrid& grid);
 
   uint32_t crossing_count() const { return (grid_.blocks_x + 1) * (grid_.blocks_y + 1); }
@@ -26,14 +26,14 @@ class Streets {
   bool exists(uint32_t lane) const;
   double lane_m() const { return grid_.block_m; }
 
-  // Of lanes that exist: the crossing at the end, and the lane that a turn there leads to.
+  // For lanes that exist: the crossing at the end, and the lane that a turn there leads to.
   uint32_t crossing_after(uint32_t lane) const;
   uint32_t lane_after(uint32_t lane, Turn turn) const;
-  // Whether the ways of two vehicles over a crossing touch nowhere but behind one another: they come from one lane,
-  // or from opposite ones and neither turns left.
+  // Tells whether the ways of two vehicles over a crossing do not touch, except one behind the other: they come from
+  // one lane, or from opposite ones and neither turns left.
   static bool compatible(uint32_t lane_a, Turn turn_a, uint32_t lane_b, Turn turn_b);
 
-  // The way over a crossing, and the radius of its arc; straight ways have none.
+  // The length of the way over a crossing, and the radius of its arc; straight ways have no radius.
   double way_m(Turn turn) const;
   double radius_m(Turn turn) const;
 

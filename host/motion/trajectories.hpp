@@ -1,4 +1,4 @@
-// Where vehicles are and how they move: tracks of samples in scene coordinates, grouped by vehicle type.
+// The motion of vehicles: tracks of samples in scene coordinates, grouped by vehicle type.
 // Yaw is counter-clockwise from +x, pitch is positive nose up; a vehicle looks along +x of its own frame, z is up.
 #pragma once
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace wavetracer {
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 struct VehicleType {
-  std::string name;  // as in the trajectory file
+  std::string name;  // the name in the trajectory file
   double length_m, width_m, height_m;
   bool operator==(const VehicleType&) const = default;
 };
 
-// The state of a vehicle at one instant. Readers leave what their file does not tell at not_given; every Sample of a
-// finished Trajectories is complete.
+// The state of a vehicle at one time. Readers set values that their file lacks to not_given; every Sample of a finished
+// Trajectories is complete.
 struct Sample {
   double time_s = 0;
   glm::dvec3 position_m{0};  // centre of the footprint, on the ground
@@ -30,16 +30,16 @@ struct Sample {
 struct Track {
   std::string id;
   uint32_t type = 0;               // index into Trajectories::types
-  std::vector<Sample> samples;     // in strictly increasing time
+  std::vector<Sample> samples;     // in order of strictly increasing time
   std::vector<uint32_t> segments;  // first sample of each segment; between segments the vehicle is absent
-  bool mounts = true;              // [[mount]]s put antennas on it
+  bool mounts = true;              // true if [[mount]] entries put antennas on it
 };
 
 struct Trajectories {
   std::vector<VehicleType> types;
-  std::vector<Track> tracks;                 // by the time of the first sample, then by id
-  double first_time_s = 0, last_time_s = 0;  // of all samples
-  double step_s = 0;                         // median time between samples of a vehicle; 0 where no vehicle has two
+  std::vector<Track> tracks;                 // sorted by the time of the first sample, then by id
+  double first_time_s = 0, last_time_s = 0;  // over all samples
+  double step_s = 0;                         // median time between samples of a vehicle; 0 if no vehicle has two
   std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,5 @@
-// SUMO's table of vehicle classes: "Vehicle Type Parameter Defaults" of its documentation, as of SUMO 1.18.
-// Assumes that trailing digits of a word and anything but letters only number or separate the words of a name.
+// SUMO's table of vehicle classes: "Vehicle Type Parameter Defaults" of its documentation, as of SUMO 1.18. Digits at
+// the end of a word, and characters other than letters, only number or separate the words of a name.
 #include "motion/vehicle_types.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +95,7 @@ std::optional<VehicleType> sumo_type(std::string_view name) {
 
 void check_type(const VehicleType& type) {
   if (type.length_m == 0 && type.width_m == 0 && type.height_m == 0)
-    return;  // no body: [[vehicle_type]] model = "none"
+    return;  // it has no body: [[vehicle_type]] model = "none"
   for (const double size_m : {type.length_m, type.width_m, type.height_m}) {
     if (size_m > 0 && size_m < std::numeric_limits<double>::infinity()) continue;
     throw ConfigError(fmt::format(

@@ -1,5 +1,5 @@
-// Tracks of waypoints: positions and times alone, everything else follows from them.
-// Assumes scene coordinates; gaps are meant, so no track is cut.
+// Makes tracks of waypoints: only positions and times are given, everything else follows from them.
+// Positions are in scene coordinates; gaps are intended, so no track is cut.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace wavetracer {
 
 namespace {
 
-// Onto the ground: more samples, 2 m apart along the way, each at the height of the ground there.
+// Puts a track onto the ground: adds samples, 2 m apart along the way, each at the height of the ground there.
 void lay_on_ground(Track& track, const GroundHeight& ground) {
   constexpr double step_m = 2, most_pieces = 100000;
   std::vector<Sample> samples;
@@ -83,7 +83,8 @@ Trajectories connect_waypoints(std::span<const WaypointTrack> tracks, const Grou
   set_order(out);
   for (const WaypointTrack& from : tracks)
     if (from.above_ground && ground)
-      lay_on_ground(*std::ranges::find(out.tracks, from.id, &Track::id), ground);  // the step stays that of waypoints
+      // The step remains that of the waypoints.
+      lay_on_ground(*std::ranges::find(out.tracks, from.id, &Track::id), ground);
   return out;
 }
 

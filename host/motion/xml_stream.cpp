@@ -1,5 +1,5 @@
-// The callbacks of expat as virtual functions.
-// Assumes that expat may go on for a few events after it was stopped.
+// Turns the callbacks of expat into virtual functions.
+// expat may report a few more events after it was stopped.
 #include "motion/xml_stream.hpp"
 
 #include <fmt/format.h>
@@ -53,10 +53,10 @@ void XmlStream::parse_all(std::string_view unfinished) {
 }
 
 void XmlStream::parse(std::string_view chunk, bool last, std::string_view unfinished) {
-  constexpr uint64_t longest = 1 << 20;  // expat reads an open tag or comment anew with every chunk
+  constexpr uint64_t longest = 1 << 20;  // expat reads an unfinished tag or comment again with every chunk
   bytes_ += chunk.size();
   if (XML_Parse(parser_.get(), chunk.data(), static_cast<int>(chunk.size()), last) == XML_STATUS_OK) {
-    const XML_Index begin = XML_GetCurrentByteIndex(parser_.get());  // of what is open
+    const XML_Index begin = XML_GetCurrentByteIndex(parser_.get());  // beginning of the unfinished part
     if (!last && begin >= 0 && bytes_ - static_cast<uint64_t>(begin) > longest)
       fail(fmt::format("a tag, an attribute or a comment of more than {} bytes begins here; this is not {}", longest,
                        kind_));

@@ -1,5 +1,5 @@
-// An XML file through expat, chunk by chunk: elements, texts and comments as they come, with lines for messages.
-// Assumes that exceptions must not cross expat, which is C: a callback keeps its own and stops the parser.
+// Reads an XML file through expat, chunk by chunk: elements, texts and comments as they come, with line numbers for
+// messages. Exceptions must not cross expat, which is C: a callback stores its exception and stops the parser.
 #pragma once
 #include <expat.h>
 
@@ -17,14 +17,14 @@ class XmlStream {
  public:
   using Attributes = const XML_Char**;
 
-  // kind: what the file should be, for messages, such as "an FCD output". The stream must outlive this.
+  // kind: what the file should be, for messages, such as "an FCD output". The stream must outlive this object.
   XmlStream(ByteStream& stream, const char* kind);
   virtual ~XmlStream() = default;
   XmlStream(const XmlStream&) = delete;
   XmlStream& operator=(const XmlStream&) = delete;
 
  protected:
-  // Reads to the end; unfinished: what to say where the file ends before its last element does. Throws InputError.
+  // Reads to the end; unfinished: message if the file ends before its last element does. Throws InputError.
   void parse_all(std::string_view unfinished);
 
   virtual void start(std::string_view name, Attributes attributes) = 0;
@@ -35,7 +35,7 @@ class XmlStream {
   const std::string& file() const { return stream_.file(); }
   uint64_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
   [[noreturn]] void fail(std::string_view what) const;
-  // The value of an attribute, or nullptr.
+  // Returns the value of an attribute, or nullptr.
   static const XML_Char* find(Attributes attributes, std::string_view name);
 
  private:
@@ -50,8 +50,8 @@ class XmlStream {
   ByteStream& stream_;
   const char* kind_;
   std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
-  std::exception_ptr error_;  // thrown in a callback
-  uint64_t bytes_ = 0;        // given to the parser
+  std::exception_ptr error_;  // exception that a callback threw
+  uint64_t bytes_ = 0;        // bytes given to the parser
 };
 
 }  // namespace wavetracer

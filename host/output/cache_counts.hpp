@@ -1,5 +1,6 @@
 // The counts of a CacheSummary that add up over frames, with the names they have in summary.json and in manifests.
-// What describes the table (entries, used, bytes, entries_by_hits) does not add up; that of the last frame is kept.
+// Values that describe the table (entries, used, bytes, entries_by_hits) are not added: those of the last frame are
+// kept.
 #pragma once
 #include <array>
 #include <utility>

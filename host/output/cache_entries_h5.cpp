@@ -1,4 +1,4 @@
-// cache_entries.h5: one table, /cache_entries, a row per entry that holds a segment.
+// Writes cache_entries.h5: one table, /cache_entries, a row per entry that holds a segment.
 // A. Zhdanov, TU Munich, 2014, section 6.3.1, prints such a file: element, times of its operations, hits.
 #include "output/cache_entries_h5.hpp"
 #include <fmt/format.h>
@@ -45,13 +45,13 @@ void append_cache_entries_h5(const Run&, const FrameResult& frame, FrameTables& 
          "the receivers that launch rays too",
          rows.region);
   column("depth", "1",
-         "steps of a search until it meets the entry: 1 in the bucket itself, more in the bucket's tree; 0 if no "
-         "search meets it, because another ray wrote the same segment first",
+         "steps of a search until it meets the entry: 1 in the bucket itself, more in the bucket's tree; "
+         "0 if no search meets it, because another ray wrote the same segment first",
          rows.depth);
   column("hits", "1", "look-ups that the entry has answered since its region was cleared", rows.hits);
   column("age", "frames",
-         "frames since the entry was written, 0 in the frame that wrote it; 4294967295 if it was withdrawn because "
-         "something moved",
+         "frames since the entry was written, 0 in the frame that wrote it; 4294967295 if it was withdrawn "
+         "because something moved",
          rows.age);
   column("length_m", "m", "length of the segment; infinite where the ray met nothing", rows.length_m);
   column("read_cycles", "cycles of the device's clock",

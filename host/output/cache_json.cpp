@@ -1,5 +1,5 @@
-// Both ways over the one list of counts.
-// Assumes a cache that is on: of one that is off there is nothing to say.
+// Converts in both directions with the same list of counts.
+// The cache must be on: otherwise there is nothing to write.
 #include "output/cache_json.hpp"
 #include "base/json_whole.hpp"
 #include "output/cache_counts.hpp"

@@ -1,5 +1,5 @@
-// One task a part, each with a block of memory of its own.
-// Assumes a little-endian processor, as OpenCL devices and their hosts have.
+// Each part is one task with its own block of memory.
+// The processor must be little-endian, as OpenCL devices and their hosts are.
 #include "output/copy_pieces.hpp"
 #include <tbb/parallel_for.h>
 #include <algorithm>

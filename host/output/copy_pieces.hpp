@@ -1,4 +1,4 @@
-// Rows of many files into one without the library that made them: bytes from here to there, on all cores.
+// Copies rows of many files into one without the HDF5 library: plain bytes, on all cores.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -9,21 +9,22 @@
 
 namespace wavetracer {
 
-// Bytes of one file that become bytes of another; offsets in bytes from the beginning of each.
+// Bytes that are copied from one file to another; offsets are in bytes from the beginning of each file.
 struct Piece {
   uint64_t from = 0, to = 0, bytes = 0;
-  uint64_t base = 0;  // added to each 64-bit number of it, of which it must consist if this is not 0
+  // Added to each 64-bit number of the piece; if it is not 0, the piece must consist of such numbers.
+  uint64_t base = 0;
 };
 
-// [part]: what of each part goes into the file.
+// [part]: the pieces of each part that go into the file.
 using Pieces = std::vector<std::vector<Piece>>;
 
-// Pieces may not overlap where they go to. Throws RuntimeError that names the part, where one is shorter than it says,
-// or the file, where it cannot be written.
+// Target ranges of pieces must not overlap. Throws RuntimeError that names the part if one is shorter than expected, or
+// the file if it cannot be written.
 void copy_pieces(std::span<const std::filesystem::path> parts, const Pieces& pieces, const PendingFile& file);
 
-// Bytes of a piece, from this one of them on, with its base added: whole numbers where that is not 0. in: the part,
-// open. Throws RuntimeError that names the part where it is shorter.
+// Reads bytes of a piece from an offset on, with its base added: if that is not 0, they must be whole numbers. in: the
+// part, open. Throws RuntimeError that names the part if it is shorter.
 void read_piece(std::ifstream& in, const std::filesystem::path& part, const Piece& piece, uint64_t from,
                 std::span<std::byte> bytes);
 

@@ -1,4 +1,4 @@
-// One table a file, but for responses.h5, whose rows belong to links: links differ in their numbers of antennas.
+// Each file has one table, except responses.h5, whose rows belong to links: links have different numbers of antennas.
 #include "output/element_h5.hpp"
 #include <fmt/format.h>
 #include "wavetracer/arrays.hpp"
@@ -25,7 +25,7 @@ void write_numbers(hdf5::File& file, const std::string& group, const std::string
   hdf5::Rows<double>(file, group + "/" + name, meaning, {values.size()}).append(values);
 }
 
-// The elements of all ends of a role, one after the other.
+// Writes the elements of all ends of a role, one after the other.
 void write_elements(hdf5::File& file, const std::string& group, const Config& config,
                     const std::vector<RadioEnd>& ends) {
   std::vector<std::string> names;
@@ -43,8 +43,8 @@ void write_elements(hdf5::File& file, const std::string& group, const Config& co
   hdf5::Rows<uint32_t>(file, group + "/ports", {"1", "ports of each element"}, {ports.size()}).append(ports);
   hdf5::Rows<uint64_t>(file, group + "/first_element",
                        {"1",
-                        "the elements of end i are rows first_element[i] to first_element[i + 1] - 1 of "
-                        "element_position_m"},
+                        "the elements of end i are rows first_element[i] to first_element[i + 1] - 1 "
+                        "of element_position_m"},
                        {first.size()})
       .append(first);
   hdf5::Rows<double>(file, group + "/element_position_m",
@@ -71,9 +71,10 @@ void append_column(FrameTables& tables, const char* name, const char* unit, cons
 void encode_responses_head_h5(const Run& run, hdf5::File& file) {
   write_element_root(run, file, "wavetracer responses");
   hdf5::write_attribute(file.id(), "convention_channel",
-                        "h = sum over paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), f the absolute frequency "
-                        "and delay that between the two elements, t the time since that of the frame; free space "
-                        "between isotropic antennas gives |h| = wavelength / (4 pi distance)");
+                        "h = sum over paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), "
+                        "f the absolute frequency and delay that between the two elements, t the time since "
+                        "that of the frame; free space between isotropic antennas gives |h| = wavelength / (4 pi "
+                        "distance)");
   hdf5::write_attribute(file.id(), "convention_wavefront", std::string(run.config.radio.wavefront.word()));
   write_numbers(file, "/frequencies", "the last axis of h_re and h_im", "frequency_hz",
                 {"Hz", "absolute frequency; the subcarriers of each carrier in its order"},
@@ -112,8 +113,8 @@ void append_responses_h5(const Run&, const FrameResult& frame, FrameTables& tabl
     im.push_back(h.imag());
   }
   tables.group("/responses",
-               "of each link the rows (time, rx antenna, tx antenna), the last of which goes fastest; antenna i of an "
-               "end is element i / ports, port i % ports");
+               "of each link the rows (time, rx antenna, tx antenna), the last of which goes fastest; "
+               "antenna i of an end is element i / ports, port i % ports");
   const std::string shape = " part of the channel h; shape (row, frequency)";
   tables.append<float>("h_re", {"1", "real" + shape}, re, {responses.frequencies});
   tables.append<float>("h_im", {"1", "imaginary" + shape}, im, {responses.frequencies});
@@ -141,8 +142,8 @@ void append_beams_h5(const Run&, const FrameResult& frame, FrameTables& tables) 
   append_column(tables, "rx_beam", "1", "beam of the receiver's codebook; 0, its first element, without a codebook",
                 rows.rx_beam);
   append_column(tables, "gain_db", "dB",
-                "10 log10 of the sum over paths and pairs of ports of |w_rx a w_tx|^2, w the weights of elements, of "
-                "unit power; -inf where nothing arrives",
+                "10 log10 of the sum over paths and pairs of ports of |w_rx a w_tx|^2, w the weights of elements, "
+                "of unit power; -inf where nothing arrives",
                 rows.gain_db);
 }
 

@@ -1,5 +1,5 @@
-// responses.h5, beams.h5 and carriers.h5: what links have between the elements of arrays and at more than one carrier.
-// The layouts are listed in element_h5.cpp, in the words that the files themselves carry.
+// Writes responses.h5, beams.h5 and carriers.h5: the channels of links between elements of arrays and at more than one
+// carrier. element_h5.cpp lists the layouts, with the same words that the files contain.
 #pragma once
 #include <array>
 #include "output/frame_tables.hpp"
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// As for paths.h5: what does not grow with frames, and the rows of a frame.
+// As for paths.h5: one writes the parts that do not grow with frames, the other the rows of a frame.
 void encode_responses_head_h5(const Run& run, hdf5::File& file);
 void append_responses_h5(const Run& run, const FrameResult& frame, FrameTables& tables);
 inline constexpr std::array growing_response_groups{"/links", "/responses"};

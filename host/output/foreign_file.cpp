@@ -1,5 +1,5 @@
-// A question is a record and the name of what it is about; an answer is the bytes of its values.
-// Rows come in blocks, so the child holds one of them, and reads the next one while this process takes the last.
+// A request is a record and the name of a dataset; an answer is the bytes of its values.
+// Rows come in blocks, so the child holds one block, and reads the next one while this process takes the last.
 #include "output/foreign_file.hpp"
 #include <algorithm>
 #include <array>
@@ -18,10 +18,10 @@ struct Question {
   Asked asked = Asked::shape;
   uint32_t inner_count = 0;
   std::array<uint64_t, 3> inner{};
-  uint64_t first = 0, count = 0;  // rows
+  uint64_t first = 0, count = 0;  // rows to read
 };
 
-constexpr uint64_t to_the_end = ~uint64_t{0};  // as a count, from row 0 on
+constexpr uint64_t to_the_end = ~uint64_t{0};  // as a count: all rows, from row 0 on
 constexpr uint64_t block_bytes = uint64_t{1} << 20;
 
 template <typename T>
@@ -117,7 +117,7 @@ struct ForeignFile::Child {
   }
   std::string ask(const Question& q, const std::string& name) { return process.request(packed(q, name)); }
 
-  // expected: the number of values, 0 where it is not known.
+  // expected: the number of values, 0 if it is unknown.
   template <typename T>
   std::vector<T> numbers(const Question& q, const std::string& name, uint64_t expected) {
     std::vector<T> out;

@@ -1,7 +1,7 @@
-// An HDF5 file that may be anybody's: a child process opens and reads it (limited_child.hpp), so what its bytes do to
-// the library ends the child, not this process.
+// Reads an HDF5 file that is not trusted: a child process opens and reads it (limited_child.hpp), so a file that
+// crashes the library ends the child, not this process.
 // Every function throws RuntimeError with the dataset's path and what is wrong with it, or InputError that names the
-// file where the library faults, or takes more memory or time than a file of ours may.
+// file if the library crashes or takes more memory or time than a file of ours may.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -13,24 +13,24 @@ namespace wavetracer::hdf5 {
 
 class ForeignFile {
  public:
-  // The file is opened by the first request.
+  // The first request opens the file.
   explicit ForeignFile(const std::filesystem::path& path);
   ~ForeignFile();
   ForeignFile(ForeignFile&&) noexcept;
 
-  // Whether a group of the root is there.
+  // Tells whether a group of the root exists.
   bool has(const std::string& group) const;
-  // The size of each dimension. inner: the sizes of all dimensions but the first; 0 stands for any size.
+  // Returns the size of each dimension. inner: the sizes of all dimensions but the first; 0 stands for any size.
   std::vector<uint64_t> shape(const std::string& dataset, const std::vector<uint64_t>& inner = {}) const;
-  // Whole rows, which must be there, as numbers of the type T.
+  // Reads whole rows, which must exist, as numbers of the type T.
   template <typename T>
   std::vector<T> rows(const std::string& dataset, uint64_t first, uint64_t count,
                       const std::vector<uint64_t>& inner = {}) const;
   template <typename T>
   std::vector<T> all_rows(const std::string& dataset, const std::vector<uint64_t>& inner = {}) const;
-  // A dataset of texts in one dimension.
+  // Reads a dataset of texts in one dimension.
   std::vector<std::string> strings(const std::string& dataset) const;
-  // Attributes of the root.
+  // Read attributes of the root.
   std::string root_text(const std::string& name) const;
   double root_number(const std::string& name) const;
 

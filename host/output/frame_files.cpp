@@ -1,5 +1,5 @@
-// Each kind of file knows how a frame is appended to it.
-// HDF5 is not thread safe: one thread adds and finishes.
+// Each kind of file has a function that appends a frame to it.
+// HDF5 is not thread safe: only one thread may add and finish.
 #include "output/frame_files.hpp"
 #include "output/head_h5.hpp"
 #include "output/path_limits.hpp"

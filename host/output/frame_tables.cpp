@@ -1,5 +1,5 @@
-// One temporary file a HDF5 output, OUTPUT.rows, which is one part with a piece per frame and table (table_layout.hpp).
-// Assumes a little-endian processor, as files have it.
+// Each HDF5 output has a temporary file, OUTPUT.rows, which is one part with a piece per frame and table
+// (table_layout.hpp). The processor must be little-endian, as files are.
 #include "output/frame_tables.hpp"
 #include <algorithm>
 #include <cstring>

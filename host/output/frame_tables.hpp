@@ -1,5 +1,5 @@
-// The tables of an HDF5 output that grow with frames, written a frame at a time: rows go to a temporary file as they
-// come, and to their places once their number is known. Memory holds no frame.
+// The tables of an HDF5 output that grow with frames, written one frame at a time: rows go to a temporary file first,
+// and to their final places once their number is known. Memory holds no frame.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -15,13 +15,13 @@ namespace wavetracer {
 
 class FrameTables {
  public:
-  // path: of the file that finish() makes; rows wait beside it.
+  // path: of the file that finish() makes; rows are stored beside it until then.
   explicit FrameTables(const std::filesystem::path& path);
 
-  // The group of the tables that follow, in the order of the file.
+  // Begins the group of the following tables, in the order of the file.
   void group(const std::string& path, const std::string& description);
-  // Rows of a table of the last group, which begins with its first rows, or with none. Offsets begin with 0 each time.
-  // Rows of different shapes are a RuntimeError; that of no rows need not be known.
+  // Appends rows to a table of the last group; the first call creates the table, even without rows. Offsets begin with
+  // 0 in each call. Rows of different shapes are a RuntimeError; the shape of zero rows need not be known.
   template <typename T>
   void append(const std::string& name, const hdf5::Meaning& meaning, std::span<const T> values,
               const std::vector<hsize_t>& row_shape = {}) {
@@ -29,23 +29,23 @@ class FrameTables {
     for (const hsize_t n : row_shape) row_values *= n;
     append_rows(name, meaning, hdf5::Type<T>::file(), std::as_bytes(values), values.size() / row_values, row_shape);
   }
-  // One row, which may be of no values.
+  // Appends one row, which may have no values.
   template <typename T>
   void append_row(const std::string& name, const hdf5::Meaning& meaning, std::span<const T> values,
                   const std::vector<hsize_t>& row_shape) {
     append_rows(name, meaning, hdf5::Type<T>::file(), std::as_bytes(values), 1, row_shape);
   }
 
-  // The file, synced but not in place. compression: level of deflate, 0 to 9, 0 for none. Nothing can be appended then.
-  // Throws RuntimeError.
+  // Returns the file, synced but not in place. compression: level of deflate, 0 to 9, 0 for none. Nothing can be
+  // appended afterwards. Throws RuntimeError.
   PendingFile finish(hdf5::File& head, uint32_t compression = 0);
 
  private:
   PendingFile out_, rows_;
-  uint64_t written_ = 0;            // bytes of rows_, those in waiting_ too
-  std::vector<std::byte> waiting_;  // at most a block
+  uint64_t written_ = 0;            // bytes of rows_, including those in waiting_
+  std::vector<std::byte> waiting_;  // at most one block
   std::vector<GrowingGroup> groups_;
-  std::map<std::string, size_t> group_rows_, table_rows_;  // path: place among the groups, in its group
+  std::map<std::string, size_t> group_rows_, table_rows_;  // path to index among the groups, and within its group
   size_t group_ = 0;
 
   void append_rows(const std::string& name, const hdf5::Meaning& meaning, hid_t type, std::span<const std::byte> bytes,

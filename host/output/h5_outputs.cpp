@@ -1,4 +1,4 @@
-// The table of HDF5 outputs.
+// Holds the table of HDF5 outputs.
 #include "output/h5_outputs.hpp"
 #include <array>
 #include "output/cache_entries_h5.hpp"

@@ -1,4 +1,4 @@
-// The few HDF5 operations that the outputs need, each checked, each closing what it opened.
+// The few HDF5 operations that the outputs need; each is checked and closes what it opened.
 // Strings are stored as variable-length UTF-8, so that a config text may exceed the 64 KiB of a fixed attribute.
 #include "output/hdf5.hpp"
 #include <fmt/format.h>
@@ -105,7 +105,7 @@ std::string text_attribute(hid_t object, const std::string& name) {
 }
 
 File::File()
-    : access_(memory_access()),  // the library takes two files of one name for the same
+    : access_(memory_access()),  // the library treats two files of one name as the same
       id_(H5Fcreate(fmt::format("wavetracer-in-memory-{}.h5", fmt::ptr(this)).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT,
                     access_),
           H5Fclose, "create a file in memory") {}
@@ -120,7 +120,7 @@ std::span<const std::byte> File::image() {
   flush();
   const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
   checked(size, "measure a file in memory");
-  // The handle of the core driver is the address of its pointer to the bytes: no copy of the whole file is needed.
+  // The handle of the core driver is the address of its pointer to the bytes, so the whole file need not be copied.
   void* handle = nullptr;
   checked(H5Fget_vfd_handle(id_, access_, &handle), "read a file in memory");
   return {*static_cast<const std::byte* const*>(handle), static_cast<size_t>(size)};
@@ -199,7 +199,7 @@ void make_packed(const File& file, const std::string& path, const Meaning& meani
 }
 
 void check_stored(hid_t dataset, const std::string& path) {
-  constexpr hsize_t most_unpacked = 1032;  // bytes of one that is stored: deflate makes no more
+  constexpr hsize_t most_unpacked = 1032;  // largest number of bytes that deflate can make of one stored byte
   const Id properties(H5Dget_create_plist(dataset), H5Pclose, "read the layout of " + path);
   const bool packed = H5Pget_layout(properties) == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;
   const Id space(H5Dget_space(dataset), H5Sclose, "measure dataset " + path);

@@ -1,5 +1,6 @@
-// The HDF5 C library with C++ lifetimes and exceptions; the only header that includes hdf5.h.
-// Files are built in memory, or on disk in room reserved before: HDF5 1.10 may crash when it meets a full disk.
+// The HDF5 C library with C++ lifetimes and exceptions; this is the only header that includes hdf5.h.
+// Files are built in memory, or on disk in space that was reserved before: HDF5 1.10 may crash if the disk becomes
+// full.
 #pragma once
 #include <hdf5.h>
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace wavetracer::hdf5 {
 // Returns the result, or throws RuntimeError with the library's own reason if it is negative.
 hid_t checked(hid_t result, const std::string& doing);
 
-// An identifier of the library, closed with the call that belongs to its kind.
+// An identifier of the library; it is closed with the function for its kind.
 class Id {
  public:
   using Close = herr_t (*)(hid_t);
@@ -32,10 +33,10 @@ class Id {
   Close close_;
 };
 
-// How a dataset is made: without the time of its making, which would tell apart files of equal contents.
+// Returns properties of a dataset without its creation time, which would make files of equal contents differ.
 Id untimed();
 
-// While it lives, the library prints no error stacks to stderr: failures are exceptions.
+// While it exists, the library prints no error stacks to stderr: failures are exceptions.
 class Silence {
  public:
   Silence();
@@ -76,7 +77,7 @@ struct Type<double> {
   static hid_t file() { return H5T_IEEE_F64LE; }
 };
 
-// What a reader must know about a dataset: attributes "units" (SI, "1" for pure numbers) and "description".
+// The attributes of a dataset: "units" (SI, "1" for pure numbers) and "description".
 struct Meaning {
   std::string units;
   std::string description;
@@ -90,18 +91,18 @@ std::string text_attribute(hid_t object, const std::string& name);
 
 class File {
  public:
-  // An empty file in memory; its image() is what the file on disk must hold.
+  // Makes an empty file in memory; its image() is the content for the file on disk.
   File();
-  // A file on disk. Data that is not flushed may be lost without a word.
+  // A file on disk. Data that is not flushed may be lost silently.
   static File open_to_read(const std::filesystem::path& path) { return File(path, H5F_ACC_RDONLY); }
   static File open_to_write(const std::filesystem::path& path) { return File(path, H5F_ACC_RDWR); }
 
   hid_t id() const { return id_; }
-  // The bytes of a file in memory, valid until the file changes or goes.
+  // Returns the bytes of a file in memory, valid until the file changes or is destroyed.
   std::span<const std::byte> image();
   void flush();
   Id make_group(const std::string& path, const std::string& description) const;
-  // Names of the members of a group, sorted.
+  // Returns the names of the members of a group, sorted.
   std::vector<std::string> members(const std::string& group) const;
   void write_strings(const std::string& path, const Meaning& meaning, const std::vector<std::string>& values) const;
 
@@ -113,13 +114,13 @@ class File {
   Id id_;
 };
 
-// A dataset of rows, of the shape (rows, inner...), filled from its first row on, a block at a time.
-// Contiguous and not compressed.
+// A dataset of rows with the shape (rows, inner...), filled from its first row on, one block at a time.
+// It is contiguous and not compressed.
 class Table {
  public:
   Table(const File& file, const std::string& path, const Meaning& meaning, hid_t file_type, std::vector<hsize_t> shape);
   void append_rows(hid_t memory_type, const void* values, hsize_t rows);
-  // Values in one row.
+  // Number of values in one row.
   hsize_t row_values() const { return row_values_; }
 
  private:
@@ -131,45 +132,46 @@ class Table {
   Id dataset_;
 };
 
-// A dataset without attributes, and without the times that HDF5 notes by itself.
+// Makes a dataset without attributes, and without the times that HDF5 stores by default.
 Id make_untimed(const File& file, const std::string& path, hid_t type, hid_t space);
 
-// A dataset that rows of other files will fill (copy_pieces.hpp). Returns where in the file they begin, once that is
-// closed; 0 where there are none.
+// Makes a dataset that rows of other files will fill (copy_pieces.hpp). Returns the offset of the rows in the file,
+// valid once it is closed; 0 if there are none.
 uint64_t make_room(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
                    const std::vector<hsize_t>& shape);
 
-// How a dataset is compressed: rows of a chunk, level of deflate.
+// The compression of a dataset: rows of a chunk, level of deflate.
 struct Packing {
   hsize_t chunk_rows = 0;
   uint32_t level = 0;
 };
-// A dataset of compressed chunks, none of which is there yet (packed_rows.hpp).
+// Makes a dataset of compressed chunks, none of which is written yet (packed_rows.hpp).
 void make_packed(const File& file, const std::string& path, const Meaning& meaning, hid_t type,
                  const std::vector<hsize_t>& shape, Packing packing);
 
-// Where a dataset of rows lies in its file.
+// The place of a dataset's rows in its file.
 struct Extent {
   hsize_t rows = 0;
   uint64_t row_bytes = 0, offset = 0;
 };
 
-// The size of each dimension. path: for the error.
+// Returns the size of each dimension. path: for the error.
 std::vector<hsize_t> dimensions_of(hid_t space, const std::string& path);
 
-// What is stored must be what the shape says: the library fills in for the rest, and a small file could ask for all
-// memory. Of compressed datasets, as others may write them, at least what deflate needs. Throws RuntimeError.
+// Checks that the stored data have the size of the shape: the library would fill in missing data, and a small file
+// could ask for all memory. For compressed datasets, as others may write them, the size must be at least what deflate
+// needs. Throws RuntimeError.
 void check_stored(hid_t dataset, const std::string& path);
 
-// What a dataset of rows is.
+// The type and shape of a dataset of rows.
 class Column {
  public:
   Column(const File& file, const std::string& path);
   const std::string& path() const { return path_; }
-  hid_t type() const { return type_; }  // that of the file
+  hid_t type() const { return type_; }  // the type in the file
   Meaning meaning() const;
   const std::vector<hsize_t>& shape() const { return shape_; }
-  // Throws RuntimeError where the rows are not there, or not in one piece, as those of our files are.
+  // Throws RuntimeError if the rows are missing, or not in one piece, as those of our files are.
   Extent extent() const;
 
  private:
@@ -183,7 +185,7 @@ class Rows {
  public:
   Rows(const File& file, const std::string& path, const Meaning& meaning, std::vector<hsize_t> shape)
       : table_(file, path, meaning, Type<T>::file(), std::move(shape)) {}
-  // Whole rows.
+  // Appends whole rows.
   void append(std::span<const T> values) {
     if (!values.empty()) table_.append_rows(Type<T>::memory(), values.data(), values.size() / table_.row_values());
   }

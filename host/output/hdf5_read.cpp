@@ -1,5 +1,5 @@
-// Every size that a file states is compared with what it holds before anything is allocated for it.
-// Filters are undone by the library alone.
+// Every size that a file states is compared with the stored data before memory is allocated for it.
+// Only the library undoes filters.
 #include "output/hdf5_read.hpp"
 #include <fmt/format.h>
 #include "wavetracer/error.hpp"
@@ -7,7 +7,7 @@
 namespace wavetracer::hdf5 {
 namespace {
 
-constexpr hsize_t largest_dataset = hsize_t{1} << 40;  // values
+constexpr hsize_t largest_dataset = hsize_t{1} << 40;  // number of values
 constexpr hsize_t most_strings = hsize_t{1} << 24;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
@@ -24,7 +24,7 @@ std::vector<hsize_t> limited_dimensions_of(hid_t space, const std::string& path)
   return shape;
 }
 
-// A string type as the file has it: variable or fixed length.
+// Reads a string type as the file has it: variable or fixed length.
 std::vector<std::string> strings_of(hid_t type, size_t count, const std::string& path, const auto& read) {
   if (H5Tget_class(type) != H5T_STRING) refuse(path, "holds no text");
   std::vector<std::string> out;

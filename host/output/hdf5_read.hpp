@@ -1,5 +1,5 @@
-// Datasets of a file that may be anybody's: shapes and types are checked before memory is taken for them.
-// The library faults on some damaged files whatever is checked, so this runs in a child process (foreign_file.hpp).
+// Reads datasets of a file that is not trusted: shapes and types are checked before memory is allocated for them.
+// The library crashes on some damaged files in spite of all checks, so this runs in a child process (foreign_file.hpp).
 // Throws RuntimeError with the dataset's path and what is wrong with it.
 #pragma once
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace wavetracer::hdf5 {
 
-// A dataset of numbers, (rows, inner...), converted to T as it is read.
+// A dataset of numbers, (rows, inner...), converted to T when it is read.
 template <typename T>
 class NumberColumn {
  public:
@@ -18,7 +18,7 @@ class NumberColumn {
   const std::vector<hsize_t>& shape() const { return shape_; }
   hsize_t row_values() const { return row_values_; }
   void check_rows(hsize_t first, hsize_t count) const;
-  // Whole rows, which must be there.
+  // Reads whole rows, which must exist.
   std::vector<T> read(hsize_t first, hsize_t count) const;
 
  private:
@@ -28,10 +28,10 @@ class NumberColumn {
   hsize_t row_values_ = 1;
 };
 
-// A dataset of texts in one dimension.
+// Reads a dataset of texts in one dimension.
 std::vector<std::string> read_strings(const File& file, const std::string& path);
 
-// Attributes of the root. A missing one, or one of another type or shape, is an error.
+// Read attributes of the root. A missing one, or one of another type or shape, is an error.
 std::string root_text(const File& file, const std::string& name);
 double root_number(const File& file, const std::string& name);
 

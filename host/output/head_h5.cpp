@@ -1,4 +1,4 @@
-// Copied by value and in the order of names: the bytes of a copy depend on what it says alone.
+// Copies by value and in the order of names, so that the bytes of a copy depend on the content alone.
 // H5Ocopy would keep traces of how its source was written.
 #include "output/head_h5.hpp"
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace {
 using hdf5::File;
 using hdf5::Id;
 
-constexpr uint64_t largest_value = uint64_t{1} << 26;  // bytes of an attribute or dataset, texts not counted
+constexpr uint64_t largest_value = uint64_t{1} << 26;  // bytes of an attribute or dataset, without texts
 
-// Bytes of so many values; 0 where they are too many.
+// Returns the bytes of this number of values; 0 if they are too many.
 size_t bytes_of(hid_t type, hid_t space) {
   const hssize_t values = H5Sget_simple_extent_npoints(space);
   const size_t bytes = H5Tget_size(type);
@@ -22,7 +22,7 @@ size_t bytes_of(hid_t type, hid_t space) {
   return static_cast<size_t>(values) * bytes;
 }
 
-// Runs in the library's C code, which exceptions may not cross.
+// This runs inside the library's C code, which exceptions must not cross.
 herr_t add_name(hid_t, const char* name, const H5A_info_t*, void* names) {
   static_cast<std::vector<std::string>*>(names)->push_back(name);
   return 0;

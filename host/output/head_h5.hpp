@@ -1,5 +1,5 @@
 // The head of an HDF5 output: its attributes, and the groups that do not grow with frames.
-// Written in one way, whether it comes from a run or from a part that a run has left.
+// It is written in the same way whether it comes from a run or from a part of a run.
 #pragma once
 #include <filesystem>
 #include "output/h5_outputs.hpp"
@@ -7,9 +7,9 @@
 
 namespace wavetracer {
 
-// Into an empty file in memory. Both throw RuntimeError.
+// Writes into an empty file in memory. Both functions throw RuntimeError.
 void make_head(const H5Output& output, const Run& run, hdf5::File& head);
-// What another file has for a head: all that is not in its growing groups.
+// Copies another file's head: all groups that are not its growing ones.
 void copy_head(const H5Output& output, const std::filesystem::path& file, hdf5::File& head);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Files are compared by what names them, which a copy of the configuration on another machine has in common.
+// Files are compared by the keys that name them, which are the same for a copy of the configuration on another machine.
 #include "output/inputs.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,8 @@
 namespace wavetracer {
 namespace {
 
-// The names of a list, each with how often it came before: two rows of a table may name a file each by one key.
+// Returns the names of a list, each with the number of times that it came before: two rows of a table may name a file
+// by the same key.
 std::vector<std::pair<std::string, size_t>> places_of(const std::vector<InputFile>& inputs) {
   std::vector<std::pair<std::string, size_t>> out;
   for (const InputFile& input : inputs)

@@ -1,5 +1,5 @@
-// The input files of a run, in its outputs, and what differs between those of two runs.
-// Where files lie makes no difference; what they hold does.
+// Writes the list of a run's input files, and finds differences between the lists of two runs.
+// The places of files do not matter; their contents do.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace wavetracer {
 
-// /inputs of paths.h5.
+// Writes /inputs of paths.h5.
 void write_inputs(hdf5::File& file, const std::vector<InputFile>& inputs);
 
-// The first file that is not as it was, for a message; empty where all are.
+// Returns the first file that has changed, for a message; empty if none has.
 std::string changed_input(const std::vector<InputFile>& before, const std::vector<InputFile>& now);
 
 }  // namespace wavetracer

@@ -1,6 +1,6 @@
-// A pair of sockets. A request is its length and its bytes; an answer is a row of messages: data, names of files, and
-// at its end "done" or an error. Limits: the address space, which the library's own requests for memory meet, and a
-// timer of the processor.
+// Uses a pair of sockets. A request is its length and its bytes; an answer is a series of messages: data, names of
+// files, and at its end "done" or an error. The limits are the address space, which bounds the library's allocations,
+// and a timer of processor time.
 #include "output/limited_child.hpp"
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -25,13 +25,13 @@ enum class Kind : uint32_t { data, file, done, error };
 
 struct Head {
   Kind kind = Kind::done;
-  ExitCode code = ExitCode::ok;  // of an error
-  uint64_t bytes = 0;            // that follow
+  ExitCode code = ExitCode::ok;  // exit code of an error
+  uint64_t bytes = 0;            // number of bytes that follow
 };
 
-constexpr uint64_t longest_text = uint64_t{1} << 20, longest_data = uint64_t{1} << 30;  // in one message
+constexpr uint64_t longest_text = uint64_t{1} << 20, longest_data = uint64_t{1} << 30;  // limits of one message
 
-// False where the other end is gone.
+// Returns false if the other end is gone.
 bool send_all(int socket, const void* data, size_t bytes) {
   for (auto* p = static_cast<const char*>(data); bytes > 0;) {
     const ssize_t sent = ::send(socket, p, bytes, MSG_NOSIGNAL);
@@ -54,7 +54,7 @@ bool receive_all(int socket, void* data, size_t bytes) {
   return true;
 }
 
-// The parent is gone: nobody is left to answer.
+// If the parent is gone, the child ends: nobody is left to answer.
 void send_or_end(int socket, const Head& head, const void* data) {
   if (!send_all(socket, &head, sizeof head) || !send_all(socket, data, head.bytes)) _exit(0);
 }
@@ -76,13 +76,13 @@ void set_limits(const ChildLimits& limits) {
   std::ifstream("/proc/self/statm") >> pages;
   if (pages > 0) lower_limit(RLIMIT_AS, pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) + limits.bytes);
   lower_limit(RLIMIT_CORE, 0);
-  // Whatever handlers the parent has, none of them is for the child.
+  // The parent's signal handlers must not run in the child.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPROF}) std::signal(signal, SIG_DFL);
 }
 
 void start_timer(int seconds) {
   const itimerval timer{{0, 0}, {seconds, 0}};
-  setitimer(ITIMER_PROF, &timer, nullptr);  // SIGPROF
+  setitimer(ITIMER_PROF, &timer, nullptr);  // sends SIGPROF
 }
 
 [[noreturn]] void serve(int socket, const LimitedChild::Answer& answer, const ChildLimits& limits) {
@@ -105,13 +105,13 @@ void start_timer(int seconds) {
       send_error(socket, ExitCode::runtime, error.what());
     }
   }
-  _exit(0);  // nothing of the parent's is flushed or removed
+  _exit(0);  // _exit(): no buffer of the parent is flushed, no file of it removed
 }
 
 std::string end_words(int status, int seconds) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGPROF) return fmt::format("reading it takes more than {} s; it may be damaged", seconds);
-  if (signal == SIGKILL) return "the process that reads it was killed, perhaps for want of memory";
+  if (signal == SIGKILL) return "the process that reads it was killed, perhaps because it ran out of memory";
   return "the file is damaged: the HDF5 library fails on it; copy it again, or compute it again";
 }
 
@@ -157,14 +157,14 @@ LimitedChild::LimitedChild(std::string file, Answer answer, ChildLimits limits)
 LimitedChild::~LimitedChild() {
   close(socket_);
   if (process_ <= 0) return;
-  kill(process_, SIGKILL);  // it has nothing to finish, and other children may hold its socket open
+  kill(process_, SIGKILL);  // it has nothing to finish, and other children may keep its socket open
   wait_for(process_, nullptr);
 }
 
 void LimitedChild::fail() {
   if (process_ > 0) {
     int status = 0;
-    kill(process_, SIGKILL);  // where it has not ended, but its answers make no sense or find no room
+    kill(process_, SIGKILL);  // in case it has not ended, but its answers are invalid or too large
     wait_for(process_, &status);
     process_ = -1;
     end_ = end_words(status, limits_.seconds);

@@ -1,5 +1,5 @@
 // Writes the figures of radio/links.hpp as comma-separated text, sorted by frame, transmitter, receiver.
-// Text is made and written a frame at a time, so memory stays small.
+// One frame at a time is in memory.
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr std::string_view header =
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-// A field as RFC 4180, section 2, wants it: quoted where it holds a comma, a quote or a line end.
+// Writes a field by RFC 4180, section 2: quoted if it contains a comma, a quote or a line end.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -40,8 +40,8 @@ std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
   return result;
 }
 
-// The pair of beams that has the largest gain, and the gain. beam: the first row that may be of the link, and then the
-// first one that may be of the next.
+// Returns the pair of beams with the largest gain, and that gain. beam: the first row that may belong to the link; it
+// is moved to the first one that may belong to the next link.
 std::string best_beams(const BeamRows& beams, const Link& link, size_t& beam) {
   while (beam < beams.size() && Link{beams.tx[beam], beams.rx[beam]} < link) ++beam;
   size_t best = beam;
@@ -61,7 +61,7 @@ LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
 
 void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
   std::string text;
-  size_t row = 0, beam = 0;  // of the link's first path and pair of beams
+  size_t row = 0, beam = 0;  // rows of the link's first path and pair of beams
   for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz)) {
     while (row < frame.paths.size() && Link{frame.paths.tx[row], frame.paths.rx[row]} < Link{link.tx, link.rx}) ++row;
     const LeftOutPaths gone = left_out(frame.paths, written, row, row + link.paths);
@@ -102,8 +102,8 @@ void prove_links_csv(std::span<const std::filesystem::path> parts, const std::fi
   const auto refuse_unless = [&file](bool same) {
     if (same) return;
     throw RuntimeError(
-        fmt::format("{}: does not read back as it was written, so nothing was removed; check the disk, and run again "
-                    "with --resume",
+        fmt::format("{}: does not read back as it was written, so nothing was removed; check the disk, "
+                    "and run again with --resume",
                     file.string()));
   };
   const auto check = [&] {
@@ -121,7 +121,7 @@ void prove_links_csv(std::span<const std::filesystem::path> parts, const std::fi
       check();
     } while (rows);
   }
-  refuse_unless(joined.peek() == std::ifstream::traits_type::eof());  // not more than the parts have
+  refuse_unless(joined.peek() == std::ifstream::traits_type::eof());  // there must be no more than the parts have
 }
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// links.csv: one row per frame and link, also for links without a path.
+// Writes links.csv: one row per frame and link, including links without a path.
 // RFC 4180 with a header row and "\n" line ends; numbers are the shortest text that reads back to the same double.
 #pragma once
 #include <filesystem>
@@ -10,26 +10,26 @@
 
 namespace wavetracer {
 
-// tx and rx are the names of the config, or the row number where a name is empty. A link without a path has a gain of
-// "-inf" and delay, Doppler and missed figures of "nan". los is 1 or 0. docs/formats.md defines every column.
+// tx and rx are the names of the config, or the row number if a name is empty. A link without a path has a gain of
+// "-inf", and "nan" as delay, Doppler and missed figures. los is 1 or 0. docs/formats.md defines every column.
 class LinksCsv {
  public:
   LinksCsv(const Run& run, const std::filesystem::path& path);
-  // written: of each path of the frame, whether paths.h5 has it.
+  // written: for each path of the frame, whether paths.h5 has it.
   void add(const FrameResult& frame, std::span<const uint8_t> written);
-  // The file, synced but not in place. Nothing can be added then.
+  // Returns the file, synced but not in place. Nothing can be added afterwards.
   PendingFile finish();
 
  private:
   PendingFile file_;
   RadioConfig radio_;
-  std::vector<std::string> tx_, rx_;  // what they are called
+  std::vector<std::string> tx_, rx_;  // names of the ends
 };
 
-// The rows of all parts, each written by LinksCsv, under one header. Throws RuntimeError.
+// Joins the rows of all parts, each written by LinksCsv, under one header. Throws RuntimeError.
 void join_links_csv(std::span<const std::filesystem::path> parts, PendingFile& file);
 
-// Throws RuntimeError unless `file` reads back as what join_links_csv() makes of the parts.
+// Throws RuntimeError unless `file` has exactly the content that join_links_csv() makes of the parts.
 void prove_links_csv(std::span<const std::filesystem::path> parts, const std::filesystem::path& file);
 
 }  // namespace wavetracer

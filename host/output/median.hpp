@@ -1,5 +1,5 @@
-// The median of repeated timings, as every report of this program gives it.
-// Assumes at least one value.
+// Returns the median of repeated timings, in the same way for every report of this program.
+// There must be at least one value.
 #pragma once
 #include <algorithm>
 #include <cstddef>

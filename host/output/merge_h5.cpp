@@ -1,6 +1,6 @@
-// One walk over the parts, one of them open at a time. HDF5 copies no row: it has one thread, and
-// would take a second for each gigabyte. Parts may be anybody's: each must have the datasets of the first, in equal
-// shapes but for their rows.
+// Reads the parts once, one of them open at a time. HDF5 copies no row: it has one thread, and
+// would take a second for each gigabyte. Parts are not trusted: each must have the datasets of the first, with equal
+// shapes except for their rows.
 #include "output/merge_h5.hpp"
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ using hdf5::Extent;
 using hdf5::File;
 using Groups = std::span<const char* const>;
 
-// What blocks of one frame have in common; they bring the rest each.
+// Groups that are the same in all blocks of one frame; each block has its own rows of the others.
 constexpr std::array<std::string_view, 2> shared_groups{"/frames", "/poses"};
 
 GrowingGroup empty_group(const std::string& path, const File& part) {
@@ -35,7 +35,7 @@ GrowingGroup empty_group(const std::string& path, const File& part) {
   return group;
 }
 
-// What a part says of its run; nothing where it says nothing.
+// Returns what a part says about its run, or nothing if it says nothing.
 std::optional<GrowingParts::RunOfPart> run_of(const File& part) {
   if (H5Lexists(part.id(), "/inputs", H5P_DEFAULT) <= 0) return std::nullopt;
   const hdf5::NumberColumn<uint64_t> hashes(part, "/inputs/hash");
@@ -43,8 +43,8 @@ std::optional<GrowingParts::RunOfPart> run_of(const File& part) {
                                  hashes.read(0, hashes.rows()), hdf5::text_attribute(part.id(), "config")};
 }
 
-// Whatever the manifest says of it: a file may have been put in the place of another. Configurations name the places of
-// input files, so they compare only where these are the same.
+// The part itself is checked as well as the manifest: a file may have been replaced by another. Configurations contain
+// the places of input files, so they are compared only if these are the same.
 void check_run(const std::optional<GrowingParts::RunOfPart>& part,
                const std::optional<GrowingParts::RunOfPart>& first) {
   if (!part || !first) return;
@@ -76,7 +76,7 @@ bool same_rows(const Column& column, const GrowingTable& table) {
          H5Tequal(column.type(), table.type) > 0;
 }
 
-// The rows of this part.
+// Takes the rows of this part.
 void take(GrowingTable& table, size_t index, const File& part, std::ifstream& bytes) {
   const Column column(part, table.path);
   const Extent extent = column.extent();
@@ -94,7 +94,7 @@ uint64_t rows_of(const std::vector<GrowingGroup>& groups, const std::string& pat
   return 0;
 }
 
-// That the one frame, which pointed to the first of these paths, points to all of them.
+// Makes the offsets of the one frame, which ended with the first block's paths, end with the paths of all blocks.
 void point_to(GrowingTable& path_offset, uint64_t first_paths, uint64_t all_paths) {
   if (path_offset.rows != 2) throw RuntimeError(path_offset.path + " is not of one frame");
   const auto [part, whole] = path_offset.pieces.at(0);

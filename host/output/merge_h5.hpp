@@ -1,6 +1,6 @@
-// Files of consecutive frames, made one: the groups that grow with frames.
-// A copy rather than a virtual dataset, because HDF5 fills in for parts that it cannot open, and says nothing: parts
-// that were left behind, or more parts than a process may have open files (measured with 1500 of them).
+// Merges files of consecutive frames into one: the groups that grow with frames.
+// Rows are copied instead of using a virtual dataset, because HDF5 silently fills in values for parts that it cannot
+// open: missing parts, or more parts than a process may have open files (measured with 1500 of them).
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace wavetracer {
 
-// What reads a part: its RuntimeError becomes an InputError that names the part.
+// Reads a part; a RuntimeError becomes an InputError that names the part.
 template <typename Read>
 auto reading_part(const std::filesystem::path& part, const Read& read) {
   try {
@@ -24,22 +24,22 @@ auto reading_part(const std::filesystem::path& part, const Read& read) {
   }
 }
 
-// Is told each part before it is opened.
+// Called with each part before it is opened.
 using BeginPart = std::function<void(const std::filesystem::path&)>;
 
-// Files of one kind and run, in the order of their frames: these groups of all of them, as if all frames had been
-// appended at once; the rows stay where they are.
+// Collects files of one kind and run, in the order of their frames: these groups of all files, as if all frames had
+// been appended to one. The rows are not copied.
 class GrowingParts {
  public:
   struct RunOfPart {
-    std::vector<std::string> names, files;  // of the inputs
+    std::vector<std::string> names, files;  // lists of the inputs
     std::vector<uint64_t> hashes;
     std::string config;
   };
-  // groups: must outlive it.
+  // groups: must outlive this object.
   explicit GrowingParts(std::span<const char* const> groups) : names_(groups) {}
-  // The next file. Throws InputError that names it and the dataset, where it is of another run than the first, has
-  // other datasets, or of other types or shapes, or not all of their rows; nothing may be added then.
+  // Adds the next file. Throws InputError that names the file and the dataset if it belongs to another run than the
+  // first, or has other datasets, types or shapes, or lacks rows; nothing may be added after that.
   void add(const std::filesystem::path& part);
   const std::vector<GrowingGroup>& groups() const& { return groups_; }
   std::vector<GrowingGroup> groups() && { return std::move(groups_); }
@@ -52,11 +52,11 @@ class GrowingParts {
   std::vector<std::filesystem::path> parts_;
 };
 
-// Those of parts, at least one. Throws as GrowingParts::add() does.
+// Returns the groups of these parts, at least one. Throws as GrowingParts::add() does.
 std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts,
                                             std::span<const char* const> groups, const BeginPart& begin);
 
-// parts: of blocks of one frame, whose links are side by side.
+// parts: those of blocks of one frame, whose links are side by side.
 std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts,
                                            std::span<const char* const> groups, const BeginPart& begin);
 

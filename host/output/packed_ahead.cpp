@@ -1,5 +1,5 @@
-// A task a chunk; each knows the pieces that its rows come from.
-// Whatever fails ends the work for good, and nobody hears of it: writing the file meets the same disk, and says so.
+// Each chunk is one task, which knows the pieces that its rows come from.
+// A failure ends this work for good without a message: writing the file meets the same disk, and reports the error.
 #include "output/packed_ahead.hpp"
 #include <algorithm>
 #include "base/hash.hpp"
@@ -18,10 +18,10 @@ uint64_t hash_of(const Bytes& bytes) { return mix64({reinterpret_cast<const char
 
 struct PackedAhead::Task {
   ChunkName name;
-  uint64_t begin, bytes;  // in the table
+  uint64_t begin, bytes;  // range in the table
   size_t value_bytes;
   std::vector<fs::path> parts;
-  Pieces pieces;  // one of each part, at its place in the table
+  Pieces pieces;  // pieces of each part, with their places in the table
 };
 
 PackedAhead::PackedAhead(IdleThreads& threads, const fs::path& scratch, uint32_t level, uint64_t least_free_bytes)
@@ -47,7 +47,7 @@ void PackedAhead::grow(const std::vector<GrowingGroup>& groups, std::span<const 
             task->parts.push_back(parts[part]);
             task->pieces.push_back({piece});
           }
-          if (piece.to + piece.bytes > end) break;  // and begins the next chunk
+          if (piece.to + piece.bytes > end) break;  // the piece also begins the next chunk
           if (piece.to + piece.bytes == end) {
             ++grown.piece;
             break;

@@ -1,4 +1,4 @@
-// zlib, and a loop.
+// Uses zlib, and a loop for the shuffle.
 #include "output/packed_chunk.hpp"
 #include <zlib.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A pipeline of chunks: whatever speaks to HDF5 is a stage of one thread, the rest runs on all cores.
-// The last chunk of a table is filled up with zeros, as HDF5 wants it.
+// A pipeline handles the chunks: stages that call HDF5 run on one thread, the others on all cores.
+// The last chunk of a table is padded with zeros, as HDF5 requires.
 #include "output/packed_rows.hpp"
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -27,9 +27,9 @@ using hdf5::Id;
 struct StoredTable {
   std::string path;
   Id dataset;
-  uint64_t begin = 0, bytes = 0;  // where its rows are among the places of pieces
+  uint64_t begin = 0, bytes = 0;  // the range of its rows among the target places of pieces
   size_t value_bytes = 0, dimensions = 0;
-  uint64_t row_bytes = 0, chunk_rows = 0;  // chunk_rows: 0 where it is not compressed
+  uint64_t row_bytes = 0, chunk_rows = 0;  // chunk_rows: 0 if it is not compressed
   bool packed() const { return chunk_rows > 0; }
   uint64_t chunk_bytes() const { return chunk_rows * row_bytes; }
 };
@@ -58,7 +58,7 @@ StoredTable stored_table(const File& file, const std::string& path) {
   return table;
 }
 
-// Those of all groups, by path. Compressed ones lie one after the other.
+// Returns the tables of all groups, by path. Compressed ones lie one after the other.
 std::vector<StoredTable> stored_tables(const File& file) {
   std::vector<StoredTable> tables;
   uint64_t begin = packed_begin;
@@ -81,7 +81,7 @@ std::vector<Chunk> chunks_of(const std::vector<StoredTable>& tables) {
   return chunks;
 }
 
-// The chunk before it is compressed.
+// Returns the chunk before it is compressed.
 Bytes shuffled_rows(const Chunk& chunk, const RowSource& rows) {
   const StoredTable& table = *chunk.table;
   Bytes plain(table.chunk_bytes());
@@ -96,12 +96,12 @@ std::vector<hsize_t> place_of(const Chunk& chunk) {
   return place;
 }
 
-// Room on the disk, ahead of what is written: HDF5 may crash when it meets a full one.
+// Reserves space on the disk ahead of the writes: HDF5 may crash if the disk becomes full.
 class Room {
  public:
   Room(PendingFile& file, uint64_t used) : file_(file), used_(used), reserved_(used) {}
   void use(uint64_t bytes) {
-    constexpr uint64_t least = uint64_t{1} << 22, notes = 256;  // what HDF5 notes of a chunk
+    constexpr uint64_t least = uint64_t{1} << 22, notes = 256;  // bytes that HDF5 stores about a chunk
     used_ += bytes + notes;
     if (used_ + least <= reserved_) return;
     reserved_ = used_ + std::max(4 * least, used_ / 4);
@@ -113,7 +113,7 @@ class Room {
   uint64_t used_, reserved_;
 };
 
-// What the stages hand on.
+// The data passed from stage to stage.
 struct Work {
   Chunk chunk;
   Bytes packed;
@@ -122,7 +122,7 @@ using WorkPointer = std::shared_ptr<Work>;
 
 size_t chunks_at_once() { return 4 * static_cast<size_t>(tbb::info::default_concurrency()); }
 
-// The chunks in their order.
+// Returns the chunks in their order.
 auto each_of(const std::vector<Chunk>& chunks, size_t& next, const StageFault& fault) {
   return tbb::make_filter<void, WorkPointer>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
     if (next == chunks.size() || fault.failed()) {
@@ -139,7 +139,7 @@ uint64_t size_of(const File& file) {
   return size;
 }
 
-// Returns how long the file is then, without the room behind it.
+// Returns the length of the file afterwards, without the reserved space at its end.
 uint64_t write_chunks(const RowSource& rows, PendingFile& out, uint32_t level, const PackedAhead* ahead) {
   File file = File::open_to_write(out.temporary());
   const std::vector<StoredTable> tables = stored_tables(file);
@@ -250,7 +250,7 @@ void prove_rows(std::span<const fs::path> parts, const Pieces& pieces, const fs:
   std::vector<const StoredTable*> plain;
   uint64_t found = 0;
   for (const StoredTable& table : tables) {
-    if (table.bytes == 0 || !rows.begins_at(table.begin)) continue;  // the head of the file, which has no parts
+    if (table.bytes == 0 || !rows.begins_at(table.begin)) continue;  // the head of the file comes from no part
     found += table.bytes;
     if (!table.packed()) plain.push_back(&table);
   }

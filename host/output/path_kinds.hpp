@@ -1,5 +1,5 @@
-// How many paths there are of each kind. A path counts once, by its most special interaction: scattered where it
-// scatters anywhere, else diffracted, else transmitted, else reflected; line of sight is a path without any.
+// Counts paths of each kind. A path counts once, by its most special interaction: scattered if it scatters anywhere,
+// else diffracted, else transmitted, else reflected; a path without interactions is line of sight.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// Of each of path_kinds; they add up to the number of paths.
+// Counts for each of path_kinds; they add up to the number of paths.
 using PathKindCounts = std::array<uint64_t, path_kinds.size()>;
 
 // path: a row of paths. Returns an index into path_kinds.

@@ -1,4 +1,4 @@
-// One link of one frame after the other; of equally strong paths the earlier one is written.
+// Handles the links of a frame one after the other; of equally strong paths the earlier one is written.
 #include "output/path_limits.hpp"
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,7 @@
 namespace wavetracer {
 namespace {
 
-// Marks what is written of rows first to end - 1, which are those of one link and frame.
+// Marks the written paths among the rows first to end - 1, which belong to one link and frame.
 void mark_link(const Paths& paths, const OutputConfig& output, size_t first, size_t end,
                std::vector<uint8_t>& written) {
   std::vector<size_t> strongest_first(end - first);
@@ -44,7 +44,7 @@ void append_vertices(const Paths& from, size_t row, Paths& to) {
   to.vertex_offset.push_back(to.vertex_position_m.size());
 }
 
-// Numbers the groups of each link by the rows that are left.
+// Renumbers the groups of each link for the rows that are left.
 void number_groups(Paths& paths) {
   for (size_t first = 0, end = 0; first < paths.group.size(); first = end) {
     end = end_of_link(paths, first);

@@ -1,5 +1,5 @@
-// Which paths of a frame are written, by output.min_gain_db, dynamic_range_db and max_paths_per_link.
-// What is left out is counted with its power; figures of links are made of all paths, before anything is left out.
+// Decides which paths of a frame are written, by output.min_gain_db, dynamic_range_db and max_paths_per_link.
+// Omitted paths are counted with their power; figures of links include all paths.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,21 +12,21 @@ namespace wavetracer {
 // Powers are |a|^2 summed over pairs of ports.
 struct LeftOutPaths {
   uint64_t paths = 0;
-  double power = 0;  // of these
-  double all = 0;    // of all paths, for comparison
+  double power = 0;  // power of these
+  double all = 0;    // power of all paths, for comparison
 };
 
-// Whether the configuration may leave out paths at all.
+// Tells whether the configuration may omit paths at all.
 bool limits_paths(const OutputConfig& output);
 
-// Of each row whether it is written. paths: sorted as Paths says.
+// Tells for each row whether it is written. paths: sorted as Paths says.
 std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output);
 
-// These rows, in their order, with their vertices.
+// Returns these rows, in their order, with their vertices.
 Paths select_rows(const Paths& paths, std::span<const uint8_t> written);
 std::vector<CarrierFields> select_rows(const std::vector<CarrierFields>& carriers, std::span<const uint8_t> written);
 
-// Rows first to end - 1 that are not written.
+// Returns the paths among rows first to end - 1 that are not written.
 LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end);
 
 }  // namespace wavetracer

@@ -1,5 +1,6 @@
-// paths.h5: /paths (one row per path) and /vertices (compressed rows); the world around them is in world_h5.cpp.
-// Every dataset says its units and meaning in attributes; the root has the conventions, the config and the versions.
+// Writes paths.h5: /paths (one row per path) and /vertices (compressed rows); world_h5.cpp writes the world around
+// them. Every dataset has its units and meaning in attributes; the root has the conventions, the config and the
+// versions.
 #include "output/paths_h5.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 using hdf5::Meaning;
 
-// A table that is not rectangular would be written as a file that reads well and is wrong.
+// A table with columns of different lengths would be written as a file that reads well but is wrong.
 bool is_rectangular(const Paths& paths) {
   const size_t rows = paths.size(), vertices = paths.vertex_position_m.size();
   bool whole = paths.vertex_offset.size() == rows + 1 && paths.vertex_offset.front() == 0 &&
@@ -37,7 +38,7 @@ bool names_known_ends(const Paths& paths, const Config& config) {
   return below(paths.tx, config.transmitters.size()) && below(paths.rx, config.receivers.size());
 }
 
-// Every end and instance has a state, and links and paths name ends that there are.
+// Every end and instance must have a state, and links and paths must name ends that exist.
 bool fits(const FrameResult& frame, const Run& run) {
   const WorldState& world = frame.world;
   const auto named = [&](const Link& link) {
@@ -50,13 +51,14 @@ bool fits(const FrameResult& frame, const Run& run) {
 
 void check(const Run& run, const FrameResult& frame) {
   if (!is_rectangular(frame.paths) || !fits(frame, run))
-    throw RuntimeError(fmt::format(
-        "the paths of frame {} have columns of unequal length, or ends or vehicles that the run lacks; this "
-        "is a fault of wavetracer, report it",
-        frame.frame));
+    throw RuntimeError(
+        fmt::format("the paths of frame {} have columns of unequal length, or ends or vehicles that the run lacks; "
+                    "this is a fault of wavetracer, report it",
+                    frame.frame));
 }
 
-// One part of the coefficients, (path, rx port, tx port), packed from the four slots of Paths::a.
+// Appends the real or imaginary parts of the coefficients, (path, rx port, tx port), packed from the four slots of
+// Paths::a.
 void append_coefficients(const Paths& paths, FrameTables& tables, const std::string& name, const Meaning& meaning,
                          double (*part)(const std::complex<double>&)) {
   const size_t ports = size_t{paths.rx_ports} * paths.tx_ports;
@@ -67,7 +69,7 @@ void append_coefficients(const Paths& paths, FrameTables& tables, const std::str
   tables.append<double>(name, meaning, values, {paths.rx_ports, paths.tx_ports});
 }
 
-// Without groups each path is one, numbered in its link.
+// Without groups, each path is its own group, numbered within its link.
 void append_groups(const Paths& paths, FrameTables& tables) {
   std::vector<GroupNumbers> own;
   std::vector<GroupWeights> whole;
@@ -81,13 +83,14 @@ void append_groups(const Paths& paths, FrameTables& tables) {
   };
   tables.append<uint32_t>("group",
                           {"1",
-                           "numbers of the groups of the path in its link and frame, that with the largest weight "
-                           "first; 4294967295 for none"},
+                           "numbers of the groups of the path in its link and frame, "
+                           "that with the largest weight first; 4294967295 for none"},
                           flat(paths.group.empty() ? own : paths.group), {most_groups});
   tables.append<double>("group_weight",
                         {"1",
-                         "the part of the field that is one with each group; the power of a link is the sum over "
-                         "groups and pairs of ports of |sum over paths of weight a exp(-j 2 pi f delay_s)|^2"},
+                         "the part of the field that is one with each group; "
+                         "the power of a link is the sum over groups and pairs of ports of |sum over paths "
+                         "of weight a exp(-j 2 pi f delay_s)|^2"},
                         flat(paths.group.empty() ? whole : paths.group_weight), {most_groups});
 }
 
@@ -103,8 +106,8 @@ void append_paths(const Paths& paths, FrameTables& tables) {
   column("delay_s", "s", "length of the path divided by the speed of light", paths.delay_s);
   column("gain_db", "dB", "10 log10 of the sum of |a|^2 over all ports", paths.gain_db);
   const std::string a =
-      " part of the passband coefficient a between the antenna ports, without the carrier phase of the delay; shape "
-      "(path, rx port, tx port), port 0 is V (or +45 deg), port 1 is H (or -45 deg)";
+      " part of the passband coefficient a between the antenna ports, without the carrier phase of the delay; "
+      "shape (path, rx port, tx port), port 0 is V (or +45 deg), port 1 is H (or -45 deg)";
   append_coefficients(paths, tables, "a_re", {"1", "real" + a}, [](const auto& z) { return z.real(); });
   append_coefficients(paths, tables, "a_im", {"1", "imaginary" + a}, [](const auto& z) { return z.imag(); });
   column("aod_theta_rad", "rad", "direction in which the path leaves, angle from +z", paths.aod_theta_rad);
@@ -131,8 +134,8 @@ void append_vertices(const Paths& paths, FrameTables& tables) {
   };
   column("interaction", interaction_legend().c_str(), paths.vertex_interaction);
   column("surface",
-         "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, as "
-         "`wavetracer scene info --edges` numbers them; numbers hold for one file",
+         "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, "
+         "as `wavetracer scene info --edges` numbers them; numbers hold for one file",
          paths.vertex_surface);
   column("instance", "row of /instances, the vehicle that was hit; 4294967295 for the static scene",
          paths.vertex_instance);
@@ -151,8 +154,8 @@ void write_root(hdf5::File& file, const Run& run) {
        "h(f) = sum over paths of a exp(-j 2 pi f delay_s), f the absolute frequency in Hz; "
        "free space between isotropic antennas gives |a| = wavelength / (4 pi distance)");
   text("convention_polarization",
-       "V is the theta unit vector and H the phi unit vector of the global spherical "
-       "coordinates at each end, turned with the antenna");
+       "V is the theta unit vector and H the phi unit vector of the global spherical coordinates at each end, "
+       "turned with the antenna");
   text("convention_coordinates", "right-handed, z up, metres, those of the scene file after its scale and up axis");
 }
 

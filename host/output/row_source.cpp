@@ -1,5 +1,5 @@
-// Binary search; a file is opened for as long as pieces in a row come from it.
-// Assumes that pieces do not overlap.
+// Uses binary search; a file stays open as long as successive pieces come from it.
+// Pieces must not overlap.
 #include "output/row_source.hpp"
 #include <algorithm>
 #include <fstream>

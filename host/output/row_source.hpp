@@ -1,4 +1,4 @@
-// Rows that lie in pieces in many files, read by the place that they go to.
+// Reads rows that lie in pieces in many files, by their target place.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -9,13 +9,14 @@ namespace wavetracer {
 
 class RowSource {
  public:
-  // parts: must outlive it.
+  // parts: must outlive this object.
   RowSource(std::span<const std::filesystem::path> parts, const Pieces& pieces);
-  // The bytes that go to this place and on, from any thread. Throws RuntimeError that names the part that is too short.
+  // Reads the bytes from this target place on; it may be called from any thread. Throws RuntimeError that names the
+  // part that is too short.
   void read(uint64_t place, std::span<std::byte> bytes) const;
-  // A piece begins there.
+  // Tells whether a piece begins at this place.
   bool begins_at(uint64_t place) const;
-  // Of all pieces.
+  // Number of bytes of all pieces.
   uint64_t bytes() const { return bytes_; }
 
  private:
@@ -25,7 +26,7 @@ class RowSource {
     uint64_t end() const { return piece.to + piece.bytes; }
   };
   std::span<const std::filesystem::path> parts_;
-  std::vector<Placed> placed_;  // by place
+  std::vector<Placed> placed_;  // sorted by place
   uint64_t bytes_ = 0;
 };
 

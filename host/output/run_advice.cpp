@@ -1,4 +1,4 @@
-// One rule: without line of sight most of the power may come around edges.
+// There is one rule: without line of sight, most of the power may come around edges.
 #include "output/run_advice.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,10 +7,10 @@
 namespace wavetracer {
 namespace {
 
-// As choose_features() words it. Whether the scene has edges is not known then: only diffraction looks for them.
+// The wording of choose_features(). It does not say whether the scene has edges: only diffraction looks for them.
 constexpr const char* diffraction_off = "trace.diffraction = false";
 
-// What was said of links without a path names the same key.
+// The warning about links without a path names the same key.
 bool said(const std::vector<std::string>& warnings) {
   return std::ranges::any_of(
       warnings, [](const std::string& text) { return text.find("trace.diffraction") != std::string::npos; });

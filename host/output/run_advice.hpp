@@ -1,5 +1,5 @@
-// What the results of a run suggest to set otherwise, for its summary.
-// Of the record of a run alone, so that merged runs get the same words.
+// Suggests settings from the results of a run, for its summary.
+// It uses the record of a run alone, so that merged runs get the same text.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace wavetracer {
 
-// A sentence an item, with the key to set. Nothing where no path was found at all, or a warning names the key already.
+// Returns a sentence per item, with the key to set. It returns nothing if no path was found at all, or a warning names
+// the key already.
 std::vector<std::string> advice(const Run& run, const Totals& totals);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Builds summary.json; keys keep this order, so that two summaries compare line by line.
-// Numbers that do not exist (a rate without a time) are null.
+// Undefined numbers (a rate without a time) are null.
 #include "output/summary_json.hpp"
 #include <fmt/format.h>
 #include <cstdlib>
@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Setup stages, then those of a frame; "frame" closes the list because it contains the ones before it.
-// A setup stage that shares its name with one of a frame is written as "setup_NAME".
+// Writes setup stages, then those of a frame; "frame" comes last because it contains the ones before it.
+// A setup stage with the name of a frame's stage is written as "setup_NAME".
 Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
   Json result = Json::object();
   for (const auto& [stage, seconds] : run.summary.setup_seconds)
@@ -33,7 +33,7 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
   return result;
 }
 
-// So many in so much, such as things in seconds; null in nothing.
+// Returns a rate, such as things per second; null if `whole` is not positive.
 Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
 Json counts(const Totals& totals) {
@@ -49,14 +49,14 @@ Json path_counts(const PathKindCounts& kinds) {
   return json;
 }
 
-// Three digits: more would be those of rounding, and would depend on how frames were shared out.
+// Rounds to three digits: more would be noise, and would depend on how frames were divided into shards.
 double three_digits(double value) { return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr); }
 
 Json range(const MissedRange& of) {
   return {{"estimate", three_digits(of.estimate)}, {"low", three_digits(of.low)}, {"high", three_digits(of.high)}};
 }
 
-// Nothing where it is not as range() writes it.
+// Returns nothing if the text is not in the form of range().
 std::optional<MissedRange> read_range(const Json& json, const char* name) {
   const auto found = json.is_object() ? json.find(name) : json.end();
   if (found == json.end() || !found->is_object()) return {};
@@ -69,7 +69,7 @@ std::optional<MissedRange> read_range(const Json& json, const char* name) {
   return out;
 }
 
-// Of each: whether it was on, and if not, why.
+// Writes for each feature whether it was on, and if not, why.
 Json features(const Features& all) {
   Json json = Json::object();
   for (const auto& [name, feature] : all) {
@@ -89,7 +89,7 @@ Json cache(const CacheConfig& asked, const CacheSummary& done) {
   return json;
 }
 
-// The run's own warnings and the frames', each text once, in order of first appearance; then advice.
+// Writes the run's own warnings and those of the frames, each text once, in order of first appearance; then advice.
 Json warnings(const Run& run, const Totals& totals) {
   std::vector<std::string> result;
   add_warnings(result, run.summary.warnings);
@@ -100,7 +100,7 @@ Json warnings(const Run& run, const Totals& totals) {
   return result;
 }
 
-// The largest resident set of this process so far, as Linux tells it.
+// Returns the largest resident set of this process so far, as Linux reports it.
 Json peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -164,7 +164,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
                    {"reason", summary.order.reason}};
   json["cache"] = cache(run.config.cache, totals.cache);
   json["warnings"] = warnings(run, totals);
-  // Names of files and devices need not be UTF-8; what is not is replaced rather than refused.
+  // Names of files and devices may not be UTF-8; invalid bytes are replaced and not refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

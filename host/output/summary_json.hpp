@@ -1,4 +1,4 @@
-// summary.json: what ran, on what, how much work it was and how long each stage took.
+// summary.json: the run, its device, the amount of work, and the time of each stage.
 // Counts are sums over the frames, those of the ray cache too; seconds of a frame's stages are medians over the frames.
 #pragma once
 #include <filesystem>
@@ -9,16 +9,16 @@
 
 namespace wavetracer {
 
-// write_seconds: the time that encoding and writing the other files took. shards: their number, 0 without.
+// write_seconds: the time for encoding and writing the other files. shards: their number, 0 without shards.
 std::string encode_summary_json(const Run& run, const Totals& totals, double write_seconds, size_t shards);
 
-// What readers of a run need of its summary.json.
+// The values of summary.json that readers of a run need.
 struct SummaryFacts {
-  std::string device;            // empty where it is not known
-  std::optional<Missed> missed;  // nothing where it is not known
+  std::string device;            // empty if unknown
+  std::optional<Missed> missed;  // nothing if unknown
 };
 
-// Nothing is known where the file is missing or is none.
+// Returns unknown values if the file is missing or invalid.
 SummaryFacts read_summary_json(const std::filesystem::path& file);
 
 }  // namespace wavetracer

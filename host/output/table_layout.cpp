@@ -1,5 +1,5 @@
-// HDF5 makes the tables and says where their rows belong; it copies none, as it has one thread.
-// Room is reserved before HDF5 writes, which may crash where a disk is full.
+// HDF5 makes the tables and says where their rows belong; it copies no row, as it has one thread.
+// Space is reserved before HDF5 writes, since it may crash if a disk becomes full.
 #include "output/table_layout.hpp"
 #include <algorithm>
 #include <map>
@@ -10,14 +10,14 @@ namespace {
 
 using hdf5::File;
 
-// Whether its rows are compressed, in chunks of less than the 4 GiB that HDF5 allows.
+// Tells whether the rows are compressed, in chunks of less than the 4 GiB that HDF5 allows.
 bool is_packed(const GrowingTable& table, uint32_t compression) {
   return compression > 0 && table.rows > 0 && full_chunk_rows(table.row_bytes()) > 0 &&
          table.rows * table.row_bytes() >= smallest_packed_bytes;
 }
 
-// More than the file grows by: rows that are not compressed, and what the library notes of groups, tables and
-// attributes, with room to spare.
+// Returns an upper bound of the file's growth: rows that are not compressed, and the library's data about groups,
+// tables and attributes, with a margin.
 uint64_t most_bytes(const std::vector<GrowingGroup>& groups, uint32_t compression) {
   constexpr uint64_t notes = 8192;
   uint64_t bytes = 0;
@@ -30,7 +30,7 @@ uint64_t most_bytes(const std::vector<GrowingGroup>& groups, uint32_t compressio
   return bytes;
 }
 
-// Where the rows of compressed tables go to: one after the other, by path.
+// Returns the target places of rows of compressed tables: one table after the other, by path.
 std::map<std::string, uint64_t> packed_places(const std::vector<GrowingGroup>& groups, uint32_t compression) {
   std::map<std::pair<std::string, std::string>, uint64_t> sizes;  // by group and path
   for (const GrowingGroup& group : groups)
@@ -60,7 +60,7 @@ uint64_t GrowingTable::row_bytes() const {
 }
 
 void GrowingTable::take(size_t part, uint64_t from, hsize_t count, uint64_t last) {
-  const hsize_t repeated = offsets() && rows > 0 ? 1 : 0;  // what the part before ended with
+  const hsize_t repeated = offsets() && rows > 0 ? 1 : 0;  // the last offset of the part before
   const uint64_t bytes = row_bytes();
   pieces.push_back({part, {from + repeated * bytes, rows * bytes, (count - repeated) * bytes, base_}});
   rows += count - repeated;

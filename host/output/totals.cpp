@@ -1,5 +1,4 @@
-// Sums over frames and over shards of frames.
-// Assumes that what is added comes in the order of frames.
+// Adds up over frames and over shards of frames, which must be added in the order of frames.
 #include "output/totals.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -46,7 +45,7 @@ void add(LeftOutPaths& sum, const LeftOutPaths& more) {
   sum.all += more.all;
 }
 
-// Later links of the same frame.
+// Adds later links of the same frame.
 void add(MissingLinks& sum, const MissingLinks& more) {
   sum.links += more.links;
   sum.in_grids += more.in_grids;

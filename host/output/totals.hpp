@@ -1,5 +1,5 @@
-// What the frames of a run add up to: the figures of summary.json and of a shard's line in the manifest.
-// Times are kept one by one, because medians do not add.
+// Sums over the frames of a run: the figures of summary.json and of a shard's line in the manifest.
+// Times are kept one by one, because medians cannot be added.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -17,40 +17,41 @@ struct Totals {
   double start_s = 0, end_s = 0;
   uint64_t vertices = 0, links = 0;
   FrameCounts counts;
-  PathKindCounts kinds{};  // of counts.paths
+  PathKindCounts kinds{};  // adds up to counts.paths
   MissedCounts missed;
   LateCounts late;
-  LeftOutPaths left_out;  // of counts.paths, which are those that were found; all 0 where nothing may be left out
+  LeftOutPaths left_out;  // part of counts.paths, which counts paths that were found; all 0 if no path may be left out
   std::vector<uint64_t> segments_per_depth;
-  CacheSummary cache;  // counts are sums; what describes the table is that of the last frame
-  // Stage -> one value per frame that measured it: device stages are not in all (Simulation::profile_every).
+  CacheSummary cache;  // counts are sums; values that describe the table are those of the last frame
+  // Stage -> one value per frame that measured it: device stages are not measured in all frames
+  // (Simulation::profile_every).
   std::map<std::string, std::vector<double>> seconds;
-  uint64_t timed_segments = 0;        // of counts.segments, those that were traced in frames that measured it
+  uint64_t timed_segments = 0;        // the part of counts.segments that was traced in frames that measured tracing
   std::vector<std::string> warnings;  // each text once, in order of first appearance
-  MissingLinks missing;               // of the first frame that was asked about
+  MissingLinks missing;               // links without a path in the first frame that was checked
 };
 
 Totals totals_of(Frames frames);
 // `later` follows `sum`; either may be empty.
 void add(Totals& sum, const Totals& later);
-// `more` is of other links of the same frame: its seconds are added to those of the frame. `sum` may be empty.
+// `more` has other links of the same frame: its seconds are added to those of the frame. `sum` may be empty.
 void add_block(Totals& sum, const Totals& more);
 
-// Segments that the device traced: those that no ray cache answered.
+// Returns the segments that the device traced: those that no ray cache answered.
 uint64_t traced_segments(const Totals& totals);
-// Of them per second of tracing; 0 where that was not measured.
+// Returns the number of these per second of tracing; 0 if that was not measured.
 double segments_per_second(const Totals& totals);
 
-// Median of a stage over the frames; 0 where no frame has it.
+// Returns the median of a stage over the frames; 0 if no frame has it.
 double median_seconds(const Totals& totals, const std::string& stage);
-// Sum of a stage over the frames.
+// Returns the sum of a stage over the frames.
 double sum_seconds(const Totals& totals, const std::string& stage);
 
-// What to say of links without a path: of one frame by name, of more only where no link has a path in any of them,
-// because vehicles that hide from each other are normal.
+// Makes the message about links without a path. A single frame's links are named; with several frames it only mentions
+// links without a path in all of them, because vehicles often hide from each other.
 std::vector<std::string> missing_words(const Totals& totals);
 
-// Appends the texts that are not there yet.
+// Appends the texts that are not in the list yet.
 void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more);
 
 }  // namespace wavetracer

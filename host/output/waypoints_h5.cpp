@@ -1,4 +1,4 @@
-// waypoints.h5: one table, /waypoints, a row per waypoint.
+// Writes waypoints.h5: one table, /waypoints, a row per waypoint.
 // Kinds are the numbers of WaypointKind; positions are those of the scene file.
 #include "output/waypoints_h5.hpp"
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ bool is_rectangular(const WaypointRows& rows) {
          rows.instance.size() == count && rows.source.size() == count;
 }
 
-// What the numbers of WaypointKind mean, in their order.
+// Explains the numbers of WaypointKind, in their order.
 std::string kind_legend() {
   std::map<int, std::string_view> interactions;
   for (const InteractionKind& kind : interaction_kinds)
@@ -43,12 +43,12 @@ void append_waypoints_h5(const Run&, const FrameResult& frame, FrameTables& tabl
   const WaypointRows& rows = frame.waypoints;
   if (!is_rectangular(rows))
     throw RuntimeError(
-        fmt::format("the waypoints of frame {} have columns of unequal length; this is a fault of "
-                    "wavetracer, report it",
+        fmt::format("the waypoints of frame {} have columns of unequal length; this is a fault of wavetracer, "
+                    "report it",
                     frame.frame));
   tables.group("/waypoints",
-               "one row per waypoint of a sampled ray, sorted by frame, tx, sample, depth; hits of a segment, by "
-               "receiver, come before its end");
+               "one row per waypoint of a sampled ray, sorted by frame, tx, sample, depth; hits of a segment, "
+               "by receiver, come before its end");
   const auto column = [&](const char* name, const char* description, const auto& values) {
     tables.append(name, {"1", description}, std::span(values));
   };
@@ -61,18 +61,18 @@ void append_waypoints_h5(const Run&, const FrameResult& frame, FrameTables& tabl
                          {reinterpret_cast<const uint8_t*>(rows.kind.data()), rows.size()});
   tables.append<double>("position_m",
                         {"m",
-                         "position in the coordinates of the scene file, (x, y, z); of a hit the receiver's "
-                         "centre, of a miss a point 1 m along the segment that met nothing"},
+                         "position in the coordinates of the scene file, (x, y, z); "
+                         "of a hit the receiver's centre, of a miss a point 1 m along the segment that met nothing"},
                         {reinterpret_cast<const double*>(rows.position_m.data()), 3 * rows.size()}, {3});
   column("surface",
-         "of a reflection the surface of the scene, or of the model of the instance that was hit, as in /vertices of "
-         "paths.h5; of a hit the row of /receivers there; 4294967295 elsewhere",
+         "of a reflection the surface of the scene, or of the model of the instance that was hit, "
+         "as in /vertices of paths.h5; of a hit the row of /receivers there; 4294967295 elsewhere",
          rows.surface);
   static_assert(sizeof(WaypointSource) == sizeof(uint8_t));
   tables.append<uint8_t>("source",
                          {"1",
-                          "who found where the segment before the waypoint ends: 0 launch (there is none), 1 traced, 2 "
-                          "the ray cache, 3 not known (the segment after the last interaction)"},
+                          "who found where the segment before the waypoint ends: 0 launch (there is none), "
+                          "1 traced, 2 the ray cache, 3 not known (the segment after the last interaction)"},
                          {reinterpret_cast<const uint8_t*>(rows.source.data()), rows.size()});
   column("instance", "row of /instances of paths.h5, the vehicle that was hit; 4294967295 for the static scene",
          rows.instance);

@@ -1,5 +1,5 @@
-// Datasets of what stands and moves in the world. An end that is absent from a frame has NaN for a position.
-// Assumes that every frame knows all ends and instances of the run.
+// Writes datasets of fixed and moving objects of the world. An end that is absent from a frame has NaN for a position.
+// Every frame must have all ends and instances of the run.
 #include "output/world_h5.hpp"
 #include <array>
 #include <functional>
@@ -41,7 +41,7 @@ void write_configured(hdf5::File& file, const std::string& path, const std::stri
          &RadioEnd::velocity_m_s);
 }
 
-// Positions and velocities of one kind of ends, (end, 3).
+// Appends positions and velocities of one kind of ends, (end, 3).
 void append_motion(const Run& run, const std::vector<EndState>& ends, const std::string& kind, FrameTables& tables) {
   const std::string shape = "; shape (frame, " + kind + ", 3), NaN while it is absent";
   const glm::dvec3 nowhere(std::numeric_limits<double>::quiet_NaN());
@@ -97,12 +97,13 @@ void append_poses(const Run& run, const FrameResult& frame, FrameTables& tables)
     const Placement& placed = frame.world.instances[i];
     if (!placed.present) continue;
     instances.push_back(static_cast<uint32_t>(i));
-    // The origin of the model's file, which its Scene has at -origin_m.
+    // The origin of the model's file, which lies at -origin_m in its Scene.
     const glm::dvec3 arm_m = placed.rotation * -run.models[run.instances[i].model].origin_m;
     append(positions_m, run.scene.origin_m + placed.position_m + arm_m);
     append(velocities_m_s, placed.velocity_m_s + glm::cross(placed.angular_velocity_rad_s, arm_m));
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) rotations.push_back(placed.rotation[column][row]);  // glm: by column
+      // Glm stores matrices by column.
+      for (int column = 0; column < 3; ++column) rotations.push_back(placed.rotation[column][row]);
   }
   const std::vector<uint32_t> numbers(instances.size(), frame.frame);
   tables.group("/poses", "one row per frame and vehicle that is present in it, sorted so");

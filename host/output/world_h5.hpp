@@ -1,5 +1,5 @@
-// The world in paths.h5: /transmitters, /receivers and /instances, and where all of them are in each frame.
-// Positions are in file coordinates.
+// Writes the world into paths.h5: /transmitters, /receivers and /instances, and the positions of all of them in each
+// frame. Positions are in file coordinates.
 #pragma once
 #include "output/frame_tables.hpp"
 #include "wavetracer/output.hpp"
@@ -8,7 +8,7 @@ namespace wavetracer {
 
 void write_instances(hdf5::File& file, const Run& run);
 void write_ends(hdf5::File& file, const Run& run);
-// The rows of a frame.
+// Appends the rows of a frame.
 void append_frame(const Run& run, const FrameResult& frame, FrameTables& tables);
 void append_poses(const Run& run, const FrameResult& frame, FrameTables& tables);
 void append_links(const FrameResult& frame, FrameTables& tables);

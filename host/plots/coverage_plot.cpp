@@ -1,5 +1,5 @@
-// Colours span the gains of all cells but the brightest and darkest in a hundred, which would hide the rest.
-// Assumes that receivers of a grid stand in their places: a grid does not move.
+// Colours span the gains of all cells except the brightest and darkest percent, which would hide the differences of the
+// others. Receivers of a grid must be at their places: a grid does not move.
 #include "plots/coverage_plot.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,9 +29,9 @@ std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cel
   return text;
 }
 
-// What is drawn of a cell: its received power where there is a link budget, else its gain.
+// The value that is drawn for a cell: its received power if there is a link budget, else its gain.
 struct CellValue {
-  double offset_db;  // above the path gain
+  double offset_db;  // difference to the path gain
   std::string label, column;
 };
 
@@ -59,7 +59,7 @@ std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_
   return colour_range({gains.begin() + cut, gains.end() - cut}, span_db);
 }
 
-// A grid of one row or column.
+// Plots a grid of one row or column.
 std::string row_commands(const std::string& name, bool northward, const CellValue& what) {
   return fmt::format(
       "set xlabel '{} (m)'\n"
@@ -134,7 +134,7 @@ std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) 
   std::vector<std::array<double, 4>> out;
   const double z = height_m - scene.origin_m.z;
   for (const auto& corners : scene.triangles) {
-    std::vector<glm::dvec3> points;  // where sides cross: none or two
+    std::vector<glm::dvec3> points;  // points where sides cross the plane: none or two
     for (int k = 0; k < 3; ++k) {
       const glm::dvec3 &a = scene.vertices[corners[k]], &b = scene.vertices[corners[(k + 1) % 3]];
       if ((a.z < z) != (b.z < z)) points.push_back(scene.origin_m + a + (z - a.z) / (b.z - a.z) * (b - a));

@@ -1,5 +1,5 @@
-// Sizes are those of a screen; vector formats take 96 pixels for an inch, and PNG twice the pixels, so that it prints.
-// Assumes gnuplot 5.2 or later with cairo terminals, as Debian's gnuplot-nox has them.
+// Sizes are those of a screen; vector formats use 96 pixels per inch, and PNG has twice the pixels, so that it prints
+// well. It needs gnuplot 5.2 or later with cairo terminals, as in Debian's gnuplot-nox.
 #include "plots/figure.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,8 +23,7 @@ std::string terminal(const Figure& figure, Format format) {
       return fmt::format("svg size {:.0f},{:.0f} font 'sans-serif,13' background 'white'", w, h);
     case Format::png:
       return fmt::format(
-          "pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 font 'sans-serif,10' "
-          "background 'white'",
+          "pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 font 'sans-serif,10' background 'white'",
           2 * w, 2 * h);
     default:
       return fmt::format("pdfcairo size {:.2f}in,{:.2f}in font 'sans-serif,10' background 'white'", w / 96, h / 96);
@@ -85,12 +84,12 @@ Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
   Drawn out;
   for (const PendingFile& file : files) out.files.push_back(file.path());
   const fs::path picture = directory.path() / fmt::format("{}.{}", figure.name, ending(format));
-  remove_old_file(picture);  // an earlier one would belie the new data
+  remove_old_file(picture);  // an old picture would not match the new data
   out.problem = run_gnuplot(directory.path(), figure.name + ".gp");
   if (out.problem.empty())
     out.files.push_back(picture);
   else
-    remove_old_file(picture);  // half drawn
+    remove_old_file(picture);  // it is incomplete
   return out;
 }
 

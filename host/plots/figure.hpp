@@ -8,39 +8,40 @@
 
 namespace wavetracer::plots {
 
-// Whose terminal draws it; also the ending of the picture's file.
+// Chooses the terminal that draws, and the suffix of the picture's file.
 enum class Format { svg, png, pdf };
 
 struct DataFile {
-  std::string name;  // of the file, which begins with that of the figure
+  std::string name;  // name of the file, which begins with that of the figure
   std::string text;  // CSV with one header row
 };
 
-// As RFC 4180 wants a field: quoted where it holds a comma, a quote or a line end.
+// Writes a field by RFC 4180: quoted if it contains a comma, a quote or a line end.
 std::string csv_text(const std::string& text);
 
 struct Figure {
-  std::string name;   // of its files, without ending
+  std::string name;   // name of its files, without suffix
   std::string title;  // one line
   std::vector<DataFile> data;
-  std::string commands;  // gnuplot, after terminal, title and style are set
+  std::string commands;  // gnuplot commands that follow those of terminal, title and style
   double width_px = 900, height_px = 520;
 };
 
 struct Drawn {
   std::vector<std::filesystem::path> files;
-  std::string problem;  // why there is no picture, and what to do; else empty
+  std::string problem;  // if there is no picture, the reason and what to do; else empty
 };
 
 // The colours of numbers, from bright and small to dark and large, so that the largest are never pale on white: viridis
-// (S. van der Walt, N. Smith, 2015, CC0) from its end, as on the light page of the viewer.
+// (S. van der Walt, N. Smith, 2015, CC0) reversed, as on the light page of the viewer.
 std::string palette();
 
-// The commands of a colour range that covers these decibels, in steps of 5 dB; weaker values than `span_db` below the
-// largest all get the brightest colour. Values that are not finite do not count; at least one must be.
+// Returns the commands of a colour range that covers these decibels, in steps of 5 dB; values weaker than the largest
+// by more than `span_db` all get the brightest colour. Values that are not finite are ignored; at least one must be
+// finite.
 std::string colour_range(const std::vector<double>& values_db, double span_db);
 
-// Writes data and script, all or none, and draws. Throws RuntimeError where a file cannot be written.
+// Writes data and script, all or none, and draws. Throws RuntimeError if a file cannot be written.
 Drawn draw(const Figure& figure, Format format, const std::filesystem::path& folder);
 
 }  // namespace wavetracer::plots

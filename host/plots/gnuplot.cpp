@@ -1,5 +1,5 @@
-// A child process in the folder of the script; what gnuplot says goes to standard error.
-// Assumes POSIX with posix_spawn_file_actions_addchdir_np to start it.
+// Starts a child process in the folder of the script; gnuplot's messages go to standard error.
+// It needs POSIX with posix_spawn_file_actions_addchdir_np.
 #include "plots/gnuplot.hpp"
 #include <fmt/format.h>
 #include <spawn.h>

@@ -1,4 +1,4 @@
-// Data go out as doubles that read back the same; units are changed in the scripts alone.
+// Data are written as doubles that read back the same; units are changed in the scripts alone.
 // Weak points are drawn first, so that strong ones lie on top.
 #include "plots/link_plots.hpp"
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace wavetracer::plots {
 namespace {
 
-constexpr double shown_span_db = 80;  // below the strongest path
+constexpr double shown_span_db = 80;  // range below the strongest path
 
 std::string first_link(const SavedRun& run, const LinkSeries& series) { return link_name(run, series.links.front()); }
 
@@ -35,7 +35,7 @@ std::vector<double> gains(const std::vector<PathPoint>& paths) {
   return out;
 }
 
-// One frame's paths, every column that a plot of them could want.
+// Writes one frame's paths with every column that a plot of them may need.
 std::string path_table(const std::vector<PathPoint>& paths) {
   constexpr double degree = std::numbers::pi / 180;
   std::string text =
@@ -49,7 +49,7 @@ std::string path_table(const std::vector<PathPoint>& paths) {
   return text;
 }
 
-// The axis of delays: all of them and a little beside, but nothing below zero, where no path is.
+// Returns the range of the delay axis: all delays and a small margin, but nothing below zero.
 std::string delay_range(const std::vector<PathPoint>& paths) {
   const auto [first, last] = std::ranges::minmax_element(paths, {}, &PathPoint::delay_s);
   const double lower_ns = 1e9 * first->delay_s, upper_ns = 1e9 * last->delay_s;
@@ -67,7 +67,7 @@ Shown shown_gains(const std::vector<double>& values) {
   return {std::max(5 * std::floor(*lowest / 5 - 0.4), upper - shown_span_db), upper};
 }
 
-// Received powers beside gains, where the configuration has a link budget.
+// Adds an axis of received powers beside the gains, if the configuration has a link budget.
 std::string power_axis(const RadioConfig& radio) {
   if (!radio.transmit_power_dbm) return "";
   const std::string noise = radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
@@ -79,7 +79,8 @@ std::string power_axis(const RadioConfig& radio) {
       *radio.transmit_power_dbm, noise);
 }
 
-// The axis of times. Its zero is the first one, where the six digits of gnuplot's labels would not tell times apart.
+// The axis of times. It starts at the first time if the six digits of gnuplot's labels could not tell the times apart
+// otherwise.
 struct TimeAxis {
   double zero_s;
   explicit TimeAxis(const std::vector<LinkMoment>& moments) {
@@ -90,7 +91,7 @@ struct TimeAxis {
     return zero_s == 0 ? "set xlabel 'time (s)'\n"
                        : fmt::format("set xlabel 'time after {} s (s)'\n", time_text(zero_s));
   }
-  // The column of times as gnuplot has to take it.
+  // Returns the expression of the time column for gnuplot.
   std::string column(int number) const {
     return zero_s == 0 ? fmt::format("${}", number) : fmt::format("(${} - {})", number, zero_s);
   }
@@ -175,7 +176,7 @@ Figure delay_time_figure(const SavedRun& run, const LinkSeries& series) {
       first_s = std::min(first_s, p.delay_s);
       last_s = std::max(last_s, p.delay_s);
     }
-  const double step_s = std::max((last_s - first_s) / (rows - 1), 1e-12);  // middles of cells
+  const double step_s = std::max((last_s - first_s) / (rows - 1), 1e-12);  // positions are the middles of cells
   std::vector<double> power(columns * rows, 0), frames_of(columns, 0);
   for (size_t k = 0, i = 0; k < frames; ++k) {
     frames_of[column_of(k)] += 1;

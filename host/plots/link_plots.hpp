@@ -1,20 +1,20 @@
-// The figures of links, one function each, from what link_series has read.
-// All assume a series with at least one path.
+// Makes the figures of links, one function each, from the result of link_series().
+// Each series must have at least one path.
 #pragma once
 #include "plots/figure.hpp"
 #include "plots/link_series.hpp"
 
 namespace wavetracer::plots {
 
-// Path gain of the links against time; dots where the line of sight is free.
+// Plots the path gain of the links against time, with dots where the line of sight is free.
 Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio);
-// Gain against delay of the paths of one frame, coloured by kind.
+// Plots gain against delay of the paths of one frame, coloured by kind.
 Figure delay_figure(const SavedRun& run, const LinkSeries& series);
-// Power by delay and time as an image: paths that fall into one cell add their powers.
+// Plots power by delay and time as an image: paths in one cell add their powers.
 Figure delay_time_figure(const SavedRun& run, const LinkSeries& series);
-// Paths of one frame by delay and Doppler shift, coloured by gain.
+// Plots paths of one frame by delay and Doppler shift, coloured by gain.
 Figure doppler_figure(const SavedRun& run, const LinkSeries& series);
-// Paths of one frame by azimuth and elevation, at the transmitter and at the receiver, coloured by gain.
+// Plots paths of one frame by azimuth and elevation, at the transmitter and at the receiver, coloured by gain.
 Figure angle_figure(const SavedRun& run, const LinkSeries& series);
 
 }  // namespace wavetracer::plots

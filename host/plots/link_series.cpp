@@ -1,5 +1,5 @@
-// The run is read twice, first to find the strongest links, then for them alone; once where one link is named.
-// Assumes that links and paths of a frame are sorted, as runs write them; sorts links again, since a file may say else.
+// The run is read twice, first to find the strongest links, then to read those; once if a link is named. Links and
+// paths of a frame must be sorted, as runs write them; links are sorted again, since a file may differ.
 #include "plots/link_series.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 
 struct Filter {
   std::optional<uint32_t> tx, rx;
-  std::vector<char> hidden;  // receivers that count only if named
+  std::vector<char> hidden;  // receivers that count only if they are named
   bool operator()(uint32_t t, uint32_t r) const { return (!tx || *tx == t) && (rx ? *rx == r : !hidden[r]); }
 };
 
-// The way back of a link that is there already would lie on the same line, and is left out.
+// The reverse of a link that is in the list already would lie on the same line, and is left out.
 std::vector<Link> strongest_links(const SavedRun& run, const Filter& filter, size_t most) {
   std::map<Link, double> power;
   for (size_t row = 0; row < run.frame_count(); ++row) {

@@ -1,5 +1,5 @@
-// A figure that is asked for and cannot be is an error; one that is not asked for and does not suit is left out.
-// Assumes that names of grids are those of the run's configuration.
+// A figure that was asked for and cannot be made is an error; one that was not asked for and does not suit is skipped.
+// Names of grids are those of the run's configuration.
 #include "plots/plots.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t shown_links = 6;  // lines that can be told apart
+constexpr size_t shown_links = 6;  // number of lines that can be told apart
 
 class Plotter {
  public:
@@ -48,7 +48,7 @@ class Plotter {
   bool by_name(std::string_view name) const { return std::ranges::find(choice_.what, name) != choice_.what.end(); }
   bool asked(std::string_view name) const { return choice_.what.empty() || by_name(name); }
 
-  // Whether a figure is drawn: it is asked for, and suits. `unfit`: what is wrong where it does not.
+  // Tells whether a figure is drawn: it was asked for, or suits by default. `unfit`: the reason why it does not suit.
   bool wanted(std::string_view name, bool suits, const std::string& unfit) const {
     if (by_name(name) && !suits) throw ConfigError(fmt::format("--what {}: {}", name, unfit));
     return asked(name) && suits;
@@ -66,8 +66,8 @@ class Plotter {
                                     spelling_hint(choice_.grid, grids_)));
     if (run_.path_count() == 0 && choice_.what != std::vector<std::string>{"rays"})
       throw InputError(
-          fmt::format("{}: the run found no path at all, so there is nothing to plot; look at the places of "
-                      "its antennas, and at trace.max_depth",
+          fmt::format("{}: the run found no path at all, so there is nothing to plot; "
+                      "look at the places of its antennas, and at trace.max_depth",
                       run_.file().string()));
   }
 
@@ -79,7 +79,7 @@ class Plotter {
   }
 
   void plot_links() {
-    // A grid hears a transmitter too, but its receivers are shown as a map unless one of them is named.
+    // A grid's receivers have links too, but they are shown as a map unless one of them is named.
     const bool by_default = choice_.what.empty() && choice_.link.rx.empty() && !grids_.empty();
     LinkSeries series;
     try {

@@ -1,5 +1,5 @@
-// Plots of a run: which figures suit it, and drawing them.
-// Assumes nothing of the run but what SavedRun has checked; the scene is drawn where it can still be loaded.
+// Plots a run: chooses suitable figures and draws them.
+// The scene is drawn if it can still be loaded.
 #pragma once
 #include <array>
 #include <filesystem>
@@ -12,24 +12,24 @@
 
 namespace wavetracer::plots {
 
-// By the names that --what takes; those are the names of the files too.
+// Names that --what takes; they are also the names of the files.
 constexpr std::array<std::string_view, 7> plot_names{"gain",   "pdp",      "delay-time", "doppler",
                                                      "angles", "coverage", "rays"};
 
 struct PlotChoice {
-  std::vector<std::string> what;  // of plot_names; empty: all that suit the run
+  std::vector<std::string> what;  // some of plot_names; empty: all that suit the run
   LinkChoice link;
-  std::string grid;  // of coverage; empty: every grid of the run
+  std::string grid;  // for coverage; empty: every grid of the run
   Format format = Format::svg;
 };
 
 struct PlotReport {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> warnings;  // what is missing, why, and what to do
+  std::vector<std::string> warnings;  // missing results, with reasons and advice
 };
 
-// Throws ConfigError for names that the run does not have and for plots that do not suit it, InputError for a run
-// without paths that is asked for more than its rays, RuntimeError where a file cannot be written.
+// Throws ConfigError for names that the run does not have and for plots that do not suit it, InputError if plots other
+// than rays are asked of a run without paths, RuntimeError if a file cannot be written.
 PlotReport plot_run(const SavedRun& run, const PlotChoice& choice, const std::filesystem::path& folder);
 
 }  // namespace wavetracer::plots

@@ -1,5 +1,5 @@
 // A quote begins or ends a quoted part, wherever it stands: within one, commas and line ends are text.
-// A doubled quote ends a part and begins the next, so it needs no rule of its own where its text does not matter.
+// A doubled quote ends a part and begins the next, so it needs no special rule where its text does not matter.
 #include "results/csv_columns.hpp"
 #include <charconv>
 #include <limits>
@@ -21,7 +21,7 @@ CsvColumns::CsvColumns(const std::vector<std::string>& names) {
 }
 
 void CsvColumns::end_field() {
-  if (header_ && field_ == 0 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // a byte order mark
+  if (header_ && field_ == 0 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // skips a byte order mark
   for (Column& column : columns_) {
     if (header_ && column.field == no_field && text_ == column.name) column.field = field_;
     if (!header_ && field_ == column.field) column.values.push_back(number_of(text_));
@@ -34,7 +34,7 @@ void CsvColumns::end_row() {
   end_field();
   if (!header_) ++rows_;
   for (Column& column : columns_)
-    if (column.field != no_field) column.values.resize(rows_, number_of(""));  // of a row that ends before it
+    if (column.field != no_field) column.values.resize(rows_, number_of(""));  // for a row that ends before this field
   header_ = begun_ = false;
   field_ = 0;
 }

@@ -1,4 +1,4 @@
-// Columns of numbers of a CSV file by RFC 4180, found by their names in the header row.
+// Reads columns of numbers of a CSV file by RFC 4180, found by their names in the header row.
 // The text comes in pieces of any size, so memory grows with the rows and not with the file.
 #pragma once
 #include <cstddef>
@@ -12,15 +12,15 @@ class CsvColumns {
  public:
   explicit CsvColumns(const std::vector<std::string>& names);
   void read(std::string_view piece);
-  // After the last piece.
+  // Must be called after the last piece.
   void finish();
-  // Of the column names[i]: whether there is one, and a value per row, NaN where the field is empty, missing or no
-  // number.
+  // For the column names[i]: whether it exists, and a value per row, NaN if the field is empty, missing or no number.
   bool has(size_t i) const { return columns_[i].field != no_field; }
   const std::vector<double>& values(size_t i) const { return columns_[i].values; }
 
  private:
-  static constexpr size_t no_field = ~size_t{0}, longest = 64;  // characters of a name or a number that are kept
+  // Longest: number of characters of a name or a number that are kept.
+  static constexpr size_t no_field = ~size_t{0}, longest = 64;
   struct Column {
     std::string name;
     size_t field = no_field;

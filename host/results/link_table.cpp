@@ -1,5 +1,5 @@
 // A line of links.csv is a row of /links, in the same order; another number of lines means another run.
-// Assumes nothing of the file but that: fields that are no numbers are NaN.
+// Fields that are no numbers become NaN.
 #include "results/link_table.hpp"
 #include <fmt/format.h>
 #include <filesystem>
@@ -33,8 +33,7 @@ LinkTable link_table(const SavedRun& run) {
   const auto without = [&](const std::string& problem) {
     LinkTable none;
     none.warning = fmt::format(
-        "{}: {}; figures of links are those of the paths in paths.h5, and what was missed on "
-        "links is not shown",
+        "{}: {}; figures of links are those of the paths in paths.h5, and what was missed on links is not shown",
         file.string(), problem);
     return none;
   };

@@ -1,5 +1,5 @@
-// What links.csv says of the links of a run. It knows more than paths.h5: all paths, also those that output limits have
-// left out of the file, and what rays have missed.
+// Reads links.csv of a run. It has more than paths.h5: all paths, including those that output limits have left out of
+// the file, and the power that rays have missed.
 #pragma once
 #include <array>
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace wavetracer {
 
-// A value per row of /links of paths.h5 in each column; a column is empty where it is unknown.
+// Each column has a value per row of /links of paths.h5; a column is empty if it is unknown.
 struct LinkTable {
   std::vector<double> paths, path_gain_db, narrowband_gain_db, rms_delay_spread_s, los, missed_power_share;
-  std::string warning;  // why all are unknown, where links.csv should say them
+  std::string warning;  // why all are unknown although links.csv exists
 };
 
-// Of the links.csv beside the run's paths.h5. Without one all columns are unknown, and without warning.
+// Reads the links.csv beside the run's paths.h5. Without that file all columns are unknown, and there is no warning.
 LinkTable link_table(const SavedRun& run);
 
 }  // namespace wavetracer

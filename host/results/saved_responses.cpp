@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t most_antennas = 2 * 65536;  // of an end
+constexpr uint64_t most_antennas = 2 * 65536;  // limit for an end
 
 }  // namespace
 
@@ -20,8 +20,8 @@ struct SavedResponses::State {
   hdf5::ForeignFile file;
   std::vector<double> frequencies_hz, times_s;
   std::vector<uint32_t> tx_antennas, rx_antennas;
-  std::vector<uint32_t> frames, tx, rx;  // of each link
-  std::vector<uint64_t> offset;          // and its rows
+  std::vector<uint32_t> frames, tx, rx;  // for each link
+  std::vector<uint64_t> offset;          // the first rows of each link
 
   explicit State(const fs::path& where) : path(where), file(where) {
     if (file.root_text("format") != "wavetracer responses")

@@ -1,5 +1,5 @@
 // Offsets and indices of the file are checked once, at opening or with the frame that uses them.
-// Assumes one thread: the child that reads answers one request at a time.
+// Only one thread may use it: the child that reads answers one request at a time.
 #include "results/saved_run.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,13 +23,13 @@ std::vector<glm::dvec3> vectors(const std::vector<double>& values) {
   return out;
 }
 
-// Rows [first[i], first[i + 1]) of a table of `rows` rows belong to i.
+// Checks that rows [first[i], first[i + 1]) of a table of `rows` rows belong to i.
 void check_offsets(const std::vector<uint64_t>& first, uint64_t rows, const std::string& what) {
   if (first.empty() || first.front() != 0 || first.back() != rows || !std::is_sorted(first.begin(), first.end()))
     throw RuntimeError(what + " does not go up from 0 to the number of rows that it counts");
 }
 
-// Where the rows of each frame begin in a table that is sorted by frame number.
+// Returns where the rows of each frame begin in a table that is sorted by frame number.
 std::vector<uint64_t> first_rows(const std::vector<uint32_t>& frame, const std::vector<uint32_t>& numbers,
                                  const std::string& what) {
   if (!std::is_sorted(frame.begin(), frame.end())) throw RuntimeError(what + " is not sorted");
@@ -112,10 +112,8 @@ struct SavedRun::State {
     if (file.root_text("format") != "wavetracer paths") throw RuntimeError("its format is not \"wavetracer paths\"");
     version = file.root_text("version");
     if (const double format = file.root_number("format_version"); format != 1)
-      throw RuntimeError(
-          fmt::format("it has version {} of the format, written by wavetracer {}; this program reads "
-                      "version 1",
-                      format, version));
+      throw RuntimeError(fmt::format(
+          "it has version {} of the format, written by wavetracer {}; this program reads version 1", format, version));
     summary = read_summary_json(path.parent_path() / "summary.json");
     config = file.root_text("config");
     frequency_hz = file.root_number("frequency_hz");
@@ -206,7 +204,7 @@ void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
     for (size_t k = 0; k < ports; ++k) paths.a[i][k] = {re[i * ports + k], im[i * ports + k]};
 }
 
-// Files of before there were groups have none.
+// Files of versions without groups have none.
 void SavedRun::State::read_groups(size_t row, Paths& paths) const {
   if (!file.has("/paths/group")) return;
   const uint64_t first = first_path[row], count = first_path[row + 1] - first;
@@ -252,7 +250,7 @@ void SavedRun::State::read_poses(size_t row, SavedFrame& frame) const {
   for (size_t i = 0; i < count; ++i) {
     SavedPose pose{instance[i], position[i], velocity[i]};
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) pose.rotation[c][r] = rotation[9 * i + 3 * r + c];  // glm: by column
+      for (int c = 0; c < 3; ++c) pose.rotation[c][r] = rotation[9 * i + 3 * r + c];  // glm stores matrices by column
     frame.poses.push_back(pose);
   }
 }

@@ -1,5 +1,5 @@
-// What a run has written, read back: paths.h5 of a folder, one frame at a time. Viewer, plots and exports read runs
-// here. Everything in the file is checked before it is used; an HDF5 file is input like any other.
+// Reads the results of a run: paths.h5 of a folder, one frame at a time. Viewer, plots and exports read runs through
+// it. The file is not trusted: everything is checked before it is used.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +23,9 @@ struct SavedInstance {
   std::string model;  // a mesh file, or the name of a built-in shape
 };
 
-// Where a vehicle is: p_scene = position_m + rotation p_model, both in the coordinates of their files.
+// The pose of a vehicle: p_scene = position_m + rotation p_model, both in the coordinates of their files.
 struct SavedPose {
-  uint32_t instance = 0;  // of SavedRun::instances()
+  uint32_t instance = 0;  // index in SavedRun::instances()
   glm::dvec3 position_m{0}, velocity_m_s{0};
   glm::dmat3 rotation{1.0};
 };
@@ -33,45 +33,45 @@ struct SavedPose {
 struct SavedFrame {
   uint32_t number = 0;
   double time_s = 0;
-  Paths paths;                   // of this frame alone, so vertex_offset begins with 0
-  std::vector<SavedPose> poses;  // of the vehicles that are present
-  // File coordinates, one per end of the run; NaN while it is absent.
+  Paths paths;                   // paths of this frame alone, so vertex_offset begins with 0
+  std::vector<SavedPose> poses;  // poses of the vehicles that are present
+  // In file coordinates, one per end of the run; NaN while it is absent.
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;
   std::vector<glm::dvec3> transmitter_velocity_m_s, receiver_velocity_m_s;
-  std::vector<Link> links;  // that were asked for, with paths or without
+  std::vector<Link> links;  // links that were computed, with paths or without
 };
 
 class SavedRun {
  public:
-  // path: the folder of a run, or its paths.h5. Throws InputError where there is none, or it is none of wavetracer's,
-  // or parts of it are missing, of another shape, or contradict each other.
+  // path: the folder of a run, or its paths.h5. Throws InputError if the file does not exist, was not written by
+  // wavetracer, or parts of it are missing, have another shape, or contradict each other.
   explicit SavedRun(const std::filesystem::path& path);
   ~SavedRun();
   SavedRun(SavedRun&&) noexcept;
   SavedRun& operator=(SavedRun&&) noexcept;
 
   const std::filesystem::path& file() const;
-  const std::string& version() const;           // of the program that wrote it
-  const std::string& device() const;            // by the summary.json beside it; empty where there is none
-  const std::optional<Missed>& missed() const;  // by the same file; nothing where it is not known
+  const std::string& version() const;           // version of the program that wrote it
+  const std::string& device() const;            // from the summary.json beside it; empty if there is none
+  const std::optional<Missed>& missed() const;  // from the same file; nothing if unknown
   const std::string& config_text() const;       // TOML, with absolute paths
   double frequency_hz() const;
-  // name, antenna, polarization and orientation as configured; positions of moving ends are those of frames.
+  // Name, antenna, polarization and orientation are as configured; positions of moving ends are in frames.
   const std::vector<RadioEnd>& transmitters() const;
   const std::vector<RadioEnd>& receivers() const;
   const std::vector<SavedInstance>& instances() const;
-  const std::vector<InputFile>& inputs() const;  // that the run has read; none where an older version wrote it
+  const std::vector<InputFile>& inputs() const;  // files that the run has read; none if an older version wrote it
   uint32_t rx_ports() const;
   uint32_t tx_ports() const;
 
-  // Rows are frames in their order, counted from 0; their numbers may begin elsewhere (run --frames).
+  // Rows are frames in their order, counted from 0; their numbers may start elsewhere (run --frames).
   size_t frame_count() const;
   uint32_t number(size_t row) const;
   double time_s(size_t row) const;
-  uint64_t path_count() const;            // of all frames
-  uint64_t path_count(size_t row) const;  // of one
-  uint64_t link_count() const;            // of all frames
-  uint64_t first_link(size_t row) const;  // of that frame among those of all
+  uint64_t path_count() const;            // over all frames
+  uint64_t path_count(size_t row) const;  // number in one frame
+  uint64_t link_count() const;            // over all frames
+  uint64_t first_link(size_t row) const;  // row of the frame's first link among those of all frames
   SavedFrame frame(size_t row) const;     // throws InputError
 
  private:

@@ -1,5 +1,5 @@
 // Columns are read by frame; the frames of rows are checked and kept at opening.
-// Assumes one thread, as SavedRun does.
+// Only one thread may use it, as for SavedRun.
 #include "results/saved_waypoints.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Numbers of a column as the enum that they stand for.
+// Reads the numbers of a column as an enum.
 template <class Enum>
 std::vector<Enum> known(const std::vector<uint8_t>& numbers, Enum last, const std::string& column) {
   std::vector<Enum> out;
@@ -31,7 +31,7 @@ struct SavedWaypoints::State {
   fs::path path;
   hdf5::ForeignFile file;
   double format = 0;
-  std::vector<uint32_t> frames;  // of each row
+  std::vector<uint32_t> frames;  // frame of each row
 
   explicit State(const fs::path& where) : path(where), file(where) {
     if (file.root_text("format") != "wavetracer waypoints")

@@ -1,4 +1,4 @@
-// Assumes that the configuration's paths are absolute, as runs write them.
+// The configuration's paths must be absolute, as runs write them.
 // Vehicles are matched by their id, because a run of a part of the frames lists the same vehicles.
 #include "results/saved_world.hpp"
 #include <fmt/format.h>
@@ -18,17 +18,18 @@
 namespace wavetracer {
 namespace {
 
-// Of files that are gone the readers speak.
+// Files that no longer exist are reported by their readers.
 void warn_changed(const SavedRun& run, std::vector<std::string>& warnings) {
   for (const InputFile& input : run.inputs()) {
     const auto now = hash_of_file(input.file);
     if (now && (now->bytes != input.bytes || now->hash != input.hash))
-      warnings.push_back(fmt::format("{} ({}) has changed since the run; what is made of it is not what the run saw",
-                                     input.file, input.name));
+      warnings.push_back(fmt::format(
+          "{} ({}) has changed since the run: pictures and exports that use it differ from the world of the run",
+          input.file, input.name));
   }
 }
 
-// Lanes of a flat network on the ground that vehicles drive on.
+// Puts lanes of a flat network on the ground that vehicles drive on.
 void drape(std::vector<Street>& streets, const Scene& scene) {
   constexpr double step_m = 5;
   const Ground ground(scene);

@@ -1,5 +1,5 @@
-// The city and the vehicles of a run, loaded again from the files that its configuration names.
-// They may have changed or gone since: whoever draws them goes on without what cannot be had, and says so.
+// Loads the city and the vehicles of a run again from the files that its configuration names.
+// The files may have changed or gone: pictures are then drawn without the missing objects, and a warning says so.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,16 +11,17 @@
 namespace wavetracer {
 
 struct SavedWorld {
-  Config config;  // of the run's text; defaults where it cannot be parsed by this version
-  Scene scene;    // recentred: file coordinate = scene.origin_m + vertex; empty where it could not be loaded
-  std::vector<Scene> models;  // likewise, in the coordinates of the model
+  Config config;              // configuration of the run; defaults if this version cannot parse it
+  Scene scene;                // recentred: file coordinate = scene.origin_m + vertex; empty if it could not be loaded
+  std::vector<Scene> models;  // the same, in the coordinates of the model
   std::vector<uint32_t>
-      instance_model;                 // of each SavedRun::instances() the index into models, no_instance where unknown
-  std::vector<Street> streets;        // in file coordinates; empty where none are known
-  std::vector<std::string> warnings;  // what is missing, and why
+      instance_model;           // for each of SavedRun::instances(), the index in models, or no_instance if unknown
+  std::vector<Street> streets;  // in file coordinates; empty if none are known
+  std::vector<std::string> warnings;  // missing objects, with reasons
 };
 
-// with_wedges: also the edges that diffract, whatever the run computed. Never throws for files that are missing or bad.
+// with_wedges: also finds the edges that diffract, whether or not the run computed them. Never throws for files that
+// are missing or bad.
 SavedWorld load_saved_world(const SavedRun& run, bool with_wedges = false);
 
 }  // namespace wavetracer

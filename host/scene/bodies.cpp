@@ -1,5 +1,5 @@
-// Triangles that share an edge belong to one set of a forest, and the lowest one of a set comes first.
-// Assumes the edges of a scene that was built: faces are indices of its triangles.
+// Triangles that share an edge are joined in a union-find forest; the lowest triangle of a set comes first.
+// It assumes the edges of a built scene, whose faces are indices of its triangles.
 #include "scene/bodies.hpp"
 
 #include "base/forest.hpp"

@@ -1,4 +1,4 @@
-// Which triangles belong together: a body is what edges join.
+// Finds bodies: sets of triangles that are connected by shared edges.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// The number of the body of each triangle, counted from 0 in the order of their first triangles.
+// Returns the body of each triangle. Bodies are numbered from 0 in the order of their first triangles.
 std::vector<uint32_t> bodies_of(const Scene& scene);
 
 }  // namespace wavetracer

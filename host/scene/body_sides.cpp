@@ -1,4 +1,4 @@
-// Sides are those of the corners that faces at the border have off the plane.
+// The side follows from the corners of neighbouring faces that lie off the surface's plane.
 #include "scene/body_sides.hpp"
 
 #include <glm/geometric.hpp>
@@ -9,13 +9,14 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double upright_z = 0.7;  // of the way from a sheet to the body that stands on it
+// Part of the way from a sheet to the body that stands on it, up to which they count as one.
+constexpr double upright_z = 0.7;
 
 struct BorderSides {
-  bool free = true, above = false, below = false;  // free: no other face is there
+  bool free = true, above = false, below = false;  // free: no other face shares the edge
 };
 
-// The sides on which other faces leave a triangle's edge; none where the surface goes on beyond it.
+// Returns the sides to which other faces at a triangle's edge lie; none where the surface continues beyond the edge.
 BorderSides sides_at(const Scene& scene, uint32_t t, const Edge& edge) {
   const uint32_t own = scene.triangle_surface[t];
   const Surface& surface = scene.surfaces[own];
@@ -46,7 +47,7 @@ int BodySides::find_side(uint32_t surface) const {
     for (const uint32_t e : triangle_edges_[t]) {
       const BorderSides sides = sides_at(scene_, t, scene_.edges[e]);
       if (sides.free) return 0;
-      if (sides.above == sides.below) continue;  // goes on in the plane, or touches another body
+      if (sides.above == sides.below) continue;  // the surface continues in its plane, or touches another body
       above |= sides.above;
       below |= sides.below;
     }

@@ -1,5 +1,5 @@
-// Building a Scene in steps: gather, recentre, weld, clean, flatten, connect, cut what is covered, find wedges.
-// Every step is deterministic and sequential; a million triangles take a few seconds.
+// Builds a Scene in steps: gather, recentre, weld, clean, flatten, connect, cut covered faces, find wedges. Every step
+// is deterministic and sequential; a million triangles take a few seconds.
 #include "scene/build_scene.hpp"
 
 #include <fmt/format.h>
@@ -27,20 +27,21 @@ namespace {
 
 using glm::dvec3;
 constexpr uint32_t none = 0xFFFFFFFFu;
-constexpr double largest_extent_m = 1e6;  // beyond any scene of rays on a flat Earth: a unit or a stray vertex is wrong
-// Corners within 1 mm are one, and what is within 0.1 mm of a plane lies on it: in smaller scenes that would decide
-// which paths there are, and up to the second extent it may for details.
+// Rays on a flat Earth reach no farther: a larger scene has a wrong unit or a stray vertex.
+constexpr double largest_extent_m = 1e6;
+// Corners within 1 mm are merged, and points within 0.1 mm of a plane lie on it. In scenes smaller than the first
+// extent these tolerances would change which paths exist; up to the second extent they may blur details.
 constexpr double smallest_extent_m = 0.1, detailed_extent_m = 1;
 
 // Vertices and triangles of all meshes in one index space; vertices that no triangle uses are left out.
 struct Soup {
   std::vector<dvec3> vertices;
   std::vector<Triangle> triangles;
-  std::vector<uint32_t> object;    // per triangle: index of its mesh
-  std::vector<double> rounding_m;  // per vertex: of its mesh
+  std::vector<uint32_t> object;    // the mesh of each triangle
+  std::vector<double> rounding_m;  // the rounding of the mesh of each vertex
 };
 
-// Without meshes that are vegetation.
+// Gathers all meshes but those of vegetation.
 Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
   const auto is_volume = [&](size_t m) { return resolved.materials[resolved.mesh_material[m]].vegetation.has_value(); };
   uint64_t corners = 0;
@@ -53,7 +54,7 @@ Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
   Soup soup;
   soup.triangles.reserve(corners / 3);
   soup.object.reserve(corners / 3);
-  std::vector<uint32_t> moved;  // mesh vertex -> soup vertex
+  std::vector<uint32_t> moved;  // soup vertex of each mesh vertex
   for (size_t m = 0; m < raw.meshes.size(); ++m) {
     if (is_volume(m)) continue;
     const RawMesh& mesh = raw.meshes[m];
@@ -74,8 +75,9 @@ Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
   return soup;
 }
 
-// Moves the soup so that its bounding box is centred on a point of whole metres, which it returns. The subtraction is
-// exact for coordinates far from zero (a whole number is a multiple of their last bit), as UTM ones are.
+// Moves the soup so that its bounding box is centred on a point of whole metres, and returns that point. For
+// coordinates far from zero, such as UTM, the subtraction is exact, since a whole number is a multiple of their last
+// bit.
 dvec3 recentre(Soup& soup, const std::string& file) {
   dvec3 lower(std::numeric_limits<double>::max()), upper(-lower);
   for (const dvec3& v : soup.vertices) {
@@ -92,11 +94,11 @@ dvec3 recentre(Soup& soup, const std::string& file) {
   if (std::max({size.x, size.y, size.z}) < smallest_extent_m) {
     throw InputError(
         fmt::format("{}: the scene extends over {:.3g} x {:.3g} x {:.3g} m, less than {:g} m, which is too small, "
-                    "because corners within 1 mm of each other are merged: is scene.scale right? To trace a small "
-                    "model, scale scene, antennas and wavelength up by one factor",
+                    "because corners within 1 mm of each other are merged: is scene.scale right? "
+                    "To trace a small model, scale scene, antennas and wavelength up by one factor",
                     file, size.x, size.y, size.z, smallest_extent_m));
   }
-  const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // + 0: no negative zeros
+  const dvec3 origin = glm::round(lower + size * 0.5) + dvec3(0);  // adding 0 turns -0 into 0
   for (dvec3& v : soup.vertices) v -= origin;
   return origin;
 }
@@ -109,7 +111,7 @@ void warn_small(Scene& scene) {
         extent_m));
 }
 
-// Triangles that repeat the vertices of an earlier one of their material, in any order.
+// Finds triangles that have the same vertices, in any order, as an earlier triangle of the same material.
 struct Duplicates {
   std::vector<bool> is_duplicate;
   uint64_t count = 0;
@@ -139,8 +141,8 @@ Duplicates find_duplicates(const std::vector<Triangle>& triangles, const std::ve
   return out;
 }
 
-// Welds the soup into the scene and drops what is degenerate or double. rounding_m: of every vertex of the scene, the
-// largest of those that were welded into it.
+// Welds the soup into the scene and drops degenerate and duplicate triangles. rounding_m: for every vertex of the
+// scene, the largest rounding of the vertices welded into it.
 void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>& mesh_material,
                     std::vector<uint32_t>& triangle_material, std::vector<double>& rounding_m) {
   Weld weld = weld_vertices(soup.vertices, weld_tolerance_m);
@@ -179,7 +181,7 @@ void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>&
   triangle_material.resize(kept);
 }
 
-// Warns of places that several triangles of one plane cover: they scatter once (earlier_faces.hpp).
+// Warns of areas that several triangles of one plane cover: only one of them scatters there (earlier_faces.hpp).
 void warn_of_covered_faces(Scene& scene) {
   if (std::ranges::none_of(scene.materials, [](const Material& m) { return m.scattering > 0 && !m.vegetation; }))
     return;

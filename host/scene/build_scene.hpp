@@ -1,5 +1,5 @@
-// From raw meshes to a Scene: recentred, welded, cleaned, with surfaces and edges.
-// Assumes coordinates in metres, z up (units and axes are applied before), and one resolved material per mesh.
+// Builds a Scene from raw meshes: recentred, welded and cleaned, with surfaces and edges.
+// It assumes coordinates in metres with z up (units and axes are converted before), and one resolved material per mesh.
 #pragma once
 #include "scene/materials.hpp"
 #include "scene/raw_scene.hpp"
@@ -8,14 +8,14 @@
 
 namespace wavetracer {
 
-// A triangle lower than this over its longest side is dropped as degenerate: its plane cannot be told from rounding
-// (float32 coordinates, in which rays are traced, have steps of 1 um from 8 m off the origin on).
+// A triangle whose height over its longest side is less than this is dropped as degenerate: rounding would decide its
+// plane (float32 coordinates, in which rays are traced, have steps of 1 um from 8 m off the origin on).
 constexpr double degenerate_height_m = 1e-6;
 
-// tolerance_m: vertices within it of a common plane are one surface, and are moved onto it (host/scene/flatten.hpp); of
-// a mesh whose coordinates were rounded by more than half of it, twice its rounding. Zero: nothing is moved at all.
-// edges: what to fill Scene::wedges with, which only diffraction needs. Throws InputError for an empty scene, or one of
-// impossible size.
+// tolerance_m: vertices within this distance of a common plane form one surface and are moved onto it
+// (host/scene/flatten.hpp); for a mesh whose coordinates were rounded by more than half of it, twice the rounding is
+// used. Zero: no vertex is moved. edges: the edges that Scene::wedges is filled with, which only diffraction needs.
+// Throws InputError for an empty scene, or one of impossible size.
 Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch edges = EdgeSearch::of_model,
                   double tolerance_m = 0);
 

@@ -1,5 +1,5 @@
-// The city generator: which building stands where. Random numbers are PCG32 (O'Neill 2014) with integer ranges only.
-// Each block draws from its own stream, so that a block keeps its buildings when the city grows.
+// The city generator: it decides which building stands where. Random numbers are PCG32 (O'Neill 2014) with integer
+// ranges only. Each block draws from its own stream, so a block keeps its buildings when the city grows.
 #include "scene/city.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 using city::grid_per_m;
 
-constexpr int foundation = 1 * grid_per_m;  // below the ground, so that no face lies in its plane
+constexpr int foundation = 1 * grid_per_m;  // below the ground, so that no face lies in the ground's plane
 constexpr int floor_height = 26;            // 3.25 m
 constexpr double margin_m = 20;             // ground beyond the outer streets
 
@@ -28,7 +28,8 @@ class Random {
     state_ += seed;
     next();
   }
-  // A whole number from low to high, both included. The bias of the remainder is below 2^-24 for the ranges used here.
+  // Returns a whole number from low to high, both included. The bias of the remainder is below 2^-24 for the ranges
+  // used here.
   int range(int low, int high) { return low + static_cast<int>(next() % static_cast<uint32_t>(high - low + 1)); }
   bool chance(int percent) { return range(1, 100) <= percent; }
 
@@ -77,7 +78,8 @@ class CityBuilder {
   }
 
  private:
-  // What is drawn is named first where a call takes several: the order of its arguments is the compiler's choice.
+  // If a call needs several random numbers, each is stored in a variable first: the order in which arguments are
+  // evaluated is the compiler's choice.
   int metres(int low, int high) { return random_.range(low, high) * grid_per_m; }
   int height() {
     return random_.range(static_cast<int>(options_.min_floors), static_cast<int>(options_.max_floors)) * floor_height;
@@ -95,7 +97,7 @@ class CityBuilder {
     }
   }
 
-  // One ring around a courtyard, in which a lower building may stand.
+  // A ring around a courtyard, in which a lower building may stand.
   void perimeter_block(const Rectangle& r) {
     const int wing = metres(11, 14), setback = metres(0, 2);
     const Rectangle outer{r.x0 + setback, r.y0 + setback, r.x1 - setback, r.y1 - setback};
@@ -108,7 +110,7 @@ class CityBuilder {
           floor_height * random_.range(1, 2));
   }
 
-  // A tower turned against the streets, with a low L at its side.
+  // A tower that is turned against the streets, with a low L-shaped building at its side.
   void plaza(const Rectangle& r) {
     const int unit = r.width() / 80;  // the turned square has sides of 5 units * 6, and spans 42 units
     const int centre_x = (r.x0 + r.x1) / 2, y0 = r.y0 + 30 * unit;
@@ -122,13 +124,14 @@ class CityBuilder {
     add_flat(cells(low, 14 * unit, 12 * unit, city::l_cells), floor_height * random_.range(1, 3), "concrete");
   }
 
-  // Columns of lots, each with a building of its own.
+  // Columns of lots, each with its own building.
   void lots(const Rectangle& r, int columns, int rows) {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
         const Rectangle lot{r.x0 + r.width() * i / columns, r.y0 + r.depth() * j / rows,
                             r.x0 + r.width() * (i + 1) / columns, r.y0 + r.depth() * (j + 1) / rows};
-        // Set back by 1 to 3 m each side, in steps of 1/4 m so that a gabled building has an even width.
+        // A building is set back by 1 to 3 m on each side, in steps of 1/4 m so that a gabled building has an even
+        // width.
         const auto setback = [this] { return 2 * random_.range(4, 12); };
         const Rectangle plot{even(lot.x0) + setback(), even(lot.y0) + setback(), even(lot.x1) - setback(),
                              even(lot.y1) - setback()};
@@ -168,8 +171,8 @@ class CityBuilder {
     return names[random_.range(0, 6)];
   }
 
-  // A footprint of 3 x 3 cells whose outer ones are wing_a and wing_b wide; the cell mask 1 stands for the rectangle,
-  // which is then one cell.
+  // Returns a footprint of 3 x 3 cells whose outer ones are wing_a and wing_b wide. A mask of 1 makes the rectangle a
+  // single cell.
   static city::Footprint cells(const Rectangle& r, int wing_a, int wing_b, uint32_t mask) {
     city::Footprint out;
     out.a = {r.x0, r.x0 + wing_a, r.x1 - wing_a, r.x1};

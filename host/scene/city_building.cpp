@@ -1,4 +1,4 @@
-// Closed building solids: cells of a footprint extruded, or a rectangle under a gable.
+// Makes closed solids of buildings: extruded cells of a footprint, or a rectangle under a gable.
 // Faces wind counter-clockwise seen from outside; neighbouring faces share their corners exactly.
 #include "scene/city_building.hpp"
 
@@ -7,14 +7,14 @@
 namespace wavetracer::city {
 namespace {
 
-using Point = std::array<int, 3>;  // a, b in the frame, z: grid units
+using Point = std::array<int, 3>;  // a, b: in the frame; z: grid units
 
 // A mesh that is put together from polygons in a frame; equal points become one vertex.
 class MeshBuilder {
  public:
   explicit MeshBuilder(const Frame& frame) : frame_(frame) {}
 
-  // A convex polygon, as a fan.
+  // Adds a convex polygon as a fan.
   void add(std::initializer_list<Point> polygon) {
     std::vector<uint32_t> corners;
     for (const Point& p : polygon) corners.push_back(vertex(p));
@@ -46,7 +46,7 @@ BuildingMeshes flat_building(const Footprint& footprint, int foundation, int hei
     return i >= 0 && i < 3 && j >= 0 && j < 3 && ((footprint.cells >> (j * 3 + i)) & 1u) != 0;
   };
   const int low = -foundation;
-  // A wall with the solid on its left hand when one walks from p to q.
+  // Adds a wall from p to q; the solid is on the left of that direction.
   const auto wall = [&](std::array<int, 2> p, std::array<int, 2> q) {
     walls.add({{p[0], p[1], low}, {q[0], q[1], low}, {q[0], q[1], height}, {p[0], p[1], height}});
   };

@@ -1,5 +1,5 @@
-// Buildings as closed solids on an integer grid of 1/8 m: what the city generator places.
-// Assumes coordinates below 2^20 grid units (131 km), so that float32 holds them exactly.
+// Buildings that the city generator places: closed solids on an integer grid of 1/8 m.
+// Coordinates must be below 2^20 grid units (131 km), so that float32 holds them exactly.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace wavetracer::city {
 
 constexpr int grid_per_m = 8;
 
-// Where a footprint lies: corner + a * u + b * v in grid units. u and v are perpendicular and of equal length, so that
-// (1, 0), (0, 1) is axis-parallel and (4, 3), (-3, 4) is turned by 36.87 degrees, still on the grid.
+// The place of a footprint: point (a, b) lies at corner + a * u + b * v in grid units. u and v are perpendicular and
+// equally long: (1, 0), (0, 1) is axis-parallel; (4, 3), (-3, 4) is turned by 36.87 degrees and still on the grid.
 struct Frame {
   std::array<int, 2> corner{0, 0};
   std::array<int, 2> u{1, 0}, v{0, 1};
 };
 
-// Cells of a footprint: cell (i, j) spans a[i] .. a[i + 1] and b[j] .. b[j + 1]; occupied(i, j) is bit j * 3 + i.
+// The cells of a footprint: cell (i, j) spans a[i] .. a[i + 1] and b[j] .. b[j + 1]; occupied(i, j) is bit j * 3 + i.
 // Occupied cells must not touch at corners only (the solid would not be a manifold).
 struct Footprint {
   Frame frame;
@@ -31,15 +31,16 @@ constexpr uint32_t full_cells = 0b111111111, ring_cells = 0b111101111, l_cells =
                    t_cells = 0b010010111;
 
 struct BuildingMeshes {
-  RawMesh walls;  // with the floor below the ground
+  RawMesh walls;  // includes the floor below the ground
   RawMesh roof;
 };
 
-// A flat roof at height; every wall, roof and floor is split along the cells, so no corner lies inside an edge.
+// Makes a building with a flat roof at this height. Walls, roof and floor are split along the cells, so no corner lies
+// inside an edge.
 BuildingMeshes flat_building(const Footprint& footprint, int foundation, int height);
 
-// A gabled roof over the rectangle a[0] .. a[3] by b[0] .. b[3], its ridge along the longer side and rise above the
-// eaves. The shorter side must be even.
+// Makes a building with a gabled roof over the rectangle a[0] .. a[3] by b[0] .. b[3]; the ridge runs along the longer
+// side, `rise` above the eaves. The shorter side must be even.
 BuildingMeshes gabled_building(const Footprint& footprint, int foundation, int eaves, int rise);
 
 }  // namespace wavetracer::city

@@ -1,5 +1,5 @@
-// The options of `wavetracer scene city`, and of the keys scene.generate and trajectories.generate.
-// Assumes blanks between words; values hold no blanks.
+// Parses the options of `wavetracer scene city` and of the keys scene.generate and trajectories.generate.
+// Options are separated by blanks; values hold no blanks.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -18,7 +18,7 @@ constexpr std::string_view usage =
 
 struct Options {
   CityOptions city;
-  TrafficOptions traffic;  // but for the seed and the grid, which are the city's
+  TrafficOptions traffic;  // the seed and the grid are taken from the city instead
 };
 
 [[noreturn]] void fail(const std::string& what) { throw ConfigError(fmt::format("city: {}; {}", what, usage)); }
@@ -42,7 +42,7 @@ double seconds(std::string_view key, std::string_view text, double most) {
   return value;
 }
 
-// "6x4" or "3:9"; one number stands for both where that makes sense.
+// Parses "6x4" or "3:9"; where that makes sense, a single number stands for both.
 std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, char separator, uint32_t most) {
   const size_t at = text.find(separator);
   const std::string_view second = at == std::string_view::npos ? text : text.substr(at + 1);

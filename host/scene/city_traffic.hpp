@@ -1,5 +1,5 @@
-// The traffic of a generated city: one text of options serves scene.generate and trajectories.generate.
-// Assumes nothing of the scene itself: vehicles drive on the streets of a city of the same options.
+// Options of a generated city's traffic: one text of options serves scene.generate and trajectories.generate.
+// Vehicles drive on the streets of a city with the same options.
 #pragma once
 #include <string_view>
 
@@ -7,7 +7,8 @@
 
 namespace wavetracer {
 
-// The options of parse_city_options(), and "--vehicles 20 --seconds 10 --step 0.1", each optional. Throws ConfigError.
+// Parses the options of parse_city_options() and "--vehicles 20 --seconds 10 --step 0.1"; each is optional. Throws
+// ConfigError.
 TrafficOptions parse_traffic_options(std::string_view text);
 
 inline Trajectories generate_traffic(std::string_view options) {

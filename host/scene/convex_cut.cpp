@@ -1,4 +1,4 @@
-// Clipping by Sutherland and Hodgman (1974), keeping what is outside as well.
+// Clips by Sutherland and Hodgman (1974), and keeps the outer part as well.
 #include "scene/convex_cut.hpp"
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace {
 
 using glm::dvec3;
 
-// Returns the point where the line crosses, always seen from its inner end: both polygons at a side get the same point.
+// Returns the point where the line is crossed, always computed from the inner end: both polygons at a side get the same
+// point.
 dvec3 on_cut_line(const dvec3& inner, double inner_m, const dvec3& outer, double outer_m) {
   return inner + (outer - inner) * (inner_m / (inner_m - outer_m));
 }

@@ -16,7 +16,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 double area(const Triangle2& t) { return 0.5 * std::abs(cross(t[1] - t[0], t[2] - t[0])); }
 
-// Do they overlap by more than a border? Two convex sets are apart if a side of one of them lies between them.
+// Tells whether two triangles overlap by more than a border. Two convex polygons are apart if a side of one of them
+// separates them.
 bool overlap(const Triangle2& a, const Triangle2& b, double tolerance_m) {
   const auto apart = [&](const Triangle2& s, const Triangle2& t) {
     for (int i = 0; i < 3; ++i) {
@@ -31,7 +32,8 @@ bool overlap(const Triangle2& a, const Triangle2& b, double tolerance_m) {
   return !apart(a, b) && !apart(b, a);
 }
 
-// Corners of the hull, counter-clockwise, without those on its sides (A. M. Andrew's monotone chain, 1979).
+// Returns the corners of the convex hull, counter-clockwise, without points on its sides (A. M. Andrew's monotone
+// chain, 1979).
 std::vector<glm::dvec2> hull(std::vector<glm::dvec2> points, double tolerance_m) {
   std::ranges::sort(points, [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<glm::dvec2> out;
@@ -50,10 +52,11 @@ std::vector<glm::dvec2> hull(std::vector<glm::dvec2> points, double tolerance_m)
   return out;
 }
 
-// The sides of one surface; none where it is not convex.
+// Returns the sides of one surface, or none if it is not convex.
 std::vector<glm::dvec4> sides_of(const Scene& scene, const Surface& surface) {
   constexpr double tolerance_m = 1e-6;
-  constexpr uint32_t max_triangles = 4 * max_face_sides;  // of more, each pair would be compared
+  // A limit of the time, since each pair of triangles is compared.
+  constexpr uint32_t max_triangles = 4 * max_face_sides;
   if (surface.triangle_count == 0 || surface.triangle_count > max_triangles) return {};
   const glm::dvec3 n = surface.normal;
   const glm::dvec3 x = glm::normalize(glm::cross(n, std::abs(n.z) < 0.9 ? glm::dvec3{0, 0, 1} : glm::dvec3{1, 0, 0}));
@@ -87,7 +90,7 @@ std::vector<glm::dvec4> sides_of(const Scene& scene, const Surface& surface) {
   }
   double filled = 0;
   for (const Triangle2& t : triangles) filled += area(t);
-  // What is missing, spread along the border, is thinner than rounding.
+  // The missing area, spread along the border, must be thinner than rounding.
   return std::abs(inside - filled) <= 4 * tolerance_m * round ? out : std::vector<glm::dvec4>{};
 }
 

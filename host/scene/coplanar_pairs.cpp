@@ -1,4 +1,4 @@
-// Two grids: one of surfaces, which leaves the few that may overlap, and one of the triangles of those.
+// Two grids are used: one of surfaces, to find the few that may overlap, and one of the triangles of those.
 #include "scene/coplanar_pairs.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool may_share_a_plane(const Surface& a, const Surface& b) {
   return a.material != b.material && std::abs(glm::dot(a.normal, b.normal)) >= least_cosine;
 }
 
-// Surfaces that are near one of another material and of about the same direction.
+// Marks surfaces that are near a surface of another material and about the same direction.
 std::vector<bool> near_surfaces(const Scene& scene) {
   std::vector<bool> out(scene.surfaces.size(), false);
   std::vector<SceneBox> boxes;

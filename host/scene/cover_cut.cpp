@@ -1,5 +1,5 @@
-// The cover nearest to the middle of a piece cuts it into up to three pieces beside it, and each goes on with those
-// covers that are on its side of the lines: halves of halves, so that each cover meets few pieces.
+// The cover nearest to the middle of a piece cuts it into up to three pieces beside the cover. Each piece goes on with
+// only those covers that reach its side of the lines, so that each cover meets few pieces.
 #include "scene/cover_cut.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using glm::dvec3;
 
 struct CutTask {
   ConvexPolygon piece;
-  std::vector<uint32_t> covers;  // that may overlap it
+  std::vector<uint32_t> covers;  // the triangles that may overlap the piece
 };
 
 dvec3 middle_of(std::span<const dvec3> corners) {
@@ -43,7 +43,7 @@ class CoverCutter {
   }
 
  private:
-  // By the nearest cover that overlaps the piece; false where none does.
+  // Cuts the piece by the nearest cover that overlaps it; returns false if none does.
   bool cut_by_one(CutTask& task) {
     const dvec3 middle = middle_of(task.piece);
     while (!task.covers.empty()) {
@@ -72,7 +72,7 @@ class CoverCutter {
     }
   }
 
-  // The covers that have a corner on this side of a line.
+  // Returns the covers that have a corner on this side of a line.
   std::vector<uint32_t> reaching(const std::vector<uint32_t>& covers, const CutLine& line, double sense) const {
     std::vector<uint32_t> out;
     for (const uint32_t i : covers)

@@ -9,22 +9,23 @@
 
 namespace wavetracer {
 
-// A triangle that covers.
+// A triangle that covers others.
 struct CoverTriangle {
-  std::array<CutLine, 3> sides;  // in the plane that is covered, in the order in which they cut
+  std::array<CutLine, 3> sides;  // lines in the plane that is covered, in the order in which they cut
   std::array<glm::dvec3, 3> corners;
 };
 
-// sides that the triangle shares with others of its surface cut last, so that they cut little; triangle_edges as
-// find_edges() returns them, normal of the plane that is covered.
+// Makes a cover of triangle t. Sides that it shares with other triangles of its surface cut last, so that they cut
+// little. triangle_edges: as find_edges() returns them; normal: of the plane that is covered.
 CoverTriangle cover_triangle(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges, uint32_t t,
                              const glm::dvec3& normal);
 
-// The part of a polygon that a triangle covers; empty where that is narrower than welding moves vertices.
+// Returns the part of a polygon that a triangle covers, or an empty polygon if that is narrower than the distance by
+// which welding moves vertices.
 ConvexPolygon covered_part(const ConvexPolygon& polygon, const CoverTriangle& cover);
 
-// Returns the parts that no triangle covers, as convex polygons that do not overlap, without those that are narrower
-// than welding moves vertices. The time grows as n log n with the number of covers that are spread over the polygon.
+// Returns the parts that no triangle covers, as convex polygons that do not overlap, without parts narrower than the
+// distance by which welding moves vertices. For n covers spread over the polygon, the time grows as n log n.
 std::vector<ConvexPolygon> uncovered_parts(ConvexPolygon polygon, std::span<const CoverTriangle> covers);
 
 }  // namespace wavetracer

@@ -11,7 +11,7 @@
 namespace wavetracer {
 namespace {
 
-// So sums in another order give the same number, but for one in some 10^10.
+// Rounding to six digits makes sums in another order give the same number, except for about one sum in 10^10.
 double in_six_digits(double x) {
   if (!(x > 0)) return 0;
   const double step = std::pow(10.0, std::floor(std::log10(x)) - 5);

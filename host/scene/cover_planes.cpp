@@ -1,4 +1,5 @@
-// From the largest surface that covers others to the smallest, so that planes go on from one to the next.
+// Surfaces are handled from the largest that covers others to the smallest, so that a plane is handed on from one to
+// the next.
 #include "scene/cover_planes.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace wavetracer {
 namespace {
 
-// Orders surfaces of equal areas and materials by place, not by number.
+// Orders surfaces of equal area and material by their place, not by their number.
 auto place_of(const Surface& s) { return std::tuple(s.lower.x, s.lower.y, s.lower.z, s.upper.x, s.upper.y, s.upper.z); }
 
 }  // namespace
@@ -23,7 +24,7 @@ void share_planes(Scene& scene, const CoverOrder& order, std::span<const std::pa
     if (order.covers(a, b) || order.covers(b, a)) return order.covers(a, b);
     return place_of(scene.surfaces[a]) < place_of(scene.surfaces[b]);
   };
-  std::map<uint32_t, uint32_t> largest_below;  // of each surface that covers others
+  std::map<uint32_t, uint32_t> largest_below;  // for each surface that covers others, the largest one below it
   for (const auto& [covered, cover] : pairs) {
     const uint32_t below = scene.triangle_surface[covered];
     const auto [at, is_new] = largest_below.try_emplace(scene.triangle_surface[cover], below);

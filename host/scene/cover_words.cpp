@@ -33,8 +33,9 @@ std::vector<std::string> SharedPlaces::warnings(const Scene& scene) const {
   for (size_t i = 0; i < std::min(lines.size(), most); ++i) {
     const auto& [area_m2, cover, covered, equally_large] = lines[i];
     out.push_back(
-        fmt::format("surfaces of {0} and {1} lie on each other in one plane, on {2}: {0} counts there, because {3}. If "
-                    "{1} is meant, leave out the {0} there, or draw one of them at least 1 cm in front of the other",
+        fmt::format("surfaces of {0} and {1} lie on each other in one plane, on {2}: {0} counts there, "
+                    "because {3}. If {1} is meant, leave out the {0} there, or draw one of them at least 1 cm "
+                    "in front of the other",
                     cover, covered, area_words(area_m2),
                     equally_large ? "both surfaces are equally large and its name comes first in the alphabet"
                                   : "its surface is the smaller one, as a road drawn on the ground"));

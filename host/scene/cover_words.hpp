@@ -1,4 +1,4 @@
-// Makes the warnings about places that surfaces of two materials share in one plane.
+// Makes the warnings about areas where surfaces of two materials share one plane.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -10,14 +10,16 @@
 
 namespace wavetracer {
 
-// An area in square metres, in three digits or all those before the point.
+// Returns an area in square metres as text, with three digits or more if there are more before the point.
 std::string area_words(double area_m2);
 
 class SharedPlaces {
  public:
-  // Adds a place of so many square metres. equally_large: both surfaces are, so that their materials' names decide.
+  // Adds an area where one material covers another. equally_large: both surfaces have the same area, so that the names
+  // of their materials decide.
   void add(uint32_t cover_material, uint32_t covered_material, bool equally_large, double area_m2);
-  // A sentence for each pair of materials, those that share most first; of more than a few pairs the rest are counted.
+  // Returns a sentence for each pair of materials, those that share the largest area first; after a few pairs the rest
+  // is only counted.
   std::vector<std::string> warnings(const Scene& scene) const;
 
  private:

@@ -1,4 +1,5 @@
-// Pairs of triangles become lists of what covers each one; pieces replace it in its place.
+// For each triangle, the list of those that cover it is made from the pairs; the uncovered pieces then replace the
+// triangle.
 #include "scene/covered_faces.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace {
 using glm::dvec3;
 using CoveredPair = std::pair<uint32_t, uint32_t>;  // the covered triangle, the one that covers it
 
-// Rounding moves a point that several triangles have by less than this, which is far less than welding does.
+// Rounding moves a point that several triangles share by less than this; welding moves points much farther.
 constexpr double same_point_m = 1e-6;
 
 struct PieceOfTriangle {
@@ -87,8 +88,9 @@ class FaceCovering {
     for (std::string& warning : places.warnings(scene_)) scene_.report.warnings.push_back(std::move(warning));
   }
 
-  // The vertex of every corner of the pieces: one of their own surface, else a new one. Surfaces that cover share none
-  // with what is cut, so that a ground and the houses on it stay bodies of their own.
+  // Returns the vertex of every corner of the pieces: an existing one of their own surface, or else a new one. A
+  // covering surface shares no vertex with the surface that is cut, so the ground and the houses on it stay separate
+  // bodies.
   std::vector<uint32_t> find_vertices() {
     std::vector<size_t> first_corner, by_surface;
     for (size_t i = 0, corner = 0; i < pieces_.size(); corner += pieces_[i++].polygon.size()) {
@@ -107,7 +109,7 @@ class FaceCovering {
     return out;
   }
 
-  // The same for the pieces of one surface.
+  // Does the same for the pieces of one surface.
   void find_vertices_of(std::span<const size_t> pieces, std::span<const size_t> first_corner,
                         std::vector<uint32_t>& out) {
     std::vector<uint32_t> known;
@@ -119,7 +121,7 @@ class FaceCovering {
     const auto repeated = std::ranges::unique(known);
     known.erase(repeated.begin(), repeated.end());
     std::vector<dvec3> points;
-    std::vector<size_t> corner_of;  // of each point behind those that are known: its place in out
+    std::vector<size_t> corner_of;  // for each point after the known ones, its place in out
     for (const uint32_t v : known) points.push_back(scene_.vertices[v]);
     for (const size_t i : pieces)
       for (size_t k = 0; k < pieces_[i].polygon.size(); ++k) {
@@ -143,7 +145,7 @@ class FaceCovering {
     }
   }
 
-  // Pieces take the place of their triangles.
+  // Replaces triangles by their pieces.
   void replace(const std::vector<bool>& is_covered) {
     const std::vector<uint32_t> vertices = find_vertices();
     Scene old = {};
@@ -176,7 +178,7 @@ class FaceCovering {
   Scene& scene_;
   std::span<const std::array<uint32_t, 3>> triangle_edges_;
   std::vector<CoveredPair> pairs_;
-  std::vector<bool> equally_large_;  // per pair, in their first order
+  std::vector<bool> equally_large_;  // one for each pair, in the original order
   std::vector<PieceOfTriangle> pieces_;
 };
 

@@ -1,5 +1,5 @@
-// Places that surfaces of several materials share in one plane: one of them gets each place, whatever the order of the
-// file.
+// Decides areas where surfaces of several materials share one plane: each area is given to one of them, whatever their
+// order in the file.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,12 +9,13 @@
 
 namespace wavetracer {
 
-// Cuts out of every surface what smaller ones of other materials cover (cover_order.hpp, coplanar_pairs.hpp), so that
-// there is one material in each place. Surfaces keep their planes, but for what shares that of a larger one within
-// rounding (cover_planes.hpp), and what is left of their triangles, in as many parts as that may be; what is narrower
-// than welding moves vertices is left out. Edges and surfaces are found anew. Notes the area in the report, and says in
-// warnings which materials share a place that can be seen (body_sides.hpp), and which one counts there. Does nothing
-// where nothing overlaps. Assumes a scene with its surfaces; triangle_edges as find_edges() returns them.
+// Cuts out of every surface the parts that smaller surfaces of other materials cover (cover_order.hpp,
+// coplanar_pairs.hpp), so that each place has one material. Surfaces keep their planes, except that a surface within
+// rounding of a larger one's plane takes that (cover_planes.hpp). A cut surface may have several parts; parts narrower
+// than the distance by which welding moves vertices are dropped. Edges and surfaces are found anew. The report gets the
+// area, and warnings say which materials share a place that can be seen (body_sides.hpp), and which one counts there.
+// It does nothing where nothing overlaps. The scene's surfaces must be known; triangle_edges: as find_edges() returns
+// them.
 void cut_covered_faces(Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// The surface of second degree is a polynomial of the two coordinates in the plane, fitted by its normal equations.
+// The quadratic surface is a polynomial of the two coordinates in the plane, fitted by normal equations.
 #include "scene/curved_regions.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double most_smooth_border = 0.25;  // share of the length
+constexpr double most_smooth_border = 0.25;  // share of the border's length
 constexpr double least_noise = 0.1;          // share of the heights that curvature does not explain
-constexpr size_t few_vertices = 16;          // of which a plane may be chance
+constexpr size_t few_vertices = 16;          // so few vertices may fit a plane by chance
 constexpr size_t terms = 6;
 
-// Least squares by Cholesky; what the vertices do not determine stays zero.
+// Solves least squares by Cholesky; coefficients that the vertices do not determine stay zero.
 class Polynomial {
  public:
   void add(const std::array<double, terms>& row, double height_m) {
@@ -82,7 +82,8 @@ class CurvatureTest {
     return all_m > 0 ? smooth_m / all_m : 0;
   }
 
-  // Root mean square of the heights over the surface of second degree, by that of the heights over the plane.
+  // Returns the root mean square of the heights over the quadratic surface, divided by that of the heights over the
+  // plane.
   double noise(const FlatRegion& region) const {
     if (region.vertices.size() <= few_vertices) return 0;
     const dvec3& normal = region.plane.normal;

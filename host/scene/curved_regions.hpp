@@ -1,4 +1,4 @@
-// Tells a plane with noise from a piece of a curved surface (rule 5 of flat_regions.hpp).
+// Distinguishes a plane with noise from a piece of a curved surface (rule 5 of flat_regions.hpp).
 #pragma once
 #include <vector>
 
@@ -7,9 +7,9 @@
 
 namespace wavetracer {
 
-// Takes out regions that a curved surface was cut into: more than a quarter of their border leads to triangles that
-// turn by less than 10 degrees, and either it has no more than 16 vertices, or a surface of second degree is at least
-// ten times as close to them as the plane.
+// Removes regions that are pieces of a curved surface: more than a quarter of their border leads to triangles that turn
+// by less than 10 degrees, and either they have no more than 16 vertices, or a quadratic surface is at least ten times
+// as close to the vertices as the plane.
 void give_back_curved(const FlatMesh& mesh, const FlatNeighbours& neighbours, std::vector<FlatRegion>& regions);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Candidates come from a grid over the triangles. Two triangles of one plane overlap where no side of either parts
+// Candidates come from a grid over the triangles. Two triangles of one plane overlap if no side of either separates
 // them.
 #include "scene/earlier_faces.hpp"
 

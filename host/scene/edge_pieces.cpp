@@ -1,5 +1,5 @@
-// Joints are the welded ends and crossings of edges; each edge is then cut at those that lie on it.
-// Edges and joints meet in the cells of the grid, so the work is that of neighbours.
+// Joints are the welded ends and crossings of edges; each edge is then cut at the joints that lie on it.
+// Edges and joints are compared within the cells of a grid, so the work is that of neighbours.
 #include "scene/edge_pieces.hpp"
 
 #include <algorithm>
@@ -12,16 +12,17 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double parallel_sine2 = 1e-6;  // edges within 1 mrad do not cross: they touch at an end, or not at all
+// Edges within 1 mrad of each other do not cross: they touch at an end, or not at all.
+constexpr double parallel_sine2 = 1e-6;
 
 struct Line {
   uint32_t edge;
-  dvec3 start, end, along;  // along: unit
+  dvec3 start, end, along;  // along: unit vector
   double length_m;
 };
 
 struct Stop {
-  double at_m;  // from the start of the line
+  double at_m;  // distance from the start of the line
   uint32_t joint;
 };
 
@@ -29,7 +30,7 @@ struct Stop {
 struct Cut {
   uint64_t key;  // both joints, the lower one above
   uint32_t line;
-  double from_m, to_m;  // of the lower joint and the other, from the start of the line
+  double from_m, to_m;  // places of the lower joint and of the other one, from the start of the line
 };
 
 std::vector<Line> lines_of(const Scene& scene) {
@@ -44,7 +45,7 @@ std::vector<Line> lines_of(const Scene& scene) {
   return lines;
 }
 
-// The point of a next to b, where they pass each other between their ends.
+// Returns the point of a that is nearest to b, if they pass each other between their ends.
 std::optional<dvec3> crossing(const Line& a, const Line& b) {
   const double cosine = glm::dot(a.along, b.along), sine2 = 1 - cosine * cosine;
   if (sine2 < parallel_sine2) return std::nullopt;
@@ -58,7 +59,7 @@ std::optional<dvec3> crossing(const Line& a, const Line& b) {
   return point;
 }
 
-// Both ends of every line, then the points where lines cross.
+// Returns both ends of every line, then the points where lines cross.
 std::vector<dvec3> find_places(std::span<const Line> lines, const SceneGrid& grid) {
   std::vector<dvec3> places;
   std::vector<CellLists::Entry> entries;
@@ -104,7 +105,7 @@ std::vector<Cut> cut_lines(std::span<const Line> lines, const SceneGrid& grid, c
     stops.push_back({line.length_m, last});
     Stop from{0, first};
     for (const Stop& to : stops) {
-      if (to.at_m - from.at_m < touch_m && to.joint != last) continue;  // beside the one before
+      if (to.at_m - from.at_m < touch_m && to.joint != last) continue;  // too near to the joint before
       const auto [low, high] = std::minmax(from.joint, to.joint);
       const bool turned = to.joint == low;
       cuts.push_back({uint64_t{low} << 32 | high, i, turned ? to.at_m : from.at_m, turned ? from.at_m : to.at_m});

@@ -1,4 +1,4 @@
-// Keeps a forest over both sides of all surfaces.
+// A union-find forest over both sides of all surfaces.
 #include "scene/face_planes.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sums go through the vertices in their order, which decides their last bits.
+// Sums are taken over the vertices in their order, which decides their last bits.
 #include "scene/flat_mesh.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Free edges are cut where they touch, as for diffraction (edge_pieces.hpp); those that share a piece overlap.
+// Free edges are cut where they touch, as for diffraction (edge_pieces.hpp); two of them that share a piece overlap.
 #include "scene/flat_neighbours.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace wavetracer {
 namespace {
 
-// The free edges of a scene alone, so that the pieces are those of T-junctions.
+// Returns a scene with the free edges alone, so that the pieces are those of T-junctions.
 Scene free_edges_of(const Scene& scene, std::vector<SceneBox>& boxes) {
   Scene out;
   out.vertices = scene.vertices;

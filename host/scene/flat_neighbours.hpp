@@ -1,4 +1,4 @@
-// Triangles that continue one another: over the edges of the mesh, and where free edges run along each other.
+// Finds triangles that continue one another, over edges of the mesh or where free edges run along each other.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace wavetracer {
 
-// Two triangles at one edge, or at two free edges that overlap.
+// Two triangles that meet at one edge, or at two free edges that overlap.
 struct FlatNeighbour {
   uint32_t triangle, other;
   uint32_t edge, other_edge;  // into Scene::edges
@@ -32,13 +32,13 @@ class FlatNeighbours {
     for (uint32_t i = first_touching(t); i < touching_.size() && touching_[i].triangle == t; ++i) visit(touching_[i]);
   }
 
-  // The three edges of a triangle, and whether each is free.
+  // Visits the three edges of a triangle and tells for each whether it is free.
   template <class Visit>
   void visit_edges(uint32_t t, const Visit& visit) const {
     for (const uint32_t e : triangle_edges_[t]) visit(e, scene_.edges[e].face_count == 1);
   }
 
-  // Does the other triangle go on where the first one ends, seen along the normal, instead of folding back?
+  // Tells whether the other triangle continues beyond the edge, seen along the normal, instead of folding back.
   bool unfolded(const FlatNeighbour& pair, const glm::dvec3& normal) const;
   double length_m(uint32_t edge) const;
 
@@ -47,7 +47,7 @@ class FlatNeighbours {
 
   const Scene& scene_;
   std::span<const std::array<uint32_t, 3>> triangle_edges_;
-  std::vector<FlatNeighbour> touching_;  // over free edges, both ways, sorted by triangle
+  std::vector<FlatNeighbour> touching_;  // pairs over free edges, in both directions, sorted by triangle
 };
 
 }  // namespace wavetracer

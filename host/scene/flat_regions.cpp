@@ -1,5 +1,6 @@
-// Growth in rounds: each takes what lies within the tolerance of the plane so far, not much farther away than the
-// region is wide, since the plane of a small triangle says little of what is far away; then the plane is fitted anew.
+// A region grows in rounds. Each round adds triangles that lie within the tolerance of the current plane and not much
+// farther away than the region is wide, since the plane of a small triangle says little about far places; then the
+// plane is fitted anew.
 #include "scene/flat_regions.hpp"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ namespace {
 using glm::dvec3;
 constexpr uint32_t no_region = 0xFFFFFFFFu;
 constexpr int most_rounds = 100;  // about 20 are enough for a million triangles
-constexpr int most_retreats = 8;  // rounds after which triangles had to go again: more, and the surface is curved
+// Rounds in which triangles were removed again; after more of them the surface counts as curved.
+constexpr int most_retreats = 8;
 
 class RegionGrower {
  public:
@@ -67,7 +69,7 @@ class RegionGrower {
     regions_.back().triangles.push_back(t);
   }
 
-  // The vertices of the region's triangles from `first` on.
+  // Adds the vertices of the region's triangles from index `first` on.
   void gather_vertices(size_t first) {
     FlatRegion& region = regions_.back();
     for (size_t i = first; i < region.triangles.size(); ++i) {
@@ -79,7 +81,7 @@ class RegionGrower {
     }
   }
 
-  // False where the plane has left the seed: the region is to be given back.
+  // Returns false if the plane has left the seed; the region must then be dropped.
   bool grow_fitted() {
     FlatRegion& region = regions_.back();
     int retreats = 0;
@@ -109,7 +111,7 @@ class RegionGrower {
     return out_m;
   }
 
-  // Takes what fits and is connected, within reach of the centre. False where nothing does.
+  // Adds triangles that fit, are connected, and are within reach of the centre. Returns false if there are none.
   bool extend(double reach_m) {
     FlatRegion& region = regions_.back();
     const dvec3 middle = centre();
@@ -134,8 +136,8 @@ class RegionGrower {
            neighbours_.unfolded(pair, plane.normal);
   }
 
-  // Takes out triangles with a corner that the new plane has left, for good, and what hangs on them. False where there
-  // are none. Nothing stays where the seed goes.
+  // Removes, for good, triangles with a corner that the new plane has left, and triangles that were connected only
+  // through them. Returns false if there are none. If the seed is removed, so are all others.
   bool drop_strays() {
     FlatRegion& region = regions_.back();
     bool any = false;
@@ -170,8 +172,8 @@ class RegionGrower {
   const FlatNeighbours& neighbours_;
   std::vector<TriangleShape> shapes_;
   std::vector<uint32_t> region_of_;
-  std::vector<uint32_t> banned_from_;  // per triangle: the last region that it does not fit into
-  std::vector<uint32_t> has_vertex_;   // per vertex: the last region that it was a vertex of
+  std::vector<uint32_t> banned_from_;  // per triangle: the last region that it was removed from
+  std::vector<uint32_t> has_vertex_;   // per vertex: the last region that had it
   std::vector<FlatRegion> regions_;
   uint32_t current_ = 0;
 };

@@ -1,5 +1,5 @@
-// The least move onto several planes by Gram and Schmidt: each step goes along what the next normal has besides the
-// ones before, so it leaves no plane that was reached.
+// A vertex takes the shortest move onto several planes by Gram and Schmidt: each step goes along the part of the next
+// normal that is perpendicular to those before, so it leaves no plane that was reached.
 #include "scene/flatten.hpp"
 
 #include <algorithm>
@@ -13,9 +13,10 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr double least_sine = 1e-6;      // of a plane with all others at a vertex: below it adds no direction
-constexpr double on_plane_m = 1e-9;      // then the vertex is on it, or not
-constexpr double least_fit_sine = 1e-3;  // what counts of smaller angles where planes are fitted together
+// Sine of the angle of a plane with all others at a vertex: a smaller one adds no direction.
+constexpr double least_sine = 1e-6;
+constexpr double on_plane_m = 1e-9;      // a vertex that is nearer than this is on the plane
+constexpr double least_fit_sine = 1e-3;  // smaller angles count as this where planes are fitted together
 constexpr int most_fits = 30;
 
 class Flattener {
@@ -43,10 +44,10 @@ class Flattener {
   }
 
  private:
-  // The regions of each vertex, exact ones first: those whose plane is more than that of one triangle.
+  // Lists the regions of each vertex, exact ones first: the plane of an exact region is more than that of one triangle.
   void list_planes() {
     first_.assign(scene_.vertices.size() + 1, 0);
-    for (int pass = 0; pass < 2; ++pass) {  // counts, then fills
+    for (int pass = 0; pass < 2; ++pass) {  // the first pass counts, the second one fills
       for (const bool exact : {true, false}) {
         for (uint32_t r = 0; r < regions_.size(); ++r) {
           if (regions_[r].exact != exact || regions_[r].vertices.size() <= 3) continue;
@@ -71,20 +72,21 @@ class Flattener {
     return std::ranges::any_of(planes_of(v), [&](uint32_t r) { return !regions_[r].exact; });
   }
 
-  // A point on its way onto planes.
+  // A point that is being moved onto planes.
   struct Place {
     dvec3 p;
-    std::array<dvec3, 3> used;  // unit, orthogonal
+    std::array<dvec3, 3> used;  // orthogonal unit vectors
     size_t count = 0;
 
-    // The part of a normal that is across the directions that are used.
+    // Returns the part of a normal that is perpendicular to the used directions.
     dvec3 rest(dvec3 n) const {
       for (size_t k = 0; k < count; ++k) n -= glm::dot(n, used[k]) * used[k];
       return n;
     }
   };
 
-  // Onto one more plane. False, and nothing done, where it is parallel to what was reached, and elsewhere.
+  // Moves the point onto one more plane. Returns false, and does nothing, if the plane is parallel to those reached but
+  // lies elsewhere.
   static bool step(Place& place, const Plane& plane) {
     const double height_m = height_over(plane, place.p);
     const dvec3 rest = place.rest(plane.normal);
@@ -95,7 +97,7 @@ class Flattener {
     return true;
   }
 
-  // Returns where a vertex comes to lie. Calls left(region) for planes that it cannot reach within its tolerance.
+  // Returns the new position of a vertex. Calls left(region) for planes that it cannot reach within its tolerance.
   template <class Left>
   dvec3 place(uint32_t v, const Left& left) const {
     Place place{scene_.vertices[v], {}};
@@ -109,7 +111,7 @@ class Flattener {
     return place.p;
   }
 
-  // All vertices to their places; notes which ones their regions have lost.
+  // Moves all vertices, and notes which of them their regions have lost.
   Flattened move() {
     Flattened out;
     out.vertices = scene_.vertices;
@@ -131,7 +133,7 @@ class Flattener {
                                [&](uint32_t v) { return std::ranges::binary_search(lost_[r], v); });
   }
 
-  // Takes out regions that have lost more than half of their triangles: what they were is no plane. False if there are
+  // Drops regions that have lost more than half of their triangles: they were no planes. Returns false if there are
   // none.
   bool give_up() {
     bool any = false;
@@ -147,7 +149,7 @@ class Flattener {
     return any;
   }
 
-  // Fits planes anew where vertices could not be put onto all that they are in.
+  // Fits planes anew at vertices that could not be put onto all their planes.
   void fit_together() {
     std::vector<uint32_t> shared;
     for (uint32_t v = 0; v < scene_.vertices.size(); ++v)
@@ -167,8 +169,8 @@ class Flattener {
     }
   }
 
-  // Each vertex counts by the square of its way to the plane, along the line or to the point of its other planes.
-  // False, and nothing done, where that plane is too far from some vertex.
+  // Fits the plane of region r; each vertex is weighted by the square of its way to the plane, along the line or to the
+  // point of its other planes. Returns false, and does nothing, if the new plane is too far from some vertex.
   bool fit(uint32_t r) {
     FlatRegion& region = regions_[r];
     PlaneSums sums(scene_.vertices[region.vertices[0]]);
@@ -191,7 +193,7 @@ class Flattener {
   const FlatMesh& mesh_;
   const Scene& scene_;
   std::vector<FlatRegion> regions_;
-  std::vector<uint32_t> first_, planes_, filled_;  // planes_ from first_[v] on: the regions of vertex v
+  std::vector<uint32_t> first_, planes_, filled_;  // the regions of vertex v are in planes_, from first_[v] on
   std::vector<std::vector<uint32_t>> lost_;        // per region: vertices that are not on its plane, ascending
 };
 

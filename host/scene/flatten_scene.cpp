@@ -1,4 +1,4 @@
-// Tolerances of vertices, and words for the user.
+// Computes tolerances of vertices and writes messages for the user.
 #include "scene/flatten_scene.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ Flattened flatten_scene(Scene& scene, std::span<const std::array<uint32_t, 3>> t
   report.bent_triangles = flat.left_out;
   if (flat.farthest_m > tolerance_m)
     report.warnings.push_back(fmt::format(
-        "the coordinates of the scene are as coarse as {:.2g} mm, so {} vertices were moved by up to {:.2g} mm onto "
-        "the planes of their surfaces: save the scene nearer to its origin, or with double coordinates",
+        "the coordinates of the scene are as coarse as {:.2g} mm, so {} vertices were moved by up to {:.2g} mm "
+        "onto the planes of their surfaces: save the scene nearer to its origin, or with double coordinates",
         report.plane_tolerance_m * 1000, flat.moved, flat.farthest_m * 1000));
   return flat;
 }

@@ -1,5 +1,5 @@
-// Projections by PROJ, and the JSON file beside a scene.
-// Assumes that projections come from files of strangers: only plain projections of PROJ, nothing that opens other
+// Projects by PROJ and reads the JSON file beside a scene.
+// Projection strings come from unknown files, so only plain projections of PROJ are allowed, and none that opens other
 // files.
 #include "scene/georeference.hpp"
 

@@ -1,5 +1,5 @@
-// Where a scene is on the earth: georeference.json beside the scene file, written by the imports, read by whoever has
-// or wants degrees. Projection by PROJ, no database needed for PROJ strings.
+// The place of a scene on the Earth: georeference.json beside the scene file. The imports write it, and commands that
+// read or print degrees use it. PROJ projects; PROJ strings need no database.
 #pragma once
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -13,15 +13,15 @@ namespace wavetracer {
 struct Georeference {
   std::string projection;     // PROJ string, such as "+proj=tmerc +lat_0=48.1 +lon_0=11.5 +ellps=WGS84 +units=m"
   glm::dvec2 offset_m{0, 0};  // scene file coordinate = projected coordinate + offset_m (SUMO's netOffset)
-  std::string attribution;    // who must be named where the data is shown
-  // The height of z = 0 above sea level, m; not given: z is the height above flat ground.
+  std::string attribution;    // text that must be shown with the data
+  // The height of z = 0 above sea level, m; if it is not given, z is the height above flat ground.
   std::optional<double> elevation_m = {};
 };
 
-// Longitude and latitude in degrees (WGS84) from the scene's file coordinates and back.
+// Converts longitude and latitude in degrees (WGS84) from and to the scene's file coordinates.
 class Projection {
  public:
-  explicit Projection(const Georeference& reference);  // throws InputError where PROJ does not know the string
+  explicit Projection(const Georeference& reference);  // throws InputError if PROJ does not know the string
   ~Projection();
   Projection(Projection&&) noexcept;
   glm::dvec2 geographic(const glm::dvec2& scene_m) const;  // (longitude, latitude)
@@ -32,11 +32,12 @@ class Projection {
   std::unique_ptr<State> state_;
 };
 
-// The georeference.json in the folder of a scene file; empty where there is none.
+// Returns the path of georeference.json in the folder of a scene file, or an empty path if it does not exist.
 std::filesystem::path georeference_file(const std::filesystem::path& scene_file);
 
 void write_georeference(const std::filesystem::path& file, const Georeference& reference);
-// Of the folder of a scene file; empty where there is none. Throws InputError where it is malformed.
+// Reads georeference.json in the folder of a scene file; returns nothing if it does not exist. Throws InputError if it
+// is malformed.
 std::optional<Georeference> find_georeference(const std::filesystem::path& scene_file);
 
 }  // namespace wavetracer

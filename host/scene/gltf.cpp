@@ -1,5 +1,5 @@
-// Nodes are visited depth first, each before its children. A mesh of several primitives is several meshes here, and so
-// are instances (EXT_mesh_gpu_instancing).
+// Nodes are visited depth first, parents before children. A mesh of several primitives becomes several meshes, and so
+// do instances (EXT_mesh_gpu_instancing).
 #include "scene/gltf.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using nlohmann::json;
 
 constexpr uint64_t most_copied_vertices = 50'000'000;
 
-// The name of an entry of a list, or "nodes_3" where it has none.
+// Returns the name of an entry of a list, or a name such as "nodes_3" if it has none.
 std::string name_in(const json& entry, const char* list, size_t index) {
   const std::string name = entry.value("name", std::string());
   return name.empty() ? fmt::format("{}_{}", list, index) : name;
@@ -41,7 +41,7 @@ const json& empty_list() {
 
 const json& list_in(const json& entry, const char* key) { return entry.contains(key) ? entry[key] : empty_list(); }
 
-// An object below "extensions"; null where it is not there.
+// Returns an object below "extensions", or null if it is missing.
 const json* extension_of(const json& entry, const char* name) {
   const auto extensions = entry.find("extensions");
   if (extensions == entry.end() || !extensions->contains(name)) return nullptr;
@@ -99,7 +99,7 @@ class GltfReader {
     return turned_and_scaled({t[0], t[1], t[2]}, q, {s[0], s[1], s[2]});
   }
 
-  // The transforms of all nodes to the frame of the file: joints of a skin may be anywhere.
+  // Finds the transforms of all nodes to the frame of the file, since the joints of a skin may be anywhere.
   void find_places() {
     world_.assign(nodes_.size(), glm::dmat4(1));
     parented_.assign(nodes_.size(), false);
@@ -114,7 +114,8 @@ class GltfReader {
     for (const json& child : list_in(nodes_[index], "children")) find_places_below(node_at(child), world_[index]);
   }
 
-  // The default scene; the first one where none is named, and all nodes where there is no scene at all.
+  // Returns the roots of the default scene, of the first scene if no default is named, and all nodes if there is no
+  // scene.
   std::vector<size_t> roots_of_scene() {
     const json& scenes = list_in(document_, "scenes");
     std::vector<size_t> out;
@@ -168,7 +169,7 @@ class GltfReader {
 
   void add(const json& from, const GltfPlace& place, const std::string& name) {
     std::vector<RawMesh> meshes = meshes_.read(from, place);
-    // A short file names one mesh as often as it likes: what it holds once is bounded by its length, copies are not.
+    // A short file can name one mesh very often: the file's length bounds the data, but not the copies of it.
     if (!used_.insert(&from).second)
       for (const RawMesh& mesh : meshes) copied_vertices_ += mesh.vertices.size() + 1;
     if (copied_vertices_ > most_copied_vertices)
@@ -235,8 +236,8 @@ class GltfReader {
       warn(nodes_with_meshes - meshes_seen_, "nodes with meshes are not in the scene, and were left out");
     if (const double spacing = meshes_.largest_coordinate() * 0x1p-23; spacing > 1e-3)
       raw_.warnings.push_back(
-          fmt::format("{}: coordinates of its meshes reach {:.0f}, where float32 keeps only {:.3g}: move the meshes to "
-                      "their origin and their nodes away from it",
+          fmt::format("{}: coordinates of its meshes reach {:.0f}, where float32 keeps only {:.3g}: "
+                      "move the meshes to their origin and their nodes away from it",
                       raw_.file, meshes_.largest_coordinate(), spacing));
     warn(meshes_.not_surfaces(), "meshes of points or lines were left out");
     warn(list_in(document_, "animations").size(), "animations are not played: all nodes stay where the file has them");
@@ -251,7 +252,7 @@ class GltfReader {
   std::vector<glm::dmat4> world_;
   std::vector<bool> parented_;
   uint64_t meshes_seen_ = 0, hidden_nodes_ = 0, copied_vertices_ = 0;
-  std::set<const json*> used_;  // meshes
+  std::set<const json*> used_;  // the meshes that were used
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t fewest_zeros = 4096;  // elements that an accessor without data may have, however short the file is
+// Number of elements that an accessor without data may have, however short the file is.
+constexpr uint64_t fewest_zeros = 4096;
 
 enum ComponentType : int64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
@@ -50,7 +51,7 @@ double number_at(const char* bytes, int64_t type) {
   }
 }
 
-// A normalised integer is divided by this (section 3.11); 1 for all else.
+// Returns the divisor of a normalised integer (section 3.11), and 1 for other types.
 double largest_of(int64_t type) {
   return type == i8 ? 127 : type == u8 ? 255 : type == i16 ? 32767 : type == u16 ? 65535 : 1;
 }
@@ -63,7 +64,7 @@ size_t components_of(const std::string& type) {
   return 0;
 }
 
-// The number that a character of base64 stands for; 64 for all others.
+// Returns the value of a base64 character, and 64 for all others.
 uint32_t base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<uint32_t>(c - 'a') + 26;
@@ -76,7 +77,7 @@ std::string base64_bytes(std::string_view text) {
   uint32_t bits = 0, held = 0;
   for (const char c : text) {
     const uint32_t digit = base64_digit(c);
-    if (digit == 64) continue;  // padding and line ends
+    if (digit == 64) continue;  // it is padding or a line end
     bits = bits << 6 | digit;
     held += 6;
     if (held < 8) continue;
@@ -86,7 +87,7 @@ std::string base64_bytes(std::string_view text) {
   return out;
 }
 
-// %20 and the like.
+// Decodes %20 and the like.
 std::string percent_decoded(std::string_view text) {
   const auto digit = [](char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -107,7 +108,7 @@ std::string percent_decoded(std::string_view text) {
 
 struct GltfData::Elements {
   std::string_view bytes;
-  size_t stride, step;  // bytes from element to element, and from component to component
+  size_t stride, step;  // bytes between elements, and between components
   int64_t type;
 
   double operator()(size_t element, size_t component) const {
@@ -140,7 +141,8 @@ std::string GltfData::read_uri(const std::string& uri) {
     fail(fmt::format("a buffer is at '{}': nothing is fetched; put the file beside this one", uri.substr(0, 200)));
   std::filesystem::path path = file_.path.parent_path() / percent_decoded(uri);
   std::error_code unnameable;
-  if (!std::filesystem::exists(path, unnameable)) path = file_.path.parent_path() / uri;  // not encoded at all
+  // The name is not percent-encoded.
+  if (!std::filesystem::exists(path, unnameable)) path = file_.path.parent_path() / uri;
   if (const std::string problem = input_file_problem(path, "the buffer"); !problem.empty())
     fail(fmt::format("the buffer {}: {}", path.string(), problem));
   files_.push_back(path.string());
@@ -187,8 +189,8 @@ GltfData::Elements GltfData::elements(const json& at, uint64_t count, size_t com
   if (count > 0 &&
       (first > bytes.size() || bytes.size() - first < size || count - 1 > (bytes.size() - first - size) / stride))
     fail(
-        fmt::format("an accessor of {} elements ends behind its bufferViews[{}] of {} bytes: the file is incomplete or "
-                    "damaged",
+        fmt::format("an accessor of {} elements ends behind its bufferViews[{}] of {} bytes: "
+                    "the file is incomplete or damaged",
                     count, at.at("bufferView").dump(), bytes.size()));
   return {count > 0 ? bytes.substr(first) : std::string_view{}, stride, step, type};
 }

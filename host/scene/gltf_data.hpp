@@ -1,5 +1,6 @@
-// The numbers of a glTF 2.0 file: buffers, buffer views and accessors (section 3.6), sparse and normalised ones too.
-// Assumes nothing of the file: every access is bounds checked, and no count takes more memory than the file has bytes.
+// The numbers of a glTF 2.0 file: buffers, buffer views and accessors (section 3.6), including sparse and normalised
+// ones. The file is not trusted: every access is bounds checked, and no count takes more memory than the file has
+// bytes.
 #pragma once
 #include <map>
 #include <string_view>
@@ -14,20 +15,21 @@ class GltfData {
   // Keeps a reference to the file.
   explicit GltfData(const GltfFile& file);
 
-  // An object of one of the lists of the document. Throws InputError where the index is none, or is out of range.
+  // Returns an object of one of the lists of the document. Throws InputError if the index is not a number or is out of
+  // range.
   const nlohmann::json& item(const char* list, const nlohmann::json& index) const;
-  // The components of all elements, one after the other; normalised integers as 0 to 1 or -1 to 1. Throws where the
-  // elements have another number of components.
+  // Returns the components of all elements, one after the other; normalised integers become 0 to 1 or -1 to 1. Throws
+  // if the elements have another number of components.
   std::vector<double> numbers(const nlohmann::json& accessor, size_t components);
-  // The bytes of a buffer view.
+  // Returns the bytes of a buffer view.
   std::string_view view(const nlohmann::json& index);
-  // The buffers that were files of their own.
+  // Returns the names of the buffers that are separate files.
   const std::vector<std::string>& files() const { return files_; }
 
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  struct Elements;  // where an accessor's numbers are
+  struct Elements;  // says where an accessor's numbers are
 
   const std::string& buffer(const nlohmann::json& index);
   std::string read_buffer(const nlohmann::json& buffer, size_t index);

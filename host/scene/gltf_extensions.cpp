@@ -12,12 +12,13 @@
 namespace wavetracer {
 namespace {
 
-// That GltfMeshes and GltfReader read; KHR_binary_glTF is the container of version 1.
+// Extensions that GltfMeshes and GltfReader read; KHR_binary_glTF is the container of version 1.
 constexpr std::array<std::string_view, 5> read_ones = {"EXT_mesh_gpu_instancing", "KHR_mesh_quantization",
                                                        "KHR_draco_mesh_compression", "KHR_node_visibility",
                                                        "KHR_binary_glTF"};
 
-// Light, textures, sound, words about things, and what happens when somebody looks or clicks. Beginnings of names.
+// Extensions about light, textures, sound, metadata and user interaction, which change no geometry. The entries are
+// beginnings of names.
 constexpr std::array<std::string_view, 37> harmless = {"KHR_materials_",
                                                        "KHR_texture_",
                                                        "KHR_lights_",
@@ -61,7 +62,7 @@ bool is_known(std::string_view name) {
          std::ranges::any_of(harmless, [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
 
-// Advice about an extension that is required and not read.
+// Returns advice about an extension that is required and not read.
 std::string advice_for(std::string_view name) {
   if (name.find("meshopt") != std::string_view::npos) return "export it without compression";
   if (name == "CESIUM_RTC") return "convert it with its centre applied to the nodes";
@@ -87,7 +88,7 @@ std::vector<std::string> check_gltf_extensions(const GltfFile& file) {
                                    advice_for(name)));
   std::vector<std::string> out;
   for (const std::string& name : names_of(file, "extensionsUsed"))
-    // Where meshopt is not required, the file holds the data without it, too.
+    // If meshopt is not required, the file also holds the uncompressed data.
     if (!is_known(name) && name.find("meshopt") == std::string::npos)
       out.push_back(
           fmt::format("{}: it uses the extension {}, which is not known and was left out", file.path.string(), name));

@@ -1,4 +1,4 @@
-// The extensions of glTF that are read, and those that change nothing that a scene is made of.
+// The glTF extensions that are read, and those that change nothing in a scene.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace wavetracer {
 
-// Throws InputError that names the extension where the file requires one that is not read (glTF 2.0, section 3.12).
-// Returns warnings of those that it uses, does not require, and that are not known here.
+// Throws InputError that names the extension if the file requires one that is not read (glTF 2.0, section 3.12).
+// Returns warnings about extensions that the file uses without requiring them and that are unknown here.
 std::vector<std::string> check_gltf_extensions(const GltfFile& file);
 
 }  // namespace wavetracer

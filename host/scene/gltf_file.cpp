@@ -1,4 +1,5 @@
-// GLB: glTF 2.0, section 4.4. Version 1 has its JSON in the same place, and names nodes where version 2 counts them.
+// Reads GLB: glTF 2.0, section 4.4. Version 1 has its JSON in the same place, and refers to nodes by name where version
+// 2 uses numbers.
 #include "scene/gltf_file.hpp"
 
 #include <fmt/format.h>
@@ -21,10 +22,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int most_nested = 100;      // arrays and objects; glTF needs about ten
-constexpr size_t most_levels = 1000;  // of nodes, through which assimp and model.cpp go by recursion
+constexpr int most_nested = 100;      // nested arrays and objects; glTF needs about ten
+constexpr size_t most_levels = 1000;  // levels of nodes; assimp and model.cpp visit them by recursion
 
-// The length of the chunk whose header begins at this byte; empty where the file ends before.
+// Returns the length of the chunk whose header begins at this byte, or nothing if the file ends before.
 std::optional<uint64_t> chunk_length(std::ifstream& in, uint64_t at) {
   std::array<char, 8> header{};
   if (!in.seekg(static_cast<std::streamoff>(at)).read(header.data(), header.size())) return {};
@@ -41,7 +42,7 @@ Chunks glb_chunks(std::ifstream& in, const std::filesystem::path& path) {
   const uint64_t size = std::filesystem::file_size(path);
   Chunks out;
   uint64_t at = 12;
-  for (const bool first : {true, false}) {  // JSON, then binary data; further chunks are passed over
+  for (const bool first : {true, false}) {  // JSON comes first, then binary data; further chunks are skipped
     const std::optional<uint64_t> length = chunk_length(in, at);
     if (!length) break;
     at += 8;
@@ -59,15 +60,15 @@ Chunks glb_chunks(std::ifstream& in, const std::filesystem::path& path) {
   return out;
 }
 
-// How deep brackets are nested outside of strings. (A callback of the parser would know, but makes it take quadratic
-// time.)
+// Returns how deep brackets are nested outside of strings. (A parser callback could tell, but would make parsing take
+// quadratic time.)
 int nesting(std::string_view text) {
   int depth = 0, deepest = 0;
   bool in_string = false;
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (in_string && c == '\\') {
-      ++i;  // what is escaped
+      ++i;  // skips the escaped character
     } else if (c == '"') {
       in_string = !in_string;
     } else if (!in_string && (c == '[' || c == '{')) {
@@ -91,12 +92,12 @@ std::string name_of(const json& node) {
   return node.is_string() ? node.get<std::string>() : std::to_string(node.get<uint64_t>());
 }
 
-using Parents = std::map<std::string, std::string>;  // of nodes, by name
+using Parents = std::map<std::string, std::string>;  // parent of each node, by name
 
 void check_levels(const Parents& parents, const std::string& file) {
   std::map<std::string_view, size_t> levels;
   for (const auto& [node, parent] : parents) {
-    std::vector<std::string_view> chain;  // from the node up to one whose level is known, or to the root
+    std::vector<std::string_view> chain;  // path from the node up to one whose level is known, or to the root
     size_t level = 0;
     for (auto at = parents.find(node); at != parents.end() && level == 0; at = parents.find(at->second)) {
       if (const auto known = levels.find(at->first); known != levels.end()) {
@@ -104,7 +105,7 @@ void check_levels(const Parents& parents, const std::string& file) {
       } else {
         chain.push_back(at->first);
       }
-      if (chain.size() > most_levels) break;  // or the nodes go round in a circle
+      if (chain.size() > most_levels) break;  // a longer chain is a circle of nodes or nests too deeply
     }
     if (level + chain.size() > most_levels) {
       throw InputError(fmt::format("{}: there are more than {} nodes one below the other", file, most_levels));
@@ -113,12 +114,12 @@ void check_levels(const Parents& parents, const std::string& file) {
   }
 }
 
-// Of the nodes that a list names, none may be there twice.
+// Adds the nodes that a list names; none of them may be there already.
 void add_once(Parents& parents, const json& owner, const char* list, const std::string& parent,
               const std::string& file) {
   if (!owner.is_object() || !owner.contains(list)) return;
   for (const json& node : owner[list]) {
-    if (!node.is_number_unsigned() && !node.is_string()) continue;  // assimp refuses it
+    if (!node.is_number_unsigned() && !node.is_string()) continue;  // assimp refuses these
     if (!parents.emplace(name_of(node), parent).second) {
       throw InputError(fmt::format(
           "{}: a node of '{}' has two parents; export the scene as a tree, with copies of nodes", file, parent));

@@ -1,5 +1,5 @@
-// The JSON and the binary data of a glTF file, with what must be checked before memory is taken for its content.
-// Assumes nothing of the file.
+// The JSON and the binary data of a glTF file, with the checks that are needed before memory is allocated for its
+// content. The file is not trusted.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,13 +10,13 @@ namespace wavetracer {
 struct GltfFile {
   std::filesystem::path path;
   nlohmann::json document;  // an object
-  std::string binary;       // of a GLB file: the chunk after the JSON
+  std::string binary;       // the chunk after the JSON of a GLB file
   bool is_glb = false;
 };
 
-// Throws InputError where a chunk of a GLB file is longer than the file, where the JSON cannot be read or nests deeply,
-// where nodes do, and where a node has two parents (glTF 2.0, section 3.5.2): thirty that name each other twice would
-// become 10^9.
+// Throws InputError if a chunk of a GLB file is longer than the file, if the JSON cannot be read or is nested deeply,
+// if nodes are nested deeply, or if a node has two parents (glTF 2.0, section 3.5.2): thirty nodes that name each other
+// twice would expand to 10^9.
 GltfFile read_gltf_file(const std::filesystem::path& path);
 
 }  // namespace wavetracer

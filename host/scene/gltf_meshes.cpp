@@ -1,4 +1,4 @@
-// Section 3.7.2 of glTF 2.0 (meshes), 3.7.3 (skins), 3.7.2.2 (morph targets).
+// See glTF 2.0, sections 3.7.2 (meshes), 3.7.3 (skins) and 3.7.2.2 (morph targets).
 #include "scene/gltf_meshes.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ enum Mode : int64_t { triangles = 4, strip = 5, fan = 6 };
 constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 constexpr uint32_t unused_vertex = std::numeric_limits<uint32_t>::max();
 
-// The triangles of a list of corners; corners that are left over at the end make none.
+// Returns the triangles of a list of corners; left-over corners at the end are ignored.
 std::vector<Triangle> triangles_of(const std::vector<uint32_t>& corners, int64_t mode) {
   std::vector<Triangle> out;
   const size_t step = mode == Mode::triangles ? 3 : 1;
@@ -64,10 +64,10 @@ double GltfPlace::largest_stretch() const {
 }
 
 struct GltfMeshes::Primitive {
-  std::unique_ptr<DracoMesh> draco = {};  // where the attributes are, if they are compressed
+  std::unique_ptr<DracoMesh> draco = {};  // holds the attributes if they are compressed
   std::vector<double> positions = {};
   std::vector<Triangle> triangles = {};
-  std::vector<glm::dvec3> vertices = {};  // placed
+  std::vector<glm::dvec3> vertices = {};  // positions after the transform
 
   size_t count() const { return positions.size() / 3; }
   double reach() const {
@@ -144,7 +144,7 @@ void GltfMeshes::morph(const json& from, const std::vector<double>& weights, Pri
   }
 }
 
-// A skin takes the place of the node's own transform (section 3.7.3.3): its joints share every vertex by weight.
+// A skin replaces the node's own transform (section 3.7.3.3): its joints share every vertex by weight.
 void GltfMeshes::place(const json& from, const GltfPlace& by, Primitive& to) {
   const size_t count = to.count();
   std::vector<glm::dmat4> matrix(1, by.world);
@@ -167,7 +167,7 @@ void GltfMeshes::place(const json& from, const GltfPlace& by, Primitive& to) {
   for (size_t v = 0; v < count; ++v) {
     const glm::dvec4 p = matrix[by.joints.empty() ? 0 : v] *
                          glm::dvec4(to.positions[3 * v], to.positions[3 * v + 1], to.positions[3 * v + 2], 1);
-    // Weights sum to one, but for how they are rounded.
+    // Weights sum to one, up to rounding.
     to.vertices.push_back(by.joints.empty() ? glm::dvec3(p) : glm::dvec3(p) / p.w);
     if (const glm::dvec3& q = to.vertices.back(); !std::isfinite(q.x + q.y + q.z))
       data_.fail(fmt::format("vertex {} is not finite", v));

@@ -14,10 +14,10 @@ namespace wavetracer {
 // The transforms that place the vertices of a node: its own, or those of the joints of its skin.
 struct GltfPlace {
   glm::dmat4 world{1};
-  std::vector<glm::dmat4> joints = {};     // world times inverse bind matrix; none without a skin
-  std::vector<double> morph_weights = {};  // of the node; none: those of the mesh
+  std::vector<glm::dmat4> joints = {};  // world matrix times inverse bind matrix, one per joint; empty without a skin
+  std::vector<double> morph_weights = {};  // weights of the node; if empty, those of the mesh apply
 
-  // The most by which it makes lengths along an axis longer.
+  // Returns the largest factor by which the transforms stretch a length.
   double largest_stretch() const;
 };
 
@@ -25,11 +25,11 @@ class GltfMeshes {
  public:
   GltfMeshes(const GltfFile& file, GltfData& data) : file_(file), data_(data) {}
 
-  // The primitives of the mesh that are surfaces, with material indices of the file.
+  // Returns the primitives of the mesh that are surfaces, with material indices of the file.
   std::vector<RawMesh> read(const nlohmann::json& mesh, const GltfPlace& place);
-  // Primitives that were left out so far: points and lines, and those without positions.
+  // Returns the number of primitives skipped so far: points, lines, and those without positions.
   uint64_t not_surfaces() const { return not_surfaces_; }
-  // The largest coordinate of positions so far, as the file has them.
+  // Returns the largest coordinate of positions so far, in the file's units.
   double largest_coordinate() const { return largest_; }
 
  private:

@@ -1,5 +1,6 @@
-// Triangles seen from above, in the cells of a grid of one layer.
-// Neighbours decide on which side of their edge a place lies by the same numbers, so no place falls between them.
+// Triangles seen from above are kept in the cells of a grid with one layer.
+// Neighbouring triangles decide with the same numbers on which side of their edge a place lies, so no place falls
+// between them.
 #include "scene/ground.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::vector<bool> wide_bodies(const Scene& scene, const std::vector<uint32_t>& b
   return wide;
 }
 
-// The z of the triangle at a place; nothing where it passes the place by.
+// Returns the z of the triangle at a place; nothing if the place is beside it.
 std::optional<double> height_at(const std::array<glm::dvec3, 3>& t, const glm::dvec2& p) {
   const glm::dvec2 a = glm::dvec2(t[0]) - p, b = glm::dvec2(t[1]) - p, c = glm::dvec2(t[2]) - p;
   const double wa = twice_plan_area(b, c), wb = twice_plan_area(c, a), wc = twice_plan_area(a, b);

@@ -1,5 +1,5 @@
-// How high the ground of a scene is: what heights "above the ground" are measured from.
-// Keeps what it needs of the scene, which may go.
+// The height of the ground of a scene, from which heights "above the ground" are measured.
+// It copies what it needs from the scene.
 #pragma once
 #include <array>
 #include <glm/vec2.hpp>
@@ -13,23 +13,23 @@
 
 namespace wavetracer {
 
-// The ground is what edges join to a body that spans at least half of the scene, seen from above (half of the area of
-// the box around it): so floors of houses, which lie below it, are none. Where a scene has no such body, it is the
+// The ground is the body, joined by edges, that spans at least half of the scene seen from above (half of the area of
+// its bounding box). Floors of houses, which lie below it, do not count. If a scene has no such body, the ground is the
 // lowest surface at each place.
 class Ground {
  public:
   explicit Ground(const Scene& scene);
-  // Of these triangles.
+  // Takes these triangles as the ground.
   explicit Ground(std::vector<std::array<glm::dvec3, 3>> triangles);
 
-  // Its lowest z at a place, both in file coordinates; empty where there is none.
+  // Returns the lowest z of the ground at a place, both in file coordinates; nothing where there is no ground.
   std::optional<double> height_m(const glm::dvec2& place_m) const;
 
  private:
   void index();
 
-  std::vector<std::array<glm::dvec3, 3>> triangles_;  // file coordinates, those that are not vertical
-  std::optional<SceneGrid> grid_;                     // seen from above; none without triangles
+  std::vector<std::array<glm::dvec3, 3>> triangles_;  // file coordinates, without vertical triangles
+  std::optional<SceneGrid> grid_;                     // grid seen from above; absent without triangles
   std::optional<CellLists> cells_;
 };
 

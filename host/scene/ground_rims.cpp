@@ -1,4 +1,4 @@
-// Sheets by joining surfaces, what is below by lines.
+// Sheets are found by joining surfaces; lines downwards find what lies below.
 #include "scene/ground_rims.hpp"
 
 namespace wavetracer {
@@ -6,9 +6,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double inset_m = 0.01;  // looked down from beside the edge, on its face
-constexpr double own_m = 0.02;    // what is so near below is the sheet itself
-constexpr int places = 8;         // along the edge
+constexpr double inset_m = 0.01;  // the line downwards starts on the face, this far beside the edge
+constexpr double own_m = 0.02;    // a hit nearer than this is the sheet itself
+constexpr int places = 8;         // number of places along the edge
 
 bool open_below(const Wedge& wedge, const TriangleGrid& triangles) {
   const double bottom_m = triangles.bounds().lower.z - 1;

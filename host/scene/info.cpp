@@ -47,7 +47,7 @@ std::string range(const Material& m) {
 bool is_corner(const Wedge& wedge) { return wedge.exterior_rad < std::numbers::pi; }
 bool is_free(const Wedge& wedge) { return wedge.surface[0] == wedge.surface[1]; }
 
-// Without the sign of a zero.
+// Prints a point without the sign of a zero.
 std::string point(glm::dvec3 p) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(p[axis]) < 5e-4) p[axis] = 0;

@@ -1,5 +1,5 @@
-// What a loaded scene contains, as text for people.
-// Assumes a Scene from load.hpp; nothing is recomputed but sums.
+// Describes a loaded scene as text for people.
+// The Scene comes from load.hpp; only sums are computed.
 #pragma once
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace wavetracer {
 
-// Extent, triangles, surfaces, edges, materials, what was dropped, warnings; lines end in \n.
+// Returns extent, triangles, surfaces, edges, materials, dropped triangles and warnings; each line ends in \n.
 std::string describe_scene(const Scene& scene);
 
-// The edges that can diffract, one per line below a header line: number, ends (file coordinates), length, interior
-// angle (degrees; 0: a free edge), surfaces with their materials.
+// Returns the edges that can diffract, one per line below a header line: number, ends (file coordinates), length,
+// interior angle (degrees; 0 for a free edge), surfaces with their materials.
 std::string describe_edges(const Scene& scene);
 
 }  // namespace wavetracer

@@ -1,6 +1,6 @@
-// The table of Recommendation ITU-R P.2040-4 (09/2025), which has that of P.2040-3 (08/2023) in it, value for value.
-// Checked against two transcriptions that others made of it: NVlabs/sionna-rt, src/sionna/rt/radio_materials/itu.py,
-// and jeertmans/DiffeRT, differt/src/differt/em/_material.py.
+// The table of Recommendation ITU-R P.2040-4 (09/2025), which contains that of P.2040-3 (08/2023) with the same values.
+// It was checked against two transcriptions by others: NVlabs/sionna-rt, src/sionna/rt/radio_materials/itu.py, and
+// jeertmans/DiffeRT, differt/src/differt/em/_material.py.
 #include "scene/itu_materials.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 struct Row {
   const char* name;
   double a, b, c, d, min_ghz, max_ghz;
-  int since;  // the first edition that has it; 3 also for those of earlier ones
+  int since;  // first edition that has the law; 3 also stands for earlier editions
 };
 
 constexpr Row table[] = {
@@ -75,7 +75,7 @@ std::vector<Material> laws_of(ItuEdition edition, std::string_view name) {
 
 bool holds(const Material& law, double ghz) { return ghz >= law.min_ghz && ghz <= law.max_ghz; }
 
-// By which factor the frequency would have to change; 1 inside of the range.
+// Returns the factor between the frequency and the range; 1 inside the range.
 double distance(const Material& law, double ghz) { return std::max({law.min_ghz / ghz, ghz / law.max_ghz, 1.0}); }
 
 }  // namespace
@@ -97,8 +97,8 @@ std::optional<ItuLaw> find_itu_law(ItuEdition edition, std::string_view name, do
   ItuLaw out{*nearest, !ranges.empty(), ""};
   if (ranges.size() > 1)
     out.choice = fmt::format(
-        "ITU-R {} has {} laws of \"{}\" at {:g} GHz ({}): that of {} is used, because its range is narrower; a "
-        "[[material]] with a, b, c and d takes another one",
+        "ITU-R {} has {} laws of \"{}\" at {:g} GHz ({}): that of {} is used, because its range is narrower; "
+        "a [[material]] with a, b, c and d takes another one",
         edition.word(), ranges.size(), name, frequency_ghz, fmt::join(ranges, ", "), ranges.front());
   return out;
 }

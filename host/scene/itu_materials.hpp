@@ -1,5 +1,5 @@
-// The materials of Recommendation ITU-R P.2040, Table 3: their laws by name, edition and range of frequencies.
-// Assumes nothing about a scene; the ranges are those that the laws were measured in.
+// The materials of Recommendation ITU-R P.2040, Table 3: laws by name, edition and frequency range. The ranges are
+// those that the laws were measured in.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,28 +11,30 @@
 
 namespace wavetracer {
 
-// The laws of an edition, 0.1 m thick, name by name. A name may have several; below 100 GHz one of them holds. Where
-// two hold one frequency, the law of the narrower range comes first.
+// Returns the laws of an edition for slabs of 0.1 m, grouped by name. A name may have several laws; below 100 GHz
+// exactly one of them is valid at each frequency. If two are valid, the one with the narrower range comes first.
 const std::vector<Material>& itu_materials(ItuEdition edition = "P.2040-4");
 
-// How a law was found.
+// The law that was found, and how.
 struct ItuLaw {
   Material material;
-  bool in_range;       // else it is the law whose range is nearest, by the ratio of frequencies
-  std::string choice;  // a warning where several laws of the name hold the frequency; else empty
+  bool in_range;       // if false, the law is the one whose range is nearest, by the ratio of frequencies
+  std::string choice;  // a warning if several laws of the name are valid at the frequency, else empty
 };
 
-// The law of a name at a frequency > 0; nothing if the edition does not have the name.
+// Returns the law of a name at a frequency > 0, or nothing if the edition does not have the name.
 std::optional<ItuLaw> find_itu_law(ItuEdition edition, std::string_view name, double frequency_ghz);
 
-// Whether the range of the material is a limit, not only what was measured (Table 3, note on the kinds of ground).
+// Tells whether the range of the material is a real limit of validity, not only the measured range (Table 3, note on
+// the kinds of ground).
 bool range_is_a_limit(std::string_view name);
 
-// "1 to 100 GHz": of one law; of all laws of a name, joined by "and"; empty for a name that there is not.
+// Returns text such as "1 to 100 GHz" for one law, or for all laws of a name, joined by "and"; empty for an unknown
+// name.
 std::string range_in_words(const Material& law);
 std::string ranges_in_words(ItuEdition edition, std::string_view name);
 
-// All names, separated by commas.
+// Returns all names, separated by commas.
 std::string itu_names(ItuEdition edition);
 
 }  // namespace wavetracer

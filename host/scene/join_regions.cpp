@@ -1,5 +1,5 @@
-// A queue of pairs by the root mean square of the heights over their common plane, which sums tell at once; whether all
-// vertices are within their tolerances is looked up when a pair comes up.
+// A queue orders pairs by the root mean square of the heights over their common plane, which follows from sums alone;
+// only when a pair is taken from it are the tolerances of all vertices checked.
 #include "scene/join_regions.hpp"
 
 #include <algorithm>
@@ -128,8 +128,8 @@ class RegionJoiner {
   const FlatNeighbours& neighbours_;
   std::vector<FlatRegion>& regions_;
   double most_m_ = 0;
-  std::vector<PlaneSums> sums_;                // per region, once there is a pair
-  std::vector<std::vector<uint32_t>> beside_;  // per region
+  std::vector<PlaneSums> sums_;                // per region, set once it is in a pair
+  std::vector<std::vector<uint32_t>> beside_;  // neighbours of each region
   std::vector<uint32_t> version_, parent_;
   std::priority_queue<Pair> queue_;
 };

@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// Regions that were joined are one, at the place of the first; the others are gone.
+// The joined region takes the place of its first part; the other parts are removed.
 void join_regions(const FlatMesh& mesh, const FlatNeighbours& neighbours, std::vector<FlatRegion>& regions);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Which reader a file needs, and the units and axes of the configuration.
-// Content decides before the suffix, so a renamed file loads and a wrong one is named for what it is.
+// Chooses the reader of a file, and applies the units and axes of the configuration.
+// The content counts before the suffix, so a renamed file loads, and a wrong file is named correctly in the message.
 #include "scene/load.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ RawScene read_raw(const std::filesystem::path& path) {
         fmt::format("{}: is a Git LFS pointer, not the file itself; fetch it with 'git lfs pull'", path.string()));
   }
   std::string_view text = head;
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // skips a byte order mark
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   std::string suffix = path.extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
@@ -75,14 +75,14 @@ RawScene read_raw(const std::filesystem::path& path) {
       "{}: the file format is unknown; supported formats: Mitsuba XML, PLY, OBJ, glTF (.gltf, .glb)", path.string()));
 }
 
-// A file that says where on earth the scene is counts as one of the scene's.
+// A file that gives the scene's place on the Earth counts as one of the scene's files.
 RawScene read_with_georeference(const std::filesystem::path& path) {
   RawScene raw = read_raw(path);
   if (const std::filesystem::path place = georeference_file(path); !place.empty()) raw.files.push_back(place.string());
   return raw;
 }
 
-// File units and axes to metres with z up.
+// Converts file units and axes to metres with z up.
 void apply_units(RawScene& raw, const SceneConfig& config) {
   if (!(config.scale > 0) || !std::isfinite(config.scale)) {
     throw ConfigError(fmt::format("scene.scale = {}: must be a positive number of metres per file unit", config.scale));
@@ -99,8 +99,8 @@ void apply_units(RawScene& raw, const SceneConfig& config) {
   for (SceneNode& node : raw.nodes) convert(node.position_m);
 }
 
-// An error of a thirty-second of a wavelength turns the phase of a reflection by 22 degrees at most. Welding
-// moves vertices by a millimetre anyway, and what is beyond two may be a kerb. Small models have small details.
+// An error of 1/32 wavelength changes the phase of a reflection by at most 22 degrees. Welding moves vertices by up to
+// a millimetre anyway, and more than two millimetres may be a kerb. Small models have small details.
 double plane_tolerance_m(const RawScene& raw, const SceneConfig& config, double frequency_hz) {
   constexpr double speed_of_light_m_s = 299792458, most_of_extent = 1e-3;
   if (config.plane_tolerance_m) return *config.plane_tolerance_m;

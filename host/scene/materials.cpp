@@ -1,5 +1,5 @@
-// Resolution of material names: alias, then configuration, then file, then the ITU table.
-// Assumes that [[material]] names are unique; a second one of the same name is an error.
+// Resolves material names: alias, then configuration, then file, then the ITU table.
+// Names of [[material]] must be unique; a second one of the same name is an error.
 #include "scene/materials.hpp"
 
 #include <fmt/format.h>
@@ -22,13 +22,13 @@ std::string_view without_prefix(std::string_view text, std::string_view prefix) 
   return text;
 }
 
-// The name as written, without "mat-", without "mat-" and "itu_".
+// Returns the name as written, without "mat-", and without "mat-" and "itu_".
 std::array<std::string, 3> spellings(std::string_view name) {
   const std::string_view bare = without_prefix(name, "mat-");
   return {std::string(name), std::string(bare), std::string(without_prefix(bare, "itu_"))};
 }
 
-// Names of vegetation that need no [[material]].
+// Returns the kind of woodland of a name that needs no [[material]].
 Woodland woodland_named(std::string_view name) {
   if (name == "vegetation") return "mixed";
   if (name == "deciduous_vegetation") return "deciduous";
@@ -49,7 +49,7 @@ class Resolver {
     }
   }
 
-  // definition: the file's own one, or null where the file only gives a name.
+  // definition: the file's own definition, or null if the file only gives a name.
   Material resolve(std::string_view name, const RawMaterial* definition, const std::string& used_by) {
     for (const std::string& spelling : spellings(name)) {
       const auto alias = scene_.material_alias.find(spelling);
@@ -71,7 +71,7 @@ class Resolver {
         name));
   }
 
-  // What the library had to say, then what nothing has used.
+  // Returns the library's messages, then those about entries that no mesh uses.
   std::vector<std::string> warnings() const {
     std::vector<std::string> out(notes_.begin(), notes_.end());
     for (const auto& [from, to] : scene_.material_alias) {
@@ -104,14 +104,14 @@ class Resolver {
     const bool surface = law || fixed || m.thickness_m || m.scattering_lobe || !m.library.empty();
     if (m.vegetation != "none" && surface)
       fail(
-          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: remove those "
-          "keys");
+          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
+          "remove those keys");
     const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
     if (leaves && (surface || (m.vegetation == "none" && woodland_named(spellings(m.name)[2]) == "none")))
       fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
   }
 
-  // "", or that the newest edition knows the name.
+  // Returns "", or a note that the newest edition knows the name.
   std::string newer_edition(const std::string& name) const {
     constexpr ItuEdition newest = "P.2040-4";
     if (scene_.itu_edition == newest || ranges_in_words(newest, name).empty()) return "";
@@ -127,7 +127,7 @@ class Resolver {
     return m.a || m.b || m.c || m.d || m.permittivity || m.conductivity_s_m;
   }
 
-  // The configuration's fields over base. Coefficients that the user gave are not bound to the table's range.
+  // Writes the configuration's fields over base. Coefficients that the user gave are not bound to the table's range.
   void apply(const MaterialConfig& over, Material& base) {
     used_.insert("material " + over.name);
     if (over.permittivity) base.a = *over.permittivity, base.b = 0;
@@ -155,8 +155,8 @@ class Resolver {
     return nullptr;
   }
 
-  // What the libraries say of this exact name at the carrier. Beyond the ranges of its laws: that of the nearest one,
-  // whose range is lifted where the configuration wants it. Nothing is said of a law that the configuration replaces.
+  // Returns the libraries' law for this exact name at the carrier, or the nearest law outside the ranges, without its
+  // range limit if the configuration asks for that. law_is_given: the configuration replaces it: there is no warning.
   std::optional<Material> itu(const std::string& name, bool law_is_given) {
     std::optional<ItuLaw> law = find_itu_law(scene_.itu_edition, name, frequency_ghz_);
     if (!law) law = find_vehicle_law(name, frequency_ghz_);
@@ -164,8 +164,8 @@ class Resolver {
     if (!law->choice.empty()) notes_.insert(law->choice);
     if (!law->in_range && scene_.extrapolate_materials && !range_is_a_limit(name)) {
       notes_.insert(
-          fmt::format("the material \"{}\" was measured from {}, and is used at {:g} GHz all the same "
-                      "(scene.extrapolate_materials)",
+          fmt::format("the material \"{}\" was measured from {}, and is used at {:g} GHz all "
+                      "the same (scene.extrapolate_materials)",
                       name, range_in_words(law->material), frequency_ghz_));
       law->material.min_ghz = 0;
       law->material.max_ghz = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ class Resolver {
     return law->material;
   }
 
-  // Leaves and twigs, if the name is theirs.
+  // Returns leaves and twigs if the name stands for them.
   std::optional<Material> leaves(std::string_view name, const MaterialConfig* over) {
     Woodland woodland = over ? over->vegetation : "none";
     if (woodland == "none" && over && (gives_law(*over) || !over->library.empty())) return std::nullopt;
@@ -191,7 +191,7 @@ class Resolver {
     return out;
   }
 
-  // What configuration and table say of a name.
+  // Returns what the configuration and the table know about a name.
   std::optional<Material> known(std::string_view name) {
     const MaterialConfig* over = override_of(name);
     if (const auto vegetation = leaves(name, over)) return vegetation;
@@ -202,10 +202,10 @@ class Resolver {
       if (made_of) material->name = spellings(over->name)[2];
       if (!material) {
         if (!over->a && !over->permittivity) {
-          throw ConfigError(fmt::format(
-              "[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d), or the library "
-              "material that it is made of",
-              over->name));
+          throw ConfigError(
+              fmt::format("[[material]] '{}' is not an ITU material, so it needs permittivity (or a, b, c, d), "
+                          "or the library material that it is made of",
+                          over->name));
         }
         material = Material{.name = spellings(over->name)[2]};
       }
@@ -214,7 +214,7 @@ class Resolver {
     return material;
   }
 
-  // A material that the file defines in full. Its name is the file's; its ITU type may be overridden as well.
+  // Makes a material that the file defines in full. Its name is the file's; its ITU type may be overridden as well.
   Material defined(const RawMaterial& definition) {
     Material material;
     if (definition.itu_type) {
@@ -243,7 +243,7 @@ class Resolver {
   std::set<std::string> used_, notes_;
 };
 
-// The place of a material in a list, to which it is added if it is new.
+// Returns the index of a material in a list; a new one is added.
 uint32_t index_in(std::vector<Material>& materials, const Material& material) {
   const auto same = std::find(materials.begin(), materials.end(), material);
   const auto index = static_cast<uint32_t>(same - materials.begin());
@@ -267,7 +267,7 @@ ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scen
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz) {
   Resolver resolver(scene, overrides, frequency_hz);
   ResolvedMaterials out;
-  std::vector<uint32_t> index_of(raw.materials.size() + 1, no_material);  // the last entry: meshes without a material
+  std::vector<uint32_t> index_of(raw.materials.size() + 1, no_material);  // the last: meshes without a material
   for (const RawMesh& mesh : raw.meshes) {
     uint32_t& index = index_of[std::min<size_t>(mesh.material, raw.materials.size())];
     if (index == no_material) {

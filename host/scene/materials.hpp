@@ -1,5 +1,5 @@
 // Radio materials: what a material name of a scene file means under a configuration.
-// Assumes nothing about frequency except where one name has several laws: the range that holds it is taken.
+// Frequency matters only where one name has several laws: the one whose range contains it is taken.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,17 +19,17 @@ struct ResolvedMaterials {
   std::vector<std::string> warnings;
 };
 
-// Does a warning say that no mesh has a material?
+// Tells whether a warning says that no mesh uses a material.
 bool says_unused(std::string_view warning);
-// Takes what says that no mesh of a scene has a material out of its warnings, where a model has it.
+// Removes from a scene's warnings those about unused materials, if one of the models uses the material.
 void drop_used(std::vector<std::string>& warnings, const std::vector<Scene>& models);
 
 // A name is looked up in this order: its alias (scene.material_alias); [[material]] or the file itself; the ITU
 // material of that name. "mat-" and then "itu_" are stripped where the full name is not known. [[material]] of the
-// configuration overrides file and table, field by field. A material that its edition does not know at the frequency
-// keeps its range, which its evaluation will refuse, or loses it under scene.extrapolate_materials, with a warning.
-// "vegetation" and "deciduous_vegetation" are leaves and twigs (VegetationLaw), unless [[material]] says otherwise.
-// Throws InputError that names mesh, file and material.
+// configuration overrides file and table, field by field. If the edition has no law for the material at the frequency,
+// the material keeps its range, and evaluating it fails later; with scene.extrapolate_materials the range is removed,
+// with a warning. "vegetation" and "deciduous_vegetation" are leaves and twigs (VegetationLaw), unless [[material]]
+// says otherwise. Throws InputError that names mesh, file and material.
 ResolvedMaterials resolve_materials(const RawScene& raw, const SceneConfig& scene,
                                     const std::vector<MaterialConfig>& overrides, double frequency_hz);
 

@@ -20,8 +20,8 @@
 namespace wavetracer {
 namespace {
 
-// The properties that shapes of a type may have. Normals and texture coordinates are light's alone: a surface is the
-// same from both sides. The last five are those of Mitsuba 0.6.
+// The properties that shapes of a type may have. Normals and texture coordinates only matter for light: a surface is
+// the same from both sides. The last five are those of Mitsuba 0.6.
 const std::vector<std::string>* properties_of(std::string_view type) {
   static const std::vector<std::string> mesh = {
       "filename",       "to_world", "face_normals", "flip_normals",     "flip_tex_coords",
@@ -35,7 +35,7 @@ const std::vector<std::string>* properties_of(std::string_view type) {
   return nullptr;
 }
 
-// The shapes of Mitsuba: a square of two units on z = 0, and a cube of two units.
+// The basic shapes of Mitsuba: a square with sides of two units on z = 0, and a cube with sides of two units.
 RawMesh rectangle() {
   RawMesh out;
   out.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -62,7 +62,7 @@ class MitsubaReader {
   RawScene read() {
     MitsubaMaterials materials(files_, raw_);
     materials_ = &materials;
-    for (const pugi::xml_node node : files_.elements())  // before instances, which may point forward
+    for (const pugi::xml_node node : files_.elements())  // groups are read before instances, which may point forward
       if (is_group(node)) add_group(node);
     for (const pugi::xml_node node : files_.elements()) add_element(node);
     return std::move(raw_);
@@ -74,7 +74,7 @@ class MitsubaReader {
   }
 
   void add_element(pugi::xml_node node) {
-    // Elements that no surface comes from, and those that belong into others.
+    // Elements that make no surface, and elements that only appear inside others.
     static const std::set<std::string_view> skipped = {"bsdf",   "integrator", "sensor", "emitter",
                                                        "medium", "texture",    "film",   "alias"};
     static const std::set<std::string_view> misplaced = {"volume", "phase", "sampler", "rfilter", "ref"};
@@ -162,7 +162,7 @@ class MitsubaReader {
   std::vector<RawMesh> read_mesh(pugi::xml_node shape, const std::string& type) {
     const bool of_file = type == "ply" || type == "obj";
     std::string name = files_.attribute(shape, "id");
-    if (name.starts_with("mesh-")) name.erase(0, 5);  // as Sionna RT names its objects
+    if (name.starts_with("mesh-")) name.erase(0, 5);  // Sionna RT names its objects like this
     std::filesystem::path file;
     if (of_file) file = file_of(shape);
     if (name.empty()) name = of_file ? file.stem().string() : type;
@@ -191,7 +191,7 @@ class MitsubaReader {
     return file;
   }
 
-  // The meshes of a file. A second reading tells that more shapes may follow, so its meshes are kept for those.
+  // Returns the meshes of a file. From the second use on its meshes are kept, since more shapes may use them.
   std::vector<RawMesh> meshes_of_file(const std::filesystem::path& file, const std::string& type) {
     MeshFile& known = mesh_files_[{file.string(), type}];
     if (++known.uses > 2) return known.meshes;
@@ -220,14 +220,14 @@ class MitsubaReader {
 
   struct MeshFile {
     uint64_t uses = 0;
-    std::vector<RawMesh> meshes = {};  // from the second use on
+    std::vector<RawMesh> meshes = {};  // filled from the second use on
   };
 
   MitsubaFiles files_;
   RawScene raw_;
   MitsubaMaterials* materials_ = nullptr;
   std::map<std::string, std::vector<RawMesh>> groups_;
-  std::map<std::pair<std::string, std::string>, MeshFile> mesh_files_;  // by name and type
+  std::map<std::pair<std::string, std::string>, MeshFile> mesh_files_;  // keys are name and type
 };
 
 }  // namespace

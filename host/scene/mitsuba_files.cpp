@@ -1,5 +1,5 @@
-// Mitsuba's own rules, of its parser: a parameter keeps the first value that it is given, the longest name that fits
-// wins, and includes nest at most 15 deep.
+// Follows the rules of Mitsuba's own parser: a parameter keeps the first value that it is given, the longest name that
+// fits wins, and includes nest at most 15 deep.
 #include "scene/mitsuba_files.hpp"
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@ namespace wavetracer {
 namespace {
 
 constexpr size_t most_included_deep = 15, most_files = 1000;
-// An attribute has at most so many characters: parameters that name each other several times grow without bound.
+// The largest length of an attribute: parameters that name each other several times would grow without bound.
 constexpr size_t longest_attribute = 65536;
 
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 
-// toWorld -> to_world.
+// Turns toWorld into to_world.
 std::string snake_case(std::string_view name) {
   std::string out;
   for (size_t i = 0; i < name.size(); ++i) {
@@ -79,7 +79,7 @@ void MitsubaFiles::fail(pugi::xml_node node, const std::string& what) const {
 std::string MitsubaFiles::attribute(pugi::xml_node node, const char* name) const {
   std::string value = node.attribute(name).value();
   for (size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
-    // The longest parameter wins, as $resx before $res.
+    // The longest parameter wins: $resx before $res.
     const std::pair<std::string, std::string>* best = nullptr;
     for (const auto& entry : defaults_) {
       if (value.compare(at + 1, entry.first.size(), entry.first) != 0) continue;
@@ -106,7 +106,7 @@ void MitsubaFiles::check_attributes(pugi::xml_node node, std::initializer_list<s
 std::filesystem::path MitsubaFiles::find(pugi::xml_node node, const std::string& name) const {
   std::vector<std::filesystem::path> folders = folders_;
   folders.push_back(document_of(node).path.parent_path());
-  std::error_code unnameable;  // such as a name that is too long
+  std::error_code unnameable;  // ignores errors, such as a name that is too long
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path file = folder / name;
     if (std::filesystem::exists(file, unnameable)) return file;
@@ -133,12 +133,12 @@ const MitsubaFiles::Document& MitsubaFiles::load(const std::filesystem::path& pa
 void MitsubaFiles::check_root(const Document& document, pugi::xml_node root) const {
   if (const std::string_view tag = root.name(); tag == "osm" || tag == "additional" || tag == "polygons")
     throw InputError(
-        fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to a "
-                    "scene, FOLDER/city.xml",
+        fmt::format("{}: the root element is <{}>: this is a map; `wavetracer convert {} -o FOLDER` converts it to "
+                    "a scene, FOLDER/city.xml",
                     where(root), root.name(), document.path.string()));
 }
 
-// Names of properties and of operations of files before version 2.0.0, as Mitsuba renames them.
+// Renames properties and operations of files before version 2.0.0, as Mitsuba does.
 void MitsubaFiles::rename_old(pugi::xml_node root) const {
   const std::string_view text = root.attribute("version").value();
   if (text.empty()) return;

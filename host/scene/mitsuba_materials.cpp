@@ -1,4 +1,4 @@
-// A bsdf may hold others, as twosided does: the first radio bsdf on the way down is the material.
+// A bsdf may hold others, as twosided does: going down, the first radio bsdf is the material.
 #include "scene/mitsuba_materials.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ bool is_radio(pugi::xml_node node) {
   return type == "itu-radio-material" || type == "radio-material";
 }
 
-// For light, of Mitsuba 0.6 to 3.
+// Tells whether the type is a bsdf for light, of Mitsuba 0.6 to 3.
 bool is_for_light(std::string_view type) {
   static const std::set<std::string_view> known = {
       "blendbsdf",       "bump",         "bumpmap",      "circular",
@@ -85,7 +85,7 @@ void MitsubaMaterials::warn_of_bsdf(pugi::xml_node node) {
                                         files_.where(node), MitsubaFiles::describe(node)));
 }
 
-// Index into raw_.materials. fallback names a material without an id.
+// Returns the index in raw_.materials. fallback: a name for a material without an id.
 uint32_t MitsubaMaterials::add(pugi::xml_node node, const std::string& fallback) {
   pugi::xml_node core = node;
   while (!is_radio(core) && core.child("bsdf")) {
@@ -105,14 +105,14 @@ uint32_t MitsubaMaterials::add(pugi::xml_node node, const std::string& fallback)
 void MitsubaMaterials::warn_of_scattering(pugi::xml_node node) {
   if (mitsuba_number(files_, node, "scattering_coefficient", 0, false).value_or(0) > 0) {
     raw_.warnings.push_back(
-        fmt::format("{}: {}: scattering_coefficient is not used, nor its pattern; give [[material]] the keys "
-                    "scattering, scattering_lobe and scattering_cross_polar",
+        fmt::format("{}: {}: scattering_coefficient is not used, nor its pattern; "
+                    "give [[material]] the keys scattering, scattering_lobe and scattering_cross_polar",
                     files_.where(node), MitsubaFiles::describe(node)));
   }
 }
 
 void MitsubaMaterials::read_radio(pugi::xml_node node, RawMaterial& material) {
-  constexpr double thinnest_m = 1e-9;  // zero would make a slab that is not there
+  constexpr double thinnest_m = 1e-9;  // a slab of zero thickness would not exist
   const bool itu = std::string_view(node.attribute("type").value()) == "itu-radio-material";
   check_properties(files_, node, radio_properties(itu), {"texture"});
   material.thickness_m = mitsuba_number(files_, node, "thickness", thinnest_m, true);
@@ -126,7 +126,7 @@ void MitsubaMaterials::read_radio(pugi::xml_node node, RawMaterial& material) {
   }
 }
 
-// Mitsuba does not look at the name of a reference: what it refers to says what it is.
+// Mitsuba ignores the name of a reference: the referenced element says what it is.
 uint32_t MitsubaMaterials::of_shape(pugi::xml_node shape, const std::string& name) {
   uint32_t out = no_material;
   for (const pugi::xml_node child : shape.children()) {

@@ -1,5 +1,5 @@
-// The <bsdf> elements of a Mitsuba scene as radio materials, by id. Radio bsdfs are those of Sionna RT 1.x
-// (itu-radio-material, radio-material); of any other bsdf only the outermost id counts.
+// Reads the <bsdf> elements of a Mitsuba scene as radio materials, by id. Radio bsdfs are those of Sionna RT 1.x
+// (itu-radio-material, radio-material); for any other bsdf only the outermost id counts.
 #pragma once
 #include <map>
 #include <set>
@@ -12,11 +12,12 @@ namespace wavetracer {
 
 class MitsubaMaterials {
  public:
-  // Adds materials and warnings to raw. Those at the top of the file are added at once: references may point forward.
+  // Adds materials and warnings to raw. Materials at the top of the file are added at once, since references may point
+  // forward.
   MitsubaMaterials(const MitsubaFiles& files, RawScene& raw);
 
-  // The material of a shape: by its <bsdf>, or by a reference to one. no_material where it has neither. name: of the
-  // shape, for a material without an id.
+  // Returns the material of a shape, from its <bsdf> or from a reference to one, or no_material if it has neither.
+  // name: the shape's name, for a material without an id.
   uint32_t of_shape(pugi::xml_node shape, const std::string& name);
 
  private:
@@ -29,7 +30,7 @@ class MitsubaMaterials {
   const MitsubaFiles& files_;
   RawScene& raw_;
   std::map<std::string, uint32_t> index_;  // id -> index into raw_.materials
-  std::set<std::string> others_;           // ids of what is no material, such as a medium
+  std::set<std::string> others_;           // ids of other elements, such as a medium
 };
 
 }  // namespace wavetracer

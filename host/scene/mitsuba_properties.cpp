@@ -62,7 +62,7 @@ std::optional<double> mitsuba_number(const MitsubaFiles& files, pugi::xml_node n
   if (!child) return std::nullopt;
   files.check_attributes(child, {"name", "value"});
   const std::string text = files.attribute(child, "value");
-  const size_t last = text.find_last_not_of(" \t\r\n") + 1;  // 0 where there are blanks alone, or nothing
+  const size_t last = text.find_last_not_of(" \t\r\n") + 1;  // 0 if there are only blanks, or nothing
   const size_t first = std::min(text.find_first_not_of(" \t\r\n"), last);
   const char* const end = text.data() + last;
   double value = 0;

@@ -1,5 +1,5 @@
-// The properties of a Mitsuba element: children that have a name and a value.
-// Mitsuba refuses a property that nothing asks for; so does this, as it may be a misspelt one that matters.
+// Checks the properties of a Mitsuba element: children that have a name and a value.
+// Like Mitsuba, it refuses a property that no code asks for, as it may be a misspelt one that matters.
 #pragma once
 #include <optional>
 #include <pugixml.hpp>
@@ -11,19 +11,20 @@
 
 namespace wavetracer {
 
-// Is this child a property, by its tag (float, string, transform, ...)?
+// Tells whether this child is a property, by its tag (float, string, transform, ...).
 bool is_mitsuba_property(pugi::xml_node node);
 
-// Throws InputError where a property is not among the known ones, or is there twice, and where a child is neither a
-// property nor has one of the tags in objects.
+// Throws InputError if a property is unknown or appears twice, or if a child is no property and its tag is not in
+// `objects`.
 void check_properties(const MitsubaFiles& files, pugi::xml_node node, const std::vector<std::string>& known,
                       const std::vector<std::string_view>& objects);
 
-// The property of this name; an empty node where there is none. Throws where it is one of another tag.
+// Returns the property of this name, or an empty node if it is missing. Throws if it has another tag.
 pugi::xml_node mitsuba_property(const MitsubaFiles& files, pugi::xml_node node, std::string_view name,
                                 std::initializer_list<std::string_view> tags);
 
-// The value of a <float> or <integer>; empty where it is absent. Throws where it is no number of at least `least`.
+// Returns the value of a <float> or <integer>, or nothing if it is absent. Throws if it is no number of at least
+// `least`.
 std::optional<double> mitsuba_number(const MitsubaFiles& files, pugi::xml_node node, std::string_view name,
                                      double least, bool infinite);
 

@@ -1,5 +1,5 @@
-// Mitsuba's transform operations: translate, scale, rotate, matrix, lookat. The first one in the file acts first.
-// Assumes numbers separated by blanks or commas, as Mitsuba writes and reads them.
+// Applies Mitsuba's transform operations: translate, scale, rotate, matrix, lookat. The first one in the file acts
+// first. Numbers are separated by blanks or commas, as Mitsuba writes and reads them.
 #include "scene/mitsuba_transform.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ class TransformReader {
     }
   }
 
-  // value="x y z", value="s" for all three, or attributes x, y, z with a default each.
+  // Parses value="x y z", value="s" for all three, or attributes x, y, z with a default each.
   glm::dvec3 vector(pugi::xml_node node, double absent) const {
     const std::vector<double> value = numbers(node, "value");
     if (!value.empty() && (node.attribute("x") || node.attribute("y") || node.attribute("z")))
@@ -90,7 +90,7 @@ class TransformReader {
     return {value[0], value[1], value[2]};
   }
 
-  // The axes of a camera that looks from origin to target: x to the left, y up, z forward.
+  // Returns the axes of a camera that looks from origin to target: x to the left, y up, z forward.
   glm::dmat4 look_at(pugi::xml_node node) const {
     files_.check_attributes(node, {"origin", "target", "up"});
     const glm::dvec3 origin = point(node, "origin"), forward = point(node, "target") - origin, up = point(node, "up");

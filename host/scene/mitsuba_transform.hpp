@@ -1,5 +1,5 @@
-// A Mitsuba <transform>: its operations composed in the order they stand in the file.
-// Assumes affine transforms; the last row of a matrix must be 0 0 0 1.
+// Reads a Mitsuba <transform>: its operations are composed in the order of the file.
+// Transforms must be affine: the last row of a matrix must be 0 0 0 1.
 #pragma once
 #include <glm/mat4x4.hpp>
 #include <pugixml.hpp>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// Throws InputError where an operation or an attribute is not known, and where numbers are missing.
+// Throws InputError if an operation or an attribute is unknown, or numbers are missing.
 glm::dmat4 read_transform(pugi::xml_node transform, const MitsubaFiles& files);
 
 }  // namespace wavetracer

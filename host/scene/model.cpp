@@ -1,5 +1,5 @@
-// OBJ and glTF 1.0 through assimp. Node transforms are applied here, in double.
-// Vertices are left as assimp reads them, one a corner: welding is one step for all formats (weld.hpp), and knows its
+// Reads OBJ and glTF 1.0 through assimp. Node transforms are applied here, in double.
+// Vertices are left as assimp reads them, one per corner: welding is one step for all formats (weld.hpp) with its own
 // tolerance.
 #include "scene/model.hpp"
 
@@ -43,8 +43,8 @@ class ModelReader {
     const double float_spacing = largest_ * 0x1p-23;
     if (float_spacing > 1e-3) {
       raw_.warnings.push_back(
-          fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: move the model to its origin, or "
-                      "use PLY with double coordinates",
+          fmt::format("{}: coordinates reach {:.0f}, where float32 keeps only {:.3g}: "
+                      "move the model to its origin, or use PLY with double coordinates",
                       raw_.file, largest_, float_spacing));
     }
     return std::move(raw_);
@@ -104,8 +104,8 @@ class ModelReader {
   double largest_ = 0;
 };
 
-// assimp looks for another of its fifty readers where that of the suffix finds nothing of its own: a damaged file would
-// get to formats that nobody asked for. Only readers of this suffix stay.
+// If the reader of the suffix does not recognise a file, assimp tries its fifty others, so a damaged file would get to
+// formats that nobody asked for. Only readers of this suffix are kept.
 void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
   for (size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* const reader = importer.GetImporter(i);
@@ -113,11 +113,11 @@ void keep_readers(Assimp::Importer& importer, const std::string& suffix) {
     reader->GetExtensionList(suffixes);
     if (suffixes.contains(suffix)) continue;
     importer.UnregisterLoader(reader);
-    delete reader;  // which is ours now
+    delete reader;  // it is ours after it was unregistered
   }
 }
 
-// An open file, which says when it is closed: assimp does that here and there without its IOSystem.
+// An open file that reports when it is closed: in some places assimp closes it without its IOSystem.
 class OpenFile : public Assimp::IOStream {
  public:
   OpenFile(Assimp::IOStream* file, bool& open) : file_(file), open_(open) { open_ = true; }
@@ -137,9 +137,9 @@ class OpenFile : public Assimp::IOStream {
   bool& open_;
 };
 
-// An OBJ file and none that it names. Materials are known by the names that faces use, so libraries of materials say
-// nothing new; and assimp's reader of them writes to address 0 where a material is described before it is named. They
-// are asked for while the OBJ file itself is open.
+// Opens an OBJ file, but none of the files that it names. Faces name their materials, so material libraries are not
+// needed; and assimp's reader of them writes to address 0 if a material is described before it is named. They are
+// requested while the OBJ file itself is open.
 class LoneFile : public Assimp::DefaultIOSystem {
  public:
   LoneFile(std::string name, std::string file) : name_(std::move(name)), file_(std::move(file)) {}
@@ -160,8 +160,8 @@ class LoneFile : public Assimp::DefaultIOSystem {
   bool open_ = false;
 };
 
-// Opens plain files only: a glTF names buffers, and a pipe would be waited for. assimp chooses its reader by the
-// suffix, so it is given a name that has one, and this knows the file that it stands for. Notes what was opened.
+// Opens plain files only: a glTF names buffers, and a pipe would block. assimp chooses its reader by the suffix, so it
+// is given a name with one, and this class maps that name to the real file. It notes which files were opened.
 class PlainFiles : public Assimp::DefaultIOSystem {
  public:
   PlainFiles(std::string name, std::string file, std::vector<std::string>& opened)
@@ -184,7 +184,7 @@ class PlainFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string>& opened_;
 };
 
-// Is it a file of glTF 1, in which names stand where glTF 2 has numbers?
+// Tells whether it is a glTF 1 file, which has names where glTF 2 has numbers.
 bool is_version_1(const GltfFile& file) {
   const auto asset = file.document.find("asset");
   if (asset == file.document.end() || !asset->is_object()) return false;
@@ -213,7 +213,7 @@ RawScene read_model(const std::filesystem::path& path, ModelFormat format) {
   const std::string name = path.string() + (fits ? "" : obj ? ".obj" : ".glb");
   std::vector<std::string> files;
   Assimp::Importer importer;
-  if (obj) {  // the handlers are the importer's then
+  if (obj) {  // from here on the importer owns the handlers
     files.push_back(path.string());
     importer.SetIOHandler(new LoneFile(name, path.string()));
   } else {

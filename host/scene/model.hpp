@@ -8,7 +8,7 @@
 namespace wavetracer {
 
 enum class ModelFormat { obj, gltf };
-// Chooses the format by the suffix: every suffix but .obj means glTF.
+// Chooses the format by the suffix: any suffix but .obj means glTF.
 ModelFormat model_format(const std::filesystem::path& path);
 
 // Ignores the suffix. Throws InputError that names the file and the mesh.

@@ -20,7 +20,7 @@ enum class Statement { read, harmless, flat, curved, called, unknown };
 
 Statement statement_of(std::string_view word) {
   static const std::set<std::string_view> read = {"v", "f", "fo", "o", "g", "usemtl", "mtllib"};
-  // These say how things look, or are parameters of curves, which are left out where the curve itself is.
+  // These say how things look, or are parameters of curves; curves themselves are left out.
   static const std::set<std::string_view> harmless = {
       "vt",         "vn",        "vp",    "s",     "mg",  "bevel", "c_interp", "d_interp", "lod",
       "usemap",     "maplib",    "parm",  "trim",  "sp",  "hole",  "scrv",     "end",      "con",
@@ -45,7 +45,7 @@ class ObjCheck {
     for (size_t number = 1; std::getline(in, part); ++number) {
       if (number == 1 && part.starts_with("\xEF\xBB\xBF")) part.erase(0, 3);
       while (!part.empty() && is_blank(part.back())) part.pop_back();
-      if (part.find('\r') != std::string::npos) return {};  // line ends of old Macs, of which assimp knows as well
+      if (part.find('\r') != std::string::npos) return {};  // line ends of old Macs, which assimp accepts as well
       const bool goes_on = part.ends_with('\\');
       if (goes_on) part.back() = ' ';
       line += part;
@@ -72,7 +72,7 @@ class ObjCheck {
   void check(std::string_view line, size_t number) {
     const size_t first = line.find_first_not_of(" \t");
     if (first == std::string_view::npos || line[first] == '#') return;
-    // assimp would read on behind the end of the file.
+    // assimp would read beyond the end of the file.
     if (line.find_first_of("\v\f") != std::string_view::npos)
       fail(number, "a vertical tab or a form feed stands in this line: leave it out");
     const std::string_view text = line.substr(first);
@@ -107,12 +107,12 @@ class ObjCheck {
     if (count < 3) small_.add(number);
   }
 
-  // Of materials only the names are used, so a library that is not there is missed only where its name looks wrong.
+  // Only the names of materials are used, so a missing library is reported only if its name looks wrong.
   void check_library(std::string_view name, size_t number) {
     name.remove_prefix(std::min(name.find_first_not_of(" \t"), name.size()));
     const auto is_slash = [](char c) { return c == '/' || c == '\\'; };
     if (std::ranges::adjacent_find(name, [&](char a, char b) { return is_slash(a) && is_slash(b); }) != name.end())
-      fail(number, "the name of the library has two slashes in a row: leave out one of them");  // assimp loses its way
+      fail(number, "the name of the library has two slashes in a row: leave out one of them");  // assimp fails on it
     const std::filesystem::path file = path_.parent_path() / name;
     std::error_code unnameable;
     if (name.empty() || std::filesystem::exists(file, unnameable)) return;

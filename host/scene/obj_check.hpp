@@ -1,4 +1,4 @@
-// Finds what assimp passes over in an OBJ file without a word: statements that it does not know, curves, lines, points.
+// Finds statements of an OBJ file that assimp ignores silently: unknown statements, curves, lines, points.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -6,9 +6,8 @@
 
 namespace wavetracer {
 
-// Returns warnings, each with a count and the first line that it is about. Throws InputError that names the line where
-// triangles would be lost or moved: numbers that are none, statements that do not begin their line, and files that are
-// called.
+// Returns warnings, each with a count and the first line concerned. Throws InputError that names the line where
+// triangles would be lost or moved: invalid numbers, statements that do not begin their line, and calls of other files.
 std::vector<std::string> check_obj(const std::filesystem::path& path);
 
 }  // namespace wavetracer

@@ -20,7 +20,7 @@ void diagonalize(dmat3& m, dmat3& axes) {
     bool done = true;
     for (int p = 0; p < 2; ++p) {
       for (int q = p + 1; q < 3; ++q) {
-        if (m[p][q] * m[p][q] <= 1e-36 * std::abs(m[p][p] * m[q][q])) continue;  // below rounding
+        if (m[p][q] * m[p][q] <= 1e-36 * std::abs(m[p][p] * m[q][q])) continue;  // smaller than rounding
         done = false;
         const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
         const double t = (theta < 0 ? -1.0 : 1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1));

@@ -1,5 +1,5 @@
-// Least squares planes of weighted points, from sums that can be added up and joined.
-// Assumes points within some kilometres of the reference point that the sums are taken about.
+// Fits least-squares planes to weighted points, from sums that can be extended and joined.
+// Points must be within some kilometres of the reference point about which the sums are taken.
 #pragma once
 #include <array>
 #include <glm/vec3.hpp>
@@ -12,22 +12,23 @@ struct Plane {
   double offset_m = 0;
 };
 
-// The normal with its largest component positive (the last one of equals): the same whichever side the file means.
+// Returns the normal with its largest component positive (the last one if several are equal), so that it does not
+// depend on the side that the file means.
 glm::dvec3 oriented(const glm::dvec3& normal);
 
-// Signed distance of a point from a plane.
+// Returns the signed distance of a point from a plane.
 double height_over(const Plane& plane, const glm::dvec3& p);
 
 struct FittedPlane {
-  Plane plane;   // oriented
-  double rms_m;  // of the distances of the points from it
+  Plane plane;   // its normal is oriented()
+  double rms_m;  // root mean square of the distances of the points from the plane
 };
 
 class PlaneSums {
  public:
   explicit PlaneSums(const glm::dvec3& reference = glm::dvec3(0)) : reference_(reference) {}
   void add(const glm::dvec3& p, double weight = 1);
-  // Sums about this one's reference point of the points of both.
+  // Adds the sums of the other's points, about this one's reference point.
   void join(const PlaneSums& other);
   FittedPlane fit() const;
 

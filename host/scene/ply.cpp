@@ -49,11 +49,12 @@ void read_vertices(PlyBody& body, const Element& element, const std::string& fil
 }
 
 struct Faces {
-  std::vector<uint32_t> corners;  // of all polygons, one after the other
+  std::vector<uint32_t> corners;  // corners of all polygons, one after the other
   std::vector<size_t> first{0};
 };
 
-// The property that lists the corners of faces or strips; Turk's files call it vertex_indices, others vertex_index.
+// Returns the index of the property that lists the corners of faces or strips; Turk's files call it vertex_indices,
+// others vertex_index.
 size_t corner_list(const Element& element, const std::string& file) {
   const size_t none = element.properties.size();
   size_t list = none;
@@ -103,8 +104,8 @@ void read_faces(PlyBody& body, const Element& element, const std::string& file, 
       [&] { faces.first.push_back(faces.corners.size()); });
 }
 
-// Strips of triangles, of which -1 ends one: every corner after the second makes a triangle with the two before it, and
-// every other one is turned. A triangle with a corner twice joins strips, and is none.
+// Reads triangle strips; -1 ends a strip. Every corner after the second makes a triangle with the two before it, and
+// every other triangle is turned. A triangle that has a corner twice only joins strips and is dropped.
 void read_strips(PlyBody& body, const Element& element, const std::string& file, Faces& faces) {
   std::vector<uint32_t> strip;
   read_lists(
@@ -126,7 +127,7 @@ void read_strips(PlyBody& body, const Element& element, const std::string& file,
       [&] { strip.clear(); });
 }
 
-// The elements of the body that make a mesh; what of the others is lost becomes a warning.
+// Reads the elements of the body that make a mesh; for the others a warning says what is lost.
 struct Elements {
   const std::string& file;
   PlyMesh& mesh;
@@ -158,7 +159,7 @@ struct Elements {
   }
 
   void skip(PlyBody& body, const Element& element) const {
-    // Edges are those of faces, or wires; the others are how a picture of the mesh is made.
+    // Edges are those of faces, or wires; the others say how a picture of the mesh is made.
     constexpr std::array<std::string_view, 6> harmless = {"edge", "material", "camera",
                                                           "user", "texture",  "range_grid"};
     if (!element.properties.empty()) {
@@ -169,8 +170,8 @@ struct Elements {
     }
     if (element.count > 0 && std::ranges::find(harmless, element.name) == harmless.end())
       mesh.warnings.push_back(
-          fmt::format("{}: {} entries of the element '{}' were left out: only vertex, face and "
-                      "tristrips make surfaces",
+          fmt::format("{}: {} entries of the element '{}' were left out: only vertex, "
+                      "face and tristrips make surfaces",
                       file, element.count, element.name));
   }
 };

@@ -1,4 +1,4 @@
-// Numbers of ascii files are parted by blanks of any kind, line ends among them.
+// Numbers of ascii files are separated by blanks of any kind, including line ends.
 #include "scene/ply_body.hpp"
 
 #include <fmt/format.h>
@@ -17,15 +17,15 @@ namespace wavetracer::ply {
 void PlyBody::begin(const Element& element) {
   element_ = &element;
   index_ = 0;
-  uint64_t least = 0;  // bytes of one entry; a number in ascii needs a digit and a separator
+  uint64_t least = 0;  // least number of bytes of an entry; a number in ascii needs a digit and a separator
   for (const Property& p : element.properties) {
     least += format_ == Format::ascii ? 2 : size_of(p.count ? *p.count : p.type);
   }
   const uint64_t left = static_cast<uint64_t>(end_ - next_) + 1;  // the last separator of an ascii file may be absent
   if (least > 0 && element.count > left / least) {
     throw InputError(
-        fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, but only {} bytes "
-                    "are left: the file is incomplete or its header is wrong",
+        fmt::format("{}: the header declares {} entries of element '{}', at least {} bytes each, "
+                    "but only {} bytes are left: the file is incomplete or its header is wrong",
                     file_, element.count, element.name, least, left - 1));
   }
 }

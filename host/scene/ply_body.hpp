@@ -16,13 +16,13 @@ class PlyBody {
 
   // Starts an element; refuses counts that the rest of the file cannot hold.
   void begin(const Element& element);
-  // The entry of the element that is read next, for messages.
+  // Sets the entry of the element that is read next, for messages.
   void at(uint64_t index) { index_ = index; }
-  // Bytes that no element has taken; blanks before them are none in an ascii file.
+  // Returns the number of bytes that no element has taken; in an ascii file leading blanks do not count.
   size_t left() const;
 
   double scalar(Type type);
-  // The length of a list, checked against what is left of the file.
+  // Reads the length of a list, and checks it against the rest of the file.
   size_t length(const Property& property);
   void skip(const Property& property);
 

@@ -1,5 +1,5 @@
-// Polygons into triangles, by fans and by ear clipping (G. Meisters, "Polygons have ears", 1975).
-// Works in 3D with Newell's normal as the sign of every turn, so no projection has to be chosen.
+// Splits polygons into triangles, by fans and by ear clipping (G. Meisters, "Polygons have ears", 1975).
+// It works in 3D with Newell's normal as the sign of every turn, so no projection has to be chosen.
 #include "scene/polygon.hpp"
 
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 using glm::dvec3;
 
-// Twice the area vector of a polygon (Newell), robust for concave and slightly bent ones.
+// Returns twice the area vector of a polygon (Newell), which is robust for concave and slightly bent polygons.
 dvec3 newell(std::span<const dvec3> vertices, std::span<const uint32_t> polygon) {
   dvec3 sum(0);
   const dvec3 base = vertices[polygon[0]];
@@ -19,7 +19,7 @@ dvec3 newell(std::span<const dvec3> vertices, std::span<const uint32_t> polygon)
   return sum;
 }
 
-// Twice the signed area of (a, b, c), seen along normal.
+// Returns twice the signed area of (a, b, c), seen along normal.
 double turn(const dvec3& normal, const dvec3& a, const dvec3& b, const dvec3& c) {
   return glm::dot(normal, glm::cross(b - a, c - a));
 }
@@ -33,7 +33,7 @@ bool is_convex(std::span<const dvec3> vertices, std::span<const uint32_t> polygo
   return true;
 }
 
-// True when corner i of the polygon can be cut off: it turns left and no other corner lies in its triangle.
+// Tells whether corner i of the polygon can be cut off: it turns left and no other corner lies in its triangle.
 bool is_ear(std::span<const dvec3> vertices, std::span<const uint32_t> polygon, const dvec3& normal, size_t i) {
   const size_t n = polygon.size();
   const uint32_t before = polygon[(i + n - 1) % n], at = polygon[i], after = polygon[(i + 1) % n];
@@ -54,7 +54,7 @@ void triangulate_polygon(std::span<const dvec3> vertices, std::span<const uint32
   std::vector<uint32_t> rest(polygon.begin(), polygon.end());
   const dvec3 normal = newell(vertices, polygon);
   if (rest.size() > 3 && !is_convex(vertices, polygon, normal)) {
-    // Without an ear left (a self-touching polygon) what remains becomes a fan.
+    // If no ear is left (a self-touching polygon), the rest becomes a fan.
     for (size_t i = 0; i < rest.size() && rest.size() > 3;) {
       if (!is_ear(vertices, rest, normal, i)) {
         ++i;

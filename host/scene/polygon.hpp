@@ -1,5 +1,5 @@
-// Polygons into triangles: a fan where the polygon is convex, ears where it is not.
-// Assumes simple polygons (no self-intersection), planar up to noise; there are no holes.
+// Splits polygons into triangles: a fan where the polygon is convex, ears where it is not.
+// Polygons must be simple (no self-intersection) and planar up to noise; there are no holes.
 #pragma once
 #include <glm/vec3.hpp>
 #include <span>

@@ -1,4 +1,4 @@
-// Tells how coarse the coordinates of a file are.
+// Computes how coarse the coordinates of a file are.
 #include "scene/raw_scene.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// In rounds, each from the state before it, so that the order of triangles does not matter. Where a triangle is, is
-// told by the difference of the heights over both planes: it changes its sign at their line, and noise hardly changes
-// it.
+// Triangles move in rounds, each computed from the state before it, so that the order of triangles does not matter. The
+// difference of the heights over both planes tells where a triangle is: it changes its sign at their line, and noise
+// hardly changes it.
 #include "scene/region_borders.hpp"
 
 #include <algorithm>
@@ -61,7 +61,8 @@ class Borders {
     uint32_t best = own;
     neighbours_.visit(t, [&](const FlatNeighbour& pair) {
       const uint32_t other = region_of_[pair.other];
-      if (other == own || other >= best + (best == own ? regions_.size() : 0)) return;  // the lowest of several
+      // If several are equal, the lowest.
+      if (other == own || other >= best + (best == own ? regions_.size() : 0)) return;
       if (regions_[other].vertices.size() > 3 && neighbours_.unfolded(pair, regions_[own].plane.normal) &&
           fits(t, regions_[other]) && is_beyond(t, own, other))
         best = other;
@@ -87,7 +88,8 @@ class Borders {
     return here * side(centres_[own]) < 0 && here * side(centres_[other]) > 0;
   }
 
-  // The vertices of the triangles that a region has now, and the plane that fits them, unless the old one fits better.
+  // Sets the vertices of the triangles that a region has now, and the plane that fits them, unless the old plane fits
+  // better.
   void renew(FlatRegion& region) const {
     region.vertices.clear();
     for (const uint32_t t : region.triangles)

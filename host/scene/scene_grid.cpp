@@ -1,5 +1,5 @@
 // The grid halves its cells until memory would grow; lists are sorted by counting.
-// Lines are cut into sheets of cells, rows of sheets and cells of rows.
+// A line is cut into layers of cells, a layer into rows, and a row into cells.
 #include "scene/scene_grid.hpp"
 
 #include <cmath>
@@ -47,7 +47,7 @@ std::pair<int64_t, int64_t> SceneGrid::cells_of(const Line& line, int axis, cons
 
 SceneGrid::Interval SceneGrid::part_in(const Line& line, int axis, int64_t cell, const Interval& part) const {
   const double way = line.way[axis];
-  if (std::abs(way) <= line.reach_m) return part;  // in this layer with all its length, but for the reach
+  if (std::abs(way) <= line.reach_m) return part;  // the whole line is in this layer, up to the reach
   const double from = lower_[axis] + static_cast<double>(cell) * cell_m_ - line.start[axis];
   const double a = (from - line.reach_m) / way, b = (from + cell_m_ + line.reach_m) / way;
   return {std::clamp(std::min(a, b), part.first, part.second), std::clamp(std::max(a, b), part.first, part.second)};

@@ -1,5 +1,5 @@
-// A uniform grid over a scene, and lists of what is in its cells.
-// Assumes finite positions, all of them within the boxes that the grid was made for.
+// A uniform grid over a scene, and lists of the items in its cells.
+// Positions must be finite and within the boxes that the grid was made for.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -24,8 +24,8 @@ struct SceneBox {
 
 class SceneGrid {
  public:
-  // Cells are as small as they can be while neither their number nor the sum of cells over all boxes exceeds 8 per box:
-  // memory stays linear, whatever the boxes.
+  // Cells are as small as possible while neither their number nor the sum of cells over all boxes exceeds 8 per box, so
+  // memory stays linear for any boxes.
   explicit SceneGrid(std::span<const SceneBox> boxes);
 
   size_t size() const { return static_cast<size_t>(counts_[0] * counts_[1] * counts_[2]); }
@@ -41,7 +41,7 @@ class SceneGrid {
     }
   }
 
-  // The same for a line from a to b, with all that is within reach_m of it.
+  // Does the same for a line from a to b, with everything within reach_m of it.
   template <class Visit>
   void visit_line(const glm::dvec3& a, const glm::dvec3& b, double reach_m, const Visit& visit) const {
     const Line line{a, b - a, reach_m};
@@ -57,7 +57,7 @@ class SceneGrid {
   }
 
  private:
-  using Interval = std::pair<double, double>;  // of the line's parameter, 0 to 1
+  using Interval = std::pair<double, double>;  // an interval of the line's parameter, 0 to 1
   struct Line {
     glm::dvec3 start, way;
     double reach_m;
@@ -78,7 +78,7 @@ class SceneGrid {
   double cell_m_ = 1;
 };
 
-// Items by cell; of a cell in the order in which they were added.
+// Items by cell; within a cell they keep the order in which they were added.
 class CellLists {
  public:
   struct Entry {
@@ -93,7 +93,7 @@ class CellLists {
   std::vector<uint32_t> first_, items_;
 };
 
-// The boxes that overlap each cell, by their numbers.
+// Lists the numbers of the boxes that overlap each cell.
 CellLists lists_of(const SceneGrid& grid, std::span<const SceneBox> boxes);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Faces by probing beside the middle of a piece, sectors by sorting angles.
+// Faces are found by probing beside the middle of a piece, sectors by sorting angles.
 // Planes are those of surfaces, so slivers of a wall do not turn its faces.
 #include "scene/scene_wedges.hpp"
 
@@ -22,15 +22,16 @@ namespace {
 
 using glm::dvec3;
 constexpr double pi = std::numbers::pi;
-// A face that ends at a piece may end 2 mm beside it, on either side: twice that far it is there, or it is not.
+// A face that ends at a piece may end up to 2 mm beside it, on either side: at twice that distance it is clear whether
+// a face is there.
 constexpr double probe_m = 2 * touch_m;
-constexpr double inside_m = 1e-6;         // probes on the border between two triangles are in both
-constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are off by half a unit of float32 at 1 km
-constexpr double most_lean = 0.1;         // sine: a plane that leans more does not hold a piece, however short that is
+constexpr double inside_m = 1e-6;         // a probe on the border between two triangles is in both
+constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are wrong by half a unit of float32 at 1 km
+constexpr double most_lean = 0.1;  // sine: a piece does not lie in a plane that leans more, however short the piece is
 
 struct HalfPlane {
-  double angle_rad;  // about the piece
-  dvec3 direction;   // unit, from the piece into the face
+  double angle_rad;  // angle about the piece
+  dvec3 direction;   // unit vector, from the piece into the face
   uint32_t surface;
 };
 
@@ -42,7 +43,8 @@ class FaceFinder {
   std::span<const EdgePiece> pieces() const { return pieces_.pieces; }
   const TriangleGrid& triangles() const { return triangles_; }
 
-  // The half planes that leave a piece, by angle; of those in one direction the lowest surface comes first.
+  // Returns the half planes that start at a piece, sorted by angle; if several have one direction, the lowest surface
+  // comes first.
   std::vector<HalfPlane> faces(const EdgePiece& piece) const {
     std::vector<HalfPlane> found;
     add_ending(piece, found);
@@ -60,7 +62,7 @@ class FaceFinder {
   }
 
  private:
-  // Of triangles with an edge along the piece.
+  // Adds those of triangles with an edge along the piece.
   void add_ending(const EdgePiece& piece, std::vector<HalfPlane>& found) const {
     for (uint32_t i = 0; i < piece.edge_count; ++i) {
       const Edge& edge = scene_.edges[pieces_.edges[piece.first_edge + i]];
@@ -75,7 +77,7 @@ class FaceFinder {
     }
   }
 
-  // Of triangles in whose plane the piece lies, on the sides where they are.
+  // Adds those of triangles in whose plane the piece lies, on the sides where the triangles are.
   void add_passing(const EdgePiece& piece, std::vector<HalfPlane>& found) const {
     const dvec3 middle = (piece.start + piece.end) / 2.0;
     for (const uint32_t t : triangles_[triangles_.grid().cell_at(middle)]) {
@@ -91,7 +93,7 @@ class FaceFinder {
     }
   }
 
-  // In the plane of a surface, normal to a piece that lies in it.
+  // Returns the direction in the plane of a surface that is normal to a piece in it.
   std::optional<dvec3> across_piece(const EdgePiece& piece, uint32_t surface) const {
     const dvec3& normal = scene_.surfaces[surface].normal;
     if (std::abs(glm::dot(normal, piece.along)) > most_lean) return std::nullopt;
@@ -102,10 +104,10 @@ class FaceFinder {
     return std::abs(glm::dot(scene_.surfaces[surface].normal, p) - scene_.surfaces[surface].offset_m) <= touch_m;
   }
 
-  // Is a point that lies in the plane of triangle t inside of it?
+  // Tells whether a point in the plane of triangle t is inside the triangle.
   bool holds(uint32_t t, const dvec3& p) const {
     const dvec3& normal = scene_.surfaces[scene_.triangle_surface[t]].normal;
-    bool left = true, right = true;  // of all sides
+    bool left = true, right = true;  // the point is on this side of all edges
     for (size_t k = 0; k < 3; ++k) {
       const dvec3 &a = scene_.vertices[scene_.triangles[t][k]], &b = scene_.vertices[scene_.triangles[t][(k + 1) % 3]];
       const double distance_m = glm::dot(normal, glm::cross(b - a, p - a)) / glm::distance(a, b);
@@ -120,20 +122,19 @@ class FaceFinder {
   EdgePieces pieces_;
 };
 
-// Is the face before this one, all around, farther from it than 1 mrad?
+// Tells whether the previous face, in circular order, is more than 1 mrad away.
 bool begins_wall(std::span<const HalfPlane> faces, size_t i) {
   const double before_rad = i > 0 ? faces[i - 1].angle_rad : faces.back().angle_rad - 2 * pi;
   return faces[i].angle_rad - before_rad > same_angle_rad;
 }
 
-// Half planes within 1 mrad of each other, one after the other: walls that touch back to back. Nothing is between
-// them.
+// A wall: half planes that are each within 1 mrad of the next, such as walls that touch back to back. Nothing is
+// between them.
 using Wall = std::span<const HalfPlane>;
 
-// The walls of half planes that are sorted by angle and go all around, those across the zero of angles brought
-// together.
+// Returns the walls of half planes that are sorted by angle; a wall across the angle zero is kept in one piece.
 std::vector<Wall> walls_of(std::vector<HalfPlane>& faces) {
-  // The first face is one that no other is near below.
+  // The first face must begin a wall.
   size_t first = 0;
   while (first + 1 < faces.size() && !begins_wall(faces, first)) ++first;
   for (size_t i = 0; i < first; ++i) faces[i].angle_rad += 2 * pi;
@@ -147,7 +148,7 @@ std::vector<Wall> walls_of(std::vector<HalfPlane>& faces) {
   return walls;
 }
 
-// The face of a wall on its first or its last side; of several in one plane, the lowest surface.
+// Returns the face on the first or the last side of a wall; if several lie in one plane, that of the lowest surface.
 HalfPlane outer_face(Wall wall, bool last) {
   HalfPlane out = last ? wall.back() : wall.front();
   for (const HalfPlane& face : wall)
@@ -161,7 +162,7 @@ struct Sector {
   double angle_rad;
 };
 
-// Those between neighbouring walls.
+// Returns the sectors between neighbouring walls.
 std::vector<Sector> sectors_of(std::span<const Wall> walls) {
   std::vector<Sector> sectors;
   for (size_t i = 0; i < walls.size(); ++i) {
@@ -177,8 +178,8 @@ bool diffracts(const Sector& sector) {
   return std::abs(sector.angle_rad - pi) > same_plane_rad && std::abs(sector.angle_rad - pi / 2) > right_angle_rad;
 }
 
-// Joins surfaces whose faces at a piece lie in one plane with nothing between them: within a wall, and across a sector
-// of 180 degrees, or nearly so many.
+// Joins surfaces whose faces at a piece lie in one plane with nothing between them: within a wall, or across a sector
+// of about 180 degrees.
 void join_planes(const EdgePiece& piece, std::span<const Wall> walls, std::span<const Sector> sectors,
                  FacePlanes& planes) {
   for (size_t i = 0; i < sectors.size(); ++i) {

@@ -1,4 +1,4 @@
-// Straight lines from edge to edge of the grid, see CityOptions.
+// Streets are straight lines from edge to edge of the grid, see CityOptions.
 #include "scene/streets.hpp"
 
 namespace wavetracer {

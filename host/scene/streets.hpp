@@ -1,4 +1,4 @@
-// Streets as lines with a width: pictures show them, no ray meets them.
+// Streets as lines with a width, for pictures only: no ray meets them.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -12,7 +12,7 @@ struct Street {
   double width_m;
 };
 
-// The streets between the blocks of a generated city, and those around it.
+// Returns the streets between the blocks of a generated city, and those around it.
 std::vector<Street> city_streets(const CityOptions& options);
 
 }  // namespace wavetracer

@@ -9,7 +9,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr double flattest_z = std::numbers::sqrt2 / 2;  // of the normal, at 45 degrees
+constexpr double flattest_z = std::numbers::sqrt2 / 2;  // z of the normal at 45 degrees
 
 }  // namespace
 

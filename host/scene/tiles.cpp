@@ -1,4 +1,4 @@
-// Bisection of the longest side (M. Rivara, Int. J. Numer. Methods Eng. 20, 1984), which makes no thin tiles of good
+// Halves the longest side (M. Rivara, Int. J. Numer. Methods Eng. 20, 1984), which makes no thin tiles of good
 // triangles: no angle falls below half of the smallest one (I. Rosenberg and F. Stenger, Math. Comp. 29, 1975).
 #include "scene/tiles.hpp"
 
@@ -26,7 +26,8 @@ template <class Visit>
 bool cut(const Corners& c, double tile_m, const Visit& visit) {
   const glm::dvec3 u = c[1] - c[0], v = c[2] - c[1], w = c[0] - c[2];
   const std::array<double, 3> side_m2{glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)};
-  const auto k = static_cast<size_t>(std::ranges::max_element(side_m2) - side_m2.begin());  // of equal ones the first
+  // The first one if several are equal.
+  const auto k = static_cast<size_t>(std::ranges::max_element(side_m2) - side_m2.begin());
   if (!(side_m2[k] > tile_m * tile_m)) return visit(c);
   const glm::dvec3 &a = c[k], &b = c[(k + 1) % 3], &opposite = c[(k + 2) % 3], middle = (a + b) / 2.0;
   return cut({a, middle, opposite}, tile_m, visit) && cut({middle, b, opposite}, tile_m, visit);
@@ -46,8 +47,8 @@ void for_scattering_triangles(const Scene& scene, const Visit& visit) {
   }
 }
 
-// The number of tiles of a scene before those on earlier triangles are left out, or, where it is beyond `most`, a
-// number beyond `most` that it is not below.
+// Returns the number of tiles of a scene before those on earlier triangles are left out. If that exceeds `most`, the
+// result is some number above `most`, no larger than the true one.
 uint64_t tile_count(const Scene& scene, double tile_m, uint64_t most) {
   double area = 0;
   for_scattering_triangles(scene, [&](uint32_t, uint32_t, const Corners& corners) { area += area_m2(corners); });
@@ -92,12 +93,13 @@ TileTable::TileTable(const Scene& scene, std::span<const Scene> models, std::spa
     return all;
   };
   if (const double found = count(tile_m, most); found > static_cast<double>(most)) {
-    constexpr uint64_t fair = most_tiles / 64;  // what some device may hold the paths of
+    constexpr uint64_t fair = most_tiles / 64;  // a number of tiles whose paths some device may hold
     double enough_m = tile_m;
     while (std::isfinite(enough_m) && count(enough_m, fair) > static_cast<double>(fair)) enough_m *= 2;
     throw ConfigError(
-        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, but at most {} are "
-                    "possible here; use trace.tile_m = {:g} or more. Every tile is one path for each link that sees it",
+        fmt::format("trace.tile_m = {:g} cuts the surfaces that scatter into {:.3g} tiles or more, "
+                    "but at most {} are possible here; use trace.tile_m = {:g} or more. "
+                    "Every tile is one path for each link that sees it",
                     tile_m, found, most, enough_m));
   }
   parts_.push_back(make_tiles(scene, tile_m));
@@ -113,7 +115,7 @@ TileTable::TileTable(const Scene& scene, std::span<const Scene> models, std::spa
 TilePlace TileTable::at(uint32_t id) const {
   if (id >= size_) throw std::out_of_range(fmt::format("tile {} of {}", id, size_));
   if (id < parts_[0].size()) return {0, id, no_instance};
-  // The last instance that begins at or before it: those before, of the same beginning, have no tiles.
+  // The last instance that begins at or before id: earlier ones with the same beginning have no tiles.
   const auto instance = static_cast<uint32_t>(std::ranges::upper_bound(first_, id) - first_.begin() - 1);
   return {1 + instances_[instance].model, id - first_[instance], instance};
 }

@@ -1,6 +1,6 @@
-// Edges by sorting, surfaces by growing from the largest triangle.
-// A surface's plane is that of its seed, or the one that its vertices were moved onto, and never changes meanwhile, so
-// a chain of small bends cannot drift into a curve.
+// Finds edges by sorting, surfaces by growing from the largest triangle.
+// A surface's plane is that of its seed, or the plane that its vertices were moved onto. It does not change while the
+// surface grows, so a chain of small bends cannot drift into a curve.
 #include "scene/topology.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class SurfaceGrower {
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) shapes_.push_back(triangle_shape(scene, t));
   }
 
-  // The seed of every triangle's surface.
+  // Returns the seed of every triangle's surface.
   std::vector<uint32_t> grow() {
     for (const uint32_t seed : largest_first(scene_, shapes_)) {
       if (seed_of_[seed] == unassigned) grow_from(seed);
@@ -38,7 +38,7 @@ class SurfaceGrower {
     return std::move(seed_of_);
   }
 
-  // The plane of a seed.
+  // Returns the plane of a seed.
   Plane plane_of(uint32_t t) const {
     if (flat_.triangle_plane[t] != no_plane) return flat_.planes[flat_.triangle_plane[t]];
     return in_exact_[t] ? flat_.planes[flat_.exact_plane[t]] : own_plane(t);
@@ -46,11 +46,12 @@ class SurfaceGrower {
 
  private:
   Plane own_plane(uint32_t t) const {
-    const dvec3 n = shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);  // a strip that went flat
+    // A flattened strip has no normal.
+    const dvec3 n = shapes_[t].area_m2 > 0 ? oriented(shapes_[t].normal) : dvec3(0, 0, 1);
     return {n, glm::dot(n, scene_.vertices[scene_.triangles[t][0]])};
   }
 
-  // A part of an exact plane has the plane of its seed if all of it lies in that, else the exact one.
+  // A part of an exact plane gets the plane of its seed if all of it lies in that plane, else the exact one.
   void grow_from(uint32_t seed) {
     const size_t before = grown_.size();
     if (grow(seed, plane_of(seed)) || flat_.exact_plane[seed] == no_plane) return;
@@ -60,7 +61,7 @@ class SurfaceGrower {
     grow(seed, plane_of(seed));
   }
 
-  // False where a neighbour of the same material in the seed's exact plane stays outside.
+  // Returns false if a neighbour of the same material in the seed's exact plane stays outside.
   bool grow(uint32_t seed, const Plane& plane) {
     bool whole = true;
     const size_t first = grown_.size();
@@ -106,7 +107,7 @@ bool is_flat(const Scene& scene, const Edge& edge) {
   const uint32_t first = scene.triangle_surface[faces[0]];
   const dvec3 a = scene.vertices[edge.vertices[0]];
   const dvec3 along = scene.vertices[edge.vertices[1]] - a;
-  const dvec3 side = glm::cross(scene.surfaces[first].normal, along);  // in the plane, across the edge
+  const dvec3 side = glm::cross(scene.surfaces[first].normal, along);  // direction in the plane, across the edge
   bool left = false, right = false;
   for (uint32_t i = 0; i < edge.face_count; ++i) {
     const uint32_t surface = scene.triangle_surface[faces[i]];
@@ -140,7 +141,7 @@ TriangleShape triangle_shape(const Scene& scene, uint32_t t) {
   const dvec3 n = glm::cross(u, v);
   const double twice_area = glm::length(n);
   const double longest = std::max({glm::length(u), glm::length(v), glm::length(v - u)});
-  // Divided, not multiplied by a reciprocal: the normals of axis-parallel triangles are exact.
+  // It divides, since multiplying by a reciprocal would make the normals of axis-parallel triangles inexact.
   return {twice_area > 0 ? n / twice_area : dvec3(0), twice_area / 2, longest > 0 ? twice_area / longest : 0};
 }
 
@@ -256,7 +257,7 @@ void list_surfaces(Scene& scene) {
   }
   scene.surfaces = std::move(listed);
   uint32_t first = 0;
-  std::vector<uint32_t> next;  // where each surface's next triangle goes
+  std::vector<uint32_t> next;  // index at which each surface's next triangle is stored
   for (Surface& surface : scene.surfaces) {
     next.push_back(surface.first_triangle = first);
     first += surface.triangle_count;

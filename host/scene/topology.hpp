@@ -1,5 +1,5 @@
-// Edges of the welded mesh, and the planar surfaces its triangles form.
-// Assumes Scene::vertices and Scene::triangles final: welded, no degenerate or duplicate triangles.
+// Finds edges of the welded mesh, and the planar surfaces that its triangles form.
+// Scene::vertices and Scene::triangles must be final: welded, without degenerate or duplicate triangles.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,35 +12,36 @@
 
 namespace wavetracer {
 
-// Corners may stray this far from the plane of their surface without being moved onto it (host/scene/flatten.hpp): what
-// is within 0.1 mm of a plane lies on it wherever paths are concerned.
+// Corners may be this far from the plane of their surface without being moved onto it (host/scene/flatten.hpp): for
+// paths, a point within 0.1 mm of a plane lies on it.
 constexpr double flat_as_it_is_m = 1e-4;
-// Normals of one surface that was not moved may differ by 0.45 mrad (1 - cos), so that finely divided curves are not
-// merged.
+// Normals within a surface that was not moved may differ by 0.45 mrad (1 - cos), which keeps finely divided curves from
+// being merged.
 constexpr double normal_tolerance = 1e-7;
 // A triangle lower than this is judged by its corners only: its normal is rounding noise (0.1 mm of a float32 file are
-// 5 mrad of 20 mm), and a strip below half a wavelength mirrors nothing by itself.
+// 5 mrad of 20 mm), and a strip lower than half a wavelength mirrors nothing by itself.
 constexpr double sliver_height_m = 0.02;
 
-// Surfaces whose normals differ by less are in one plane: that is what normals of double vertices are off by, and 1e-9
-// of a way are what points of reflections are decided to.
+// Surfaces whose normals differ by less are in one plane: normals of double vertices have this error, and points of
+// reflection are decided to 1e-9 of a path's length.
 constexpr double same_plane_rad = 1e-9;
-// Do two surfaces lie in one plane, with normals of either sense? Judged at a point of an edge of both.
+// Tells whether two surfaces lie in one plane, with normals of either sense. on_edge: a point of an edge of both, at
+// which this is judged.
 bool same_plane(const Surface& a, const Surface& b, const glm::dvec3& on_edge);
 
-// The unit normal of triangle t by its winding, and its height over the longest side (metres).
+// The unit normal of a triangle by its winding, and its height over the longest side (metres).
 struct TriangleShape {
   glm::dvec3 normal;
   double area_m2, height_m;
 };
 TriangleShape triangle_shape(const Scene& scene, uint32_t t);
-// All triangles, which have those shapes: the larger one first, of equal ones by place and not by number.
+// Returns all triangles, the largest first; equal ones are ordered by place and not by number.
 std::vector<uint32_t> largest_first(const Scene& scene, std::span<const TriangleShape> shapes);
-// Are all corners of a triangle, or of a surface, within so many metres of the plane?
+// Tells whether all corners of a triangle, or of a surface, are within near_m of the plane.
 bool triangle_is_near(const Scene& scene, uint32_t t, const Plane& plane, double near_m);
 bool surface_is_near(const Scene& scene, const Surface& surface, const Plane& plane, double near_m);
 inline Plane plane_of(const Surface& surface) { return {surface.normal, surface.offset_m}; }
-// Does triangle t, which has that shape, lie in the plane as it is?
+// Tells whether triangle t, with that shape, lies in the plane without being moved.
 bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, const Plane& plane);
 
 // Fills edges and edge_faces, sorted by vertex pair, and the counts of free and non-manifold edges.
@@ -48,15 +49,15 @@ bool lies_in_plane(const Scene& scene, uint32_t t, const TriangleShape& shape, c
 std::vector<std::array<uint32_t, 3>> find_edges(Scene& scene);
 
 // Fills surfaces, surface_triangles and triangle_surface. Surfaces are numbered by their lowest triangle. Triangles of
-// one plane of `flat` have that plane, to the last bit; the others grow from their largest.
+// one plane of `flat` get exactly that plane; the other surfaces grow from their largest triangle.
 void find_surfaces(Scene& scene, std::span<const uint32_t> triangle_material,
                    std::span<const std::array<uint32_t, 3>> triangle_edges, const Flattened& flat);
 
-// Numbers surfaces anew by their lowest triangle, from triangle_surface; those without triangles go. Their planes,
-// materials and objects stay; boxes, triangle counts and surface_triangles are made anew.
+// Renumbers surfaces by their lowest triangle, from triangle_surface; those without triangles are removed. Planes,
+// materials and objects are kept; boxes, triangle counts and surface_triangles are computed again.
 void list_surfaces(Scene& scene);
 
-// The corner of triangle t that is not on its edge, into Scene::vertices.
+// Returns the vertex (index in Scene::vertices) of triangle t that is not on the edge.
 uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge);
 
 // Fills Edge::flat.

@@ -1,4 +1,4 @@
-// Boxes into the grid, lines through it.
+// Sorts boxes into the grid and follows lines through it.
 #include "scene/triangle_grid.hpp"
 
 #include <algorithm>
@@ -11,8 +11,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double line_reach_m = 1e-6;  // of a line, so that rounding at a border of cells loses none
-// Of a triangle's side: rounding does not open a gap between two triangles. Of triangles of a kilometre it is 1 nm.
+constexpr double line_reach_m = 1e-6;  // reach of a line, so that rounding at a border of cells loses no triangle
+// Tolerance at a triangle's side, so that rounding opens no gap between two triangles; 1 nm for triangles of a
+// kilometre.
 constexpr double side_tolerance = 1e-12;
 
 std::vector<SceneBox> boxes_of(const Scene& scene, double reach_m) {
@@ -29,7 +30,7 @@ SceneBox bounds_of(std::span<const SceneBox> boxes) {
   return out;
 }
 
-// Where the line a + t way meets a triangle (T. Moeller and B. Trumbore, J. Graphics Tools 2(1), 1997).
+// Returns where the line a + t way meets a triangle (T. Moeller and B. Trumbore, J. Graphics Tools 2(1), 1997).
 std::optional<double> meets(const dvec3& a, const dvec3& way, const dvec3& v0, const dvec3& v1, const dvec3& v2) {
   const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = glm::cross(way, e2);
   const double det = glm::dot(e1, p);
@@ -40,7 +41,7 @@ std::optional<double> meets(const dvec3& a, const dvec3& way, const dvec3& v0, c
   return t;
 }
 
-// The part of the line a + t way, 0 <= t <= 1, that may be in the box; empty (first > second) where none is.
+// Returns the part of the line a + t way, 0 <= t <= 1, that may be in the box; empty (first > second) if there is none.
 std::pair<double, double> part_within(const SceneBox& box, const dvec3& a, const dvec3& way) {
   double first = 0, second = 1;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,5 @@
-// Mountains are as high as houses in millimetres, but of their triangles few are upright, and none of a kilometre.
+// Mountains are as high as houses in millimetres, but few of their triangles are upright, and none of those is a
+// kilometre high.
 #include "scene/unit_check.hpp"
 
 #include <fmt/format.h>
@@ -11,14 +12,14 @@
 namespace wavetracer {
 namespace {
 
-constexpr double highest_wall_m = 1000;    // no building reaches it
-constexpr double highest_scene_m = 10000;  // nor does a mountain above the deepest valley reach this
-constexpr double upright = 0.17;           // the vertical part of a unit normal, 80 degrees from level
-constexpr double most_upright = 0.2;       // of the area of a mountain
+constexpr double highest_wall_m = 1000;    // no building is so high
+constexpr double highest_scene_m = 10000;  // no difference of heights of mountains and valleys is so large
+constexpr double upright = 0.17;  // largest vertical part of the unit normal of an upright triangle (within 10 degrees)
+constexpr double most_upright = 0.2;  // largest upright share of a mountain's area
 
 struct Upright {
   double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
-  double area_m2 = 0, upright_m2 = 0, wall_m = 0;  // wall_m: the height of its highest upright triangle
+  double area_m2 = 0, upright_m2 = 0, wall_m = 0;  // wall_m: height of the highest upright triangle
 };
 
 }  // namespace
@@ -46,8 +47,8 @@ std::string unit_warning(const Scene& scene) {
            (height(object) > highest_wall_m && object.upright_m2 > most_upright * object.area_m2);
   };
   constexpr const char* what_to_do =
-      "is scene.scale right? It is in metres per unit of the file: 0.001 for a file in millimetres, 0.01 for "
-      "centimetres";
+      "is scene.scale right? It is in metres per unit of the file: 0.001 for a file in millimetres, "
+      "0.01 for centimetres";
   if (const auto found = std::ranges::find_if(objects, too_high); found != objects.end())
     return fmt::format("\"{}\" has walls and is {:.0f} m high: {}",
                        scene.objects[static_cast<size_t>(found - objects.begin())], height(*found), what_to_do);

@@ -1,4 +1,4 @@
-// Tells if a scene can be in metres: files in millimetres have houses of kilometres.
+// Checks whether a scene can be in metres: in files in millimetres, houses are kilometres high.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace wavetracer {
 
-// A warning that names the object and its height, and says what to do; empty where all is of a possible size.
+// Returns a warning that names the object and its height and says what to do; empty if the sizes are possible.
 std::string unit_warning(const Scene& scene);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Thin panes and panels are slabs of their own thickness; people are half spaces, since nothing gets through.
-// human_skin: power laws fitted to the Cole-Cole model within 0.13 dB of its reflection at normal incidence.
+// Thin panes and panels are slabs of their own thickness; people are half spaces, since nothing gets through. For
+// human_skin, power laws were fitted to the Cole-Cole model within 0.13 dB of its reflection at normal incidence.
 #include "scene/vehicle_materials.hpp"
 
 #include <algorithm>

@@ -12,16 +12,16 @@ namespace wavetracer {
 
 struct VehicleMaterial {
   Material law;
-  const char* source;  // of its values
+  const char* source;  // source of its values
 };
 
-// All laws, name by name; of a name, ranges touch but do not overlap.
+// Returns all laws, grouped by name; ranges of one name touch but do not overlap.
 const std::vector<VehicleMaterial>& vehicle_materials();
 
-// All names, separated by commas.
+// Returns all names, separated by commas.
 std::string vehicle_material_names();
 
-// As find_itu_law().
+// Works as find_itu_law().
 std::optional<ItuLaw> find_vehicle_law(std::string_view name, double frequency_ghz);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// A body is made of parts. A part is a side view drawn over the width of the vehicle, or a view from above drawn over
-// some of its height: one list of corners, from which all faces follow. Corners of a roof may stand inwards of the
+// A body consists of parts. A part is a side view extended over the width of the vehicle, or a view from above extended
+// over some of its height: one list of corners defines all faces. Corners of a roof may be farther inside than the
 // others; the window line below them is level, so that sides stay planar.
 #include "scene/vehicle_model.hpp"
 
@@ -17,7 +17,8 @@
 namespace wavetracer {
 namespace {
 
-// In shares of the body: x of its length from the centre, z of its height from the underside, y of half its width.
+// A corner in shares of the body: x of its length from the centre, z of its height from the underside, y of half its
+// width.
 struct Corner {
   double x, z, y = 1;
 };
@@ -39,7 +40,7 @@ struct Column {
 struct Body {
   std::vector<Part> parts;
   std::vector<Column> columns = {};
-  double most_clearance_m = 0.35;  // of the underside; at most a sixth of the height
+  double most_clearance_m = 0.35;  // height of the underside; at most a sixth of the vehicle's height
 };
 
 const Body car{{{{{-0.5, 0},        // tail
@@ -69,7 +70,7 @@ const Body bus{{{{{-0.5, 0}, {-0.5, 1}, {0.475, 1}, {0.5, 0.35}, {0.5, 0}}, {{0,
 
 const Body tram{{{{{-0.5, 0}, {-0.5, 0.3}, {-0.45, 1}, {0.45, 1}, {0.5, 0.3}, {0.5, 0}}, {{0, 1, 2, 3, 4, 5}}}}};
 
-// The machine, narrow, and who sits on it; a gap keeps them two closed bodies.
+// The narrow machine and the rider; a gap keeps them two closed bodies.
 const Body motorcycle{
     {{{{-0.4, 0, 0.4}, {-0.5, 0.15, 0.4}, {-0.45, 0.42, 0.4}, {0.3, 0.5, 0.4}, {0.5, 0.15, 0.4}, {0.4, 0, 0.4}},
       {{0, 1, 2, 3, 4, 5}}},
@@ -102,7 +103,7 @@ struct Frame {
   double z_m(double share) const { return share == 1 ? height_m : clearance_m + share * (height_m - clearance_m); }
 };
 
-// Left corners first, then right ones. The right side mirrors the triangles of the left one.
+// Left corners come first, then right ones. The right side mirrors the triangles of the left one.
 RawMesh mesh_of(const Part& part, const Frame& frame) {
   const uint32_t n = static_cast<uint32_t>(part.outline.size());
   RawMesh mesh;
@@ -122,14 +123,14 @@ RawMesh mesh_of(const Part& part, const Frame& frame) {
   return mesh;
 }
 
-// Lower corners first, then upper ones.
+// Lower corners come first, then upper ones.
 RawMesh mesh_of(const Column& column, const Frame& frame) {
   const uint32_t n = static_cast<uint32_t>(column.outline.size());
   RawMesh mesh;
   for (const double share : {column.lower, column.upper})
     for (const glm::dvec2& c : column.outline)
       mesh.vertices.emplace_back(c.x * frame.length_m / 2, c.y * frame.width_m / 2, frame.z_m(share));
-  for (uint32_t k = 0; k + 2 <= n / 2; ++k) {  // below and above, in strips across
+  for (uint32_t k = 0; k + 2 <= n / 2; ++k) {  // the faces below and above, in strips
     const uint32_t a = (n - k) % n, b = k + 1, c = k + 2, d = n - 1 - k;
     const uint32_t lower[] = {d, c, b, a}, upper[] = {n + a, n + b, n + c, n + d};
     triangulate_polygon(mesh.vertices, lower, mesh.triangles);
@@ -165,7 +166,7 @@ class RawBody {
     raw.meshes.push_back(std::move(mesh));
   }
 
-  // Where antennas of vehicles are: above the middle of what is highest, and before and behind the body.
+  // Adds the places of antennas: above the middle of the highest part, and in front of and behind the body.
   void add_nodes() {
     constexpr double away_m = 0.05, bumper = 0.35;
     double first_m = frame_.length_m, last_m = -frame_.length_m;

@@ -1,4 +1,4 @@
-// Vertices that triangles of a scene use.
+// Finds the vertices that triangles of a scene use.
 #pragma once
 #include <cstdint>
 #include <vector>

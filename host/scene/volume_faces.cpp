@@ -1,5 +1,5 @@
-// Triangles of the same three corners are one group. Faces that could close the mesh are tried in turn: one of every
-// group, those that are left when opposite ones cancel, and one of every group that is there an odd number of times.
+// Triangles with the same three corners form a group. Three sets of faces are tried in turn to close the mesh: one of
+// every group; those that are left when opposite ones cancel; and one of every group with an odd number of triangles.
 #include "scene/volume_faces.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ EdgeKey key_of(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}
 
 struct FaceGroup {
   Triangle first;
-  uint64_t forward = 0, backward = 0;  // in the sense of the first one, and against it
+  uint64_t forward = 0, backward = 0;  // number with the orientation of the first one, and with the opposite one
   uint64_t count() const { return forward + backward; }
 };
 
@@ -40,9 +40,9 @@ std::vector<FaceGroup> groups_of(const std::vector<Triangle>& triangles) {
   return out;
 }
 
-// The edges that are not passed as often one way as the other, and how many edges there are.
+// Returns the number of edges that are not passed equally often in both directions, and the number of all edges.
 std::array<uint64_t, 2> open_edges(const std::vector<Triangle>& triangles) {
-  std::map<EdgeKey, int> passes;  // from the lower vertex less to it
+  std::map<EdgeKey, int> passes;  // passes from the lower vertex minus passes to it
   for (const Triangle& t : triangles)
     for (size_t i = 0; i < 3; ++i) passes[key_of(t[i], t[(i + 1) % 3])] += t[i] < t[(i + 1) % 3] ? 1 : -1;
   const auto open = std::ranges::count_if(passes, [](const auto& edge) { return edge.second != 0; });
@@ -60,8 +60,8 @@ double six_volumes(std::span<const glm::dvec3> positions, const std::vector<Tria
   return out;
 }
 
-// Turns triangles of which two meet at every edge so that neighbours pass it in opposite senses, and every closed part
-// outwards. Empty where an edge has another number of triangles, or where a part has but one side.
+// Orients triangles, two of which meet at every edge, so that neighbours pass it in opposite directions and every
+// closed part faces outwards. Returns nothing if an edge has another number of triangles, or a part has only one side.
 std::optional<std::vector<Triangle>> turned_outwards(std::span<const glm::dvec3> positions,
                                                      std::vector<Triangle> triangles) {
   std::map<EdgeKey, std::vector<size_t>> at_edge;
@@ -99,7 +99,7 @@ std::vector<Triangle> first_of(const std::vector<FaceGroup>& groups, const Keep&
   return out;
 }
 
-// Those of which more are there in one sense than in the other, in that sense.
+// Returns the triangles that more often have one orientation than the other, in that orientation.
 std::vector<Triangle> uncancelled(const std::vector<FaceGroup>& groups) {
   std::vector<Triangle> out;
   for (const FaceGroup& group : groups) {

@@ -1,4 +1,4 @@
-// The outside of a closed mesh, whichever of its triangles are in the file more than once.
+// Finds the outside of a closed mesh, even if the file has some triangles more than once.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -10,14 +10,15 @@
 namespace wavetracer {
 
 struct ClosedFaces {
-  std::vector<Triangle> triangles;     // none where the mesh is not closed
-  uint64_t repeated = 0;               // triangles that were left out: their corners are those of an earlier one
-  uint64_t edges = 0, open_edges = 0;  // open: not passed as often one way as the other
+  std::vector<Triangle> triangles;     // empty if the mesh is not closed
+  uint64_t repeated = 0;               // number of dropped triangles, which repeat the corners of an earlier one
+  uint64_t edges = 0, open_edges = 0;  // open edges are not passed equally often in both directions
 };
 
-// Triangles that hang together, by vertices. A mesh with every triangle once is taken as it is where every edge is
-// passed as often one way as the other. Of one that repeats some, in whatever sense, each counts once, and all are
-// turned outwards; a wall between two closed parts (twice as often there as the others, or there both ways) is none.
+// Takes connected triangles over shared vertices. A mesh that has every triangle once is taken unchanged if every edge
+// is passed equally often in both directions. If triangles are repeated, in either orientation, each counts once, and
+// all are turned outwards; a wall between two closed parts (there twice as often as the others, or in both
+// orientations) is dropped.
 ClosedFaces closed_faces(std::span<const glm::dvec3> positions, const std::vector<Triangle>& triangles);
 
 }  // namespace wavetracer

@@ -32,7 +32,7 @@ bool meet(const SceneBox& a, const SceneBox& b) {
   return true;
 }
 
-// Triangles and their corners in an order that does not depend on the file.
+// Returns triangles and their corners in an order that does not depend on the file.
 std::vector<Corners> in_order(const Volume& volume) {
   const auto before = [](const dvec3& a, const dvec3& b) {
     return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
@@ -93,8 +93,8 @@ void settle_overlaps(std::vector<Volume>& volumes, std::vector<std::string>& war
     warnings.push_back(fmt::format("{} volumes of vegetation repeat another one; each was kept once", repeated));
   if (of_two_materials > 0)
     warnings.push_back(
-        fmt::format("{} volumes of vegetation reach into the boxes of others of a different material; space that both "
-                    "hold is that of the first ([[vegetation]] comes before meshes)",
+        fmt::format("{} volumes of vegetation reach into the boxes of others of a different material; "
+                    "space that both hold is that of the first ([[vegetation]] comes before meshes)",
                     of_two_materials));
   volumes = std::move(kept);
 }

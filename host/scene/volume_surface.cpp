@@ -1,5 +1,5 @@
-// A shape that is no mesh is rings about the z axis of the unit cube, square or round, from the bottom to the top.
-// A ring of no radius is a pole, whose triangles are left out where they have no area.
+// A shape that is no mesh is made of rings about the z axis of the unit cube, square or round, from bottom to top. A
+// ring of radius zero is a pole, whose triangles without area are left out.
 #include "scene/volume_surface.hpp"
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::vector<Ring> rings_of(VolumeShape shape) {
   return out;
 }
 
-// About z, once around, counter-clockwise seen from above.
+// Returns the corners of a ring about z, counter-clockwise seen from above.
 std::vector<glm::dvec2> circle_of(VolumeShape shape) {
   if (shape == VolumeShape::box) return {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<glm::dvec2> out;

@@ -1,4 +1,4 @@
-// The surfaces of volumes as triangles, for those who draw them or scatter off them.
+// The surfaces of volumes as triangles, for drawing them and for scattering off them.
 #pragma once
 #include <array>
 #include <glm/vec3.hpp>
@@ -8,8 +8,8 @@
 
 namespace wavetracer {
 
-// Counter-clockwise seen from outside, closed, in the coordinates of the volume. Cylinders and spheroids have their
-// corners on the true surface: 16 sides, and 8 rows from pole to pole.
+// Returns closed surfaces, counter-clockwise seen from outside, in the coordinates of the volume. Cylinders and
+// spheroids have their corners on the true surface: 16 sides, and 8 rows from pole to pole.
 std::vector<std::array<glm::dvec3, 3>> surface_triangles(const Volume& volume);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// The sign of the volume of a closed part says which side of its triangles is outside.
+// The sign of the volume of a closed part tells which side of its triangles is outside.
 #include "scene/volumes.hpp"
 
 #include <fmt/format.h>
@@ -27,9 +27,9 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t vertex) {
 
 [[noreturn]] void fail_open(const RawMesh& mesh, const ClosedFaces& faces) {
   throw InputError(
-      fmt::format("{}: mesh '{}' is vegetation, which must be a closed mesh, but {} of its {} edges have no "
-                  "triangle on one side, or triangles that are turned differently: close it, turn all of its "
-                  "triangles outwards, or give it another material",
+      fmt::format("{}: mesh '{}' is vegetation, which must be a closed mesh, "
+                  "but {} of its {} edges have no triangle on one side, or triangles that are turned differently: "
+                  "close it, turn all of its triangles outwards, or give it another material",
                   mesh.where, mesh.name, faces.open_edges, faces.edges));
 }
 

@@ -1,4 +1,4 @@
-// Rows grow from their longest piece, whose line they keep, so that a chain of small bends cannot drift into a curve.
+// Rows grow from their longest piece and keep its line, so that a chain of small bends cannot drift into a curve.
 #include "scene/wedge_rows.hpp"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ using glm::dvec3;
 
 dvec3 end_of(const Wedge& w) { return w.start + w.along * w.length_m; }
 
-// Face 1, from the edge into it.
+// Returns the direction of face 1, from the edge into it.
 dvec3 other_face(const Wedge& w) { return w.face * std::cos(w.exterior_rad) + w.normal * std::sin(w.exterior_rad); }
 
-// The same wedge, seen the other way along.
+// Returns the same wedge with the opposite direction along the edge.
 Wedge turned(const Wedge& w) {
   const dvec3 face = other_face(w);
   return {
@@ -35,7 +35,7 @@ class Rows {
   }
 
   std::vector<Wedge> join() {
-    std::vector<std::pair<double, uint32_t>> seeds;  // the longest first, then the lowest
+    std::vector<std::pair<double, uint32_t>> seeds;  // the longest first; of equal ones, the lowest
     for (uint32_t i = 0; i < pieces_.size(); ++i) seeds.emplace_back(-pieces_[i].wedge.length_m, i);
     std::sort(seeds.begin(), seeds.end());
     std::vector<Wedge> rows;
@@ -64,7 +64,7 @@ class Rows {
     return wedge;
   }
 
-  // Takes the pieces that go on from a joint at_m along the wedge, forwards or backwards; returns where they end.
+  // Adds the pieces that continue from a joint at_m along the wedge, forwards or backwards; returns where they end.
   double reach(const Wedge& wedge, uint32_t joint, double at_m, double sense, uint32_t row) {
     for (bool grown = true; grown;) {
       grown = false;

@@ -1,5 +1,5 @@
-// Wedges that follow one another on a line, as one.
-// Assumes pieces of edges between numbered joints, each once.
+// Joins wedges that follow one another on a line.
+// Pieces of edges must lie between numbered joints, each once.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,7 +15,8 @@ struct WedgePiece {
   Wedge wedge;
 };
 
-// Joins pieces that share a joint, the line (2 mm), both surfaces and the angle (1 mrad). Sorted by first piece.
+// Joins pieces that share a joint, the line (2 mm), both surfaces and the angle (1 mrad). The result is sorted by first
+// piece.
 std::vector<Wedge> join_rows(std::span<const WedgePiece> pieces);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Welding by a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
+// Welds with a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
 // 3.4 on average, so that no pair is split by a border. Groups are kept in a forest.
 #include "scene/weld.hpp"
 
@@ -21,7 +21,7 @@ uint64_t mix(uint64_t x) {  // the finalizer of splitmix64 (Steele, Lea and Floo
   return x ^ (x >> 31);
 }
 
-// Chains of distinct positions, one a hash bucket. Different cells may share a bucket: distances decide, not keys.
+// Chains of distinct positions, one per hash bucket. Different cells may share a bucket: distances decide, not keys.
 class Grid {
  public:
   Grid(std::span<const glm::dvec3> vertices, double tolerance_m)
@@ -31,11 +31,11 @@ class Grid {
         head_(std::bit_ceil(vertices.size() * 2 + 1), no_vertex),
         next_(vertices.size(), no_vertex) {}
 
-  // Joins vertex i with all earlier ones within the tolerance, then adds it unless its very position is there.
+  // Joins vertex i with all earlier ones within the tolerance, then adds it unless its exact position is there already.
   void add(uint32_t i, Forest& forest) {
     const glm::dvec3 p = vertices_[i];
     std::array<int64_t, 3> low, high;
-    const double reach = tolerance_m_ * (1 + 1e-6) + 1e-12 * glm::length(p);  // covers the rounding of p - reach
+    const double reach = tolerance_m_ * (1 + 1e-6) + 1e-12 * glm::length(p);  // allows for the rounding of p - reach
     for (int k = 0; k < 3; ++k) {
       low[static_cast<size_t>(k)] = cell(p[k] - reach);
       high[static_cast<size_t>(k)] = cell(p[k] + reach);
@@ -58,7 +58,7 @@ class Grid {
     const uint64_t h = mix(static_cast<uint64_t>(x) + mix(static_cast<uint64_t>(y) + mix(static_cast<uint64_t>(z))));
     return static_cast<size_t>(h & (head_.size() - 1));
   }
-  // True when the chain holds the exact position of i.
+  // Returns true if the chain holds the exact position of i.
   bool join_chain(uint32_t j, uint32_t i, Forest& forest) const {
     for (; j != no_vertex; j = next_[j]) {
       const glm::dvec3 d = vertices_[j] - vertices_[i];
@@ -88,7 +88,7 @@ Weld weld_vertices(std::span<const glm::dvec3> vertices, double tolerance_m) {
       weld.vertex[i] = static_cast<uint32_t>(weld.positions.size());
       weld.positions.push_back(vertices[i]);
     } else {
-      weld.vertex[i] = weld.vertex[root];  // the root is lower, so it is known
+      weld.vertex[i] = weld.vertex[root];  // the root is lower, so its entry is set already
       weld.widest_m = std::max(weld.widest_m, glm::distance(vertices[i], vertices[root]));
     }
   }

@@ -1,4 +1,4 @@
-// Rows to verdicts.
+// Turns rows into verdicts.
 // A row that was not measured confirms nothing.
 #include "study/cache_claims.hpp"
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace wavetracer::study {
 namespace {
 
-// Over the numbers of rays at which all of these settings have it; none where there is no such number.
+// Averages over the numbers of rays at which all of these settings have the value; empty if there is no such number.
 std::vector<RunningMean> means_of(const CacheRows& rows, const std::string& drive, CacheValue value,
                                   const std::vector<std::string>& settings) {
   std::vector<RunningMean> means(settings.size());
@@ -25,7 +25,7 @@ std::vector<RunningMean> means_of(const CacheRows& rows, const std::string& driv
   return means;
 }
 
-// "fixed transmitter: TEXT; moving transmitter: TEXT"
+// Returns "fixed transmitter: TEXT; moving transmitter: TEXT".
 template <class OfDrive>
 Judgement of_each_drive(const CacheRows& rows, const OfDrive& of_drive) {
   std::string text;
@@ -38,7 +38,7 @@ Judgement of_each_drive(const CacheRows& rows, const OfDrive& of_drive) {
   return {tally.outcome(), text};
 }
 
-// "confirmed, WHAT"
+// Returns "confirmed, WHAT".
 Judgement measured(bool holds, const std::string& what) { return judgement(holds, verdict(holds) + ", " + what); }
 
 CachePoint first_point(const CacheRows& rows) { return {rows.front().drive, rows.front().rays}; }

@@ -1,5 +1,5 @@
-// Rows of one region each, to a plot, a table and verdicts.
-// Assumes rows as add_regions() of cache_study.cpp leaves them.
+// Turns rows of one region each into a plot, a table and verdicts.
+// Rows are those of add_regions() of cache_study.cpp.
 #include "study/cache_regions.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -12,12 +12,12 @@ namespace {
 
 constexpr double clear_correlation = 0.5;
 constexpr const char* regions_note =
-    "nanoseconds of a region are those of the rays of its transmitter alone, in the same table, and region 0 is the "
-    "rays of all; cycles are means over the entries of a region, by the device's own clock, in a frame of all "
-    "transmitters. The hash is part of both read and write. The thesis' buffer call, the address of an entry, has no "
-    "counterpart; what a table costs besides is the gathering of missed rays";
+    "nanoseconds of a region are those of the rays of its transmitter alone, in the same table, "
+    "and region 0 is the rays of all; cycles are means over the entries of a region, by the device's own clock, "
+    "in a frame of all transmitters. The hash is part of both read and write. The thesis' buffer call, "
+    "the address of an entry, has no counterpart; what a table costs besides is the gathering of missed rays";
 
-// Of a setting at the first number of rays.
+// Returns the rows of a setting at the first number of rays.
 std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string& setting) {
   std::vector<const CacheRow*> out;
   for (const CacheRow& row : rows)

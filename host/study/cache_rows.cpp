@@ -1,5 +1,5 @@
-// Sums of stages, and the table as a list of columns.
-// A stage that a frame has no use for counts nothing.
+// Adds up stages, and defines the table as a list of columns.
+// A stage that a frame does not need counts as 0.
 #include "study/cache_rows.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// What the studies of caches measure: one row a drive, setting and number of rays (or depth), and their table.
-// Times are device time of profiling events, averaged over frames; errors are against the same frames without a cache.
+// The results of studies of caches: one row per drive, setting and number of rays (or depth), and their table. Times
+// are device times of profiling events, averaged over frames; errors are against the same frames without a cache.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace wavetracer::study {
 
-// Seconds a frame.
+// Seconds per frame.
 struct CacheTimes {
-  double loop_s = 0;    // all that discovers: from generate_rays and the order to interact, cache included
-  double lookup_s = 0;  // read
-  double gather_s = 0;  // missed rays side by side for tracing
-  double store_s = 0;   // write
-  double group_s = 0;   // missed rays of one key brought together (cache.innerframe)
+  double loop_s = 0;    // discovery: from generate_rays and the order to interact, including the cache
+  double lookup_s = 0;  // reading the table
+  double gather_s = 0;  // moving missed rays together for tracing
+  double store_s = 0;   // writing the table
+  double group_s = 0;   // grouping missed rays of equal keys (cache.innerframe)
   double purge_s = 0;
-  double trace_s = 0;  // nearest hits
+  double trace_s = 0;  // finding nearest hits
 };
 
 CacheTimes cache_times(const StageSeconds& seconds);
-// Stage by stage, such as by median().
+// Summarises stage by stage, for example by median().
 CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>));
 CacheTimes operator-(const CacheTimes& a, const CacheTimes& b);
 
@@ -44,50 +44,51 @@ struct CacheRow {
   std::string study{};
   std::string drive{};  // see CacheStudy::drives
   std::string setting{};
-  uint64_t rays = 0;  // a transmitter
+  uint64_t rays = 0;  // per transmitter
   uint32_t division = 0;
   double position_step_m = 0;
   uint32_t depth = 0;                      // 0: all segments; else those of this depth
   uint32_t region = 0;                     // 0: rays of all transmitters; else of this one alone, counted from 1
-  std::string transmitter{};               // its name
-  uint64_t frames = 0;                     // that follow the cold one and are averaged over
-  CacheTimes cold{}, warm{};               // of a frame whose table is empty, and of those after it
+  std::string transmitter{};               // name of that transmitter
+  uint64_t frames = 0;                     // number of frames after the cold one, which are averaged
+  CacheTimes cold{}, warm{};               // times of a frame whose table is empty, and of those after it
   double warm_error_s = undefined;         // standard error of the mean of warm.loop_s; NaN for medians
   double frame_s = 0;                      // wall time of a warm frame, with candidates, paths and fields
-  CacheCounts cold_counts{}, counts{};     // of the cold frame, and of a warm one on average
-  CacheSummary cache{};                    // of the last frame
-  double paths = 0, sequences = 0;         // of a warm frame on average
-  PathError error{};                       // of warm frames
-  double saved_percent = 0;                // of the time of the first setting, warm
-  EntrySummary entries{};                  // of the last frame, of settings that keep entries
-  std::vector<CentroidError> centroids{};  // frame by frame, of studies that keep them
+  CacheCounts cold_counts{}, counts{};     // counts of the cold frame, and of an average warm one
+  CacheSummary cache{};                    // statistics of the last frame
+  double paths = 0, sequences = 0;         // averages over warm frames
+  PathError error{};                       // errors of warm frames
+  double saved_percent = 0;                // relative to the time of the first setting, warm
+  EntrySummary entries{};                  // entries of the last frame, for settings that keep entries
+  std::vector<CentroidError> centroids{};  // one per frame, in studies that keep them
 };
 
-// Not of one depth or one transmitter.
+// Tells that the row is not about one depth or one transmitter.
 inline bool is_whole(const CacheRow& row) { return row.depth == 0 && row.region == 0; }
 
-// Hits over look-ups; NaN without a look-up.
+// Returns hits over look-ups; NaN without look-ups.
 double hit_rate(const CacheRow& row);
-// Nanoseconds per segment: writes of the cold frame, which finds nothing; reads of the warm ones; the rest of the cold.
+// Return nanoseconds per segment: writes of the cold frame, which finds nothing; reads of the warm ones; the rest of
+// the cold one.
 double write_ns(const CacheRow& row);
 double read_ns(const CacheRow& row);
 double gather_ns(const CacheRow& row);
 double trace_ns(const CacheRow& row);
 
-// Entries of the table that hold a segment, as cache.statistics counts them.
+// Returns the entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);
 
 // Sets saved_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);
 
 const Columns<CacheRow>& cache_columns();
-// The number in a column of the table; NaN where it is not one.
+// Returns the number in a column of the table; NaN if it is no number.
 double value_of(const CacheRow& row, const std::string& column);
 
-// Null where it was not measured.
+// Returns null if it was not measured.
 const CacheRow* find_cached(const std::vector<CacheRow>& rows, const std::string& setting, uint64_t rays,
                             const std::string& drive = "still");
-// In order of appearance, each once.
+// Returns the settings in order of appearance, each once.
 std::vector<std::string> settings_of(const std::vector<CacheRow>& rows);
 std::vector<std::string> drives_of(const std::vector<CacheRow>& rows);
 std::vector<uint64_t> rays_of(const std::vector<CacheRow>& rows);

@@ -1,5 +1,4 @@
-// Each setting is a list of keys.
-// Assumes the field table's words for them (host/config).
+// Each setting is a list of keys, with the words of the field table (host/config).
 #include "study/cache_settings.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,7 +9,7 @@ namespace {
 
 using Change = std::function<void(CacheConfig&)>;
 
-// The open table of the thesis, then `change`. `statistics` and `first_depth` are left to the user's config.
+// Makes the open table of the thesis, then applies `change`. The user's config decides `statistics` and `first_depth`.
 Setting thesis_table(const std::string& name, uint32_t hash_method, const Change& change) {
   return {name + " " + hash_name(hash_method), [=](Config& config) {
             CacheConfig& cache = config.cache;

@@ -1,5 +1,5 @@
-// Point by point: settings in groups that share the device, then the same cut by depth or by transmitter.
-// A drive is driven once for each group, its first frame being cold.
+// Measures point by point: settings in groups that share the device, then the same by depth or by transmitter.
+// Each group drives a drive once; its first frame is cold.
 #include "study/cache_study.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -60,7 +60,7 @@ struct Point {
   const Request& request;
   StudyWatch& watch;
 
-  // Subjects after their frames; none where it was stopped.
+  // Returns subjects after their frames; nothing if it was stopped.
   std::vector<CacheSubject> measured(const std::vector<Setting>& settings, const Config& of) const {
     std::vector<CacheSubject> subjects = make_subjects(settings, of, rays, request.device);
     if (!run_frames(subjects, frames, study.empty_tables, request, watch)) subjects.clear();
@@ -68,7 +68,7 @@ struct Point {
   }
 };
 
-// The rows of one point; none where it was stopped.
+// Returns the rows of one point; nothing if it was stopped.
 std::vector<CacheRow> measure_point(const Point& at) {
   const CacheStudy& study = at.study;
   std::vector<CacheRow> rows;
@@ -87,8 +87,8 @@ std::vector<CacheRow> measure_point(const Point& at) {
   return rows;
 }
 
-// Adds a row per depth: what a frame that ends there takes more than one that ends before. No clock runs inside a
-// kernel, so this is as far as a frame can be told apart. False: stopped.
+// Adds a row per depth: the difference between a frame that ends there and one that ends before. No clock runs inside a
+// kernel, so a frame cannot be divided more finely. Returns false if it was stopped.
 bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
   const std::vector<Setting> settings = cut_settings(at.study);
   std::vector<CacheTimes> cold_before(settings.size()), warm_before(settings.size());
@@ -113,9 +113,9 @@ bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
   return true;
 }
 
-// Adds a row per transmitter: its rays alone, in its region of the same table. All regions take turns, so that a slow
-// spell of the machine makes none of them differ. Errors are left out: frames have no reference among other regions.
-// False: stopped.
+// Adds a row per transmitter: its rays alone, in its region of the same table. Regions alternate, so that a slow phase
+// of the machine affects all of them. Errors are left out: frames have no reference among other regions. Returns false
+// if it was stopped.
 bool add_regions(const Point& at, const std::vector<std::string>& transmitters, std::vector<CacheRow>& rows) {
   const std::vector<Setting> cut = cut_settings(at.study);
   std::vector<Setting> settings;
@@ -129,7 +129,7 @@ bool add_regions(const Point& at, const std::vector<std::string>& transmitters, 
   const std::vector<CacheSubject> subjects = at.measured(settings, at.config);
   if (subjects.empty()) return false;
   for (size_t i = 0; i < subjects.size(); ++i) {
-    if (subjects[i].segments.mean() == 0) continue;  // no link of it is wanted
+    if (subjects[i].segments.mean() == 0) continue;  // none of its links is computed
     rows.push_back(row_of(at.study, settings[i], subjects[i], at.drive, at.rays));
     rows.back().region = static_cast<uint32_t>(i / cut.size() + 1);
     rows.back().transmitter = transmitters[i / cut.size()];
@@ -138,7 +138,7 @@ bool add_regions(const Point& at, const std::vector<std::string>& transmitters, 
   return true;
 }
 
-// Names of the ends that [links] wants as transmitters.
+// Returns the names of the ends that [links] uses as transmitters.
 std::vector<std::string> wanted_transmitters(const Config& config) {
   std::vector<std::string> out;
   for (const RadioEnd& end : config.transmitters)
@@ -214,7 +214,7 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
       std::vector<CacheRow> point = measure_point(at);
       if (!point.empty() && study.by_depth && !add_depths(at, point)) point.clear();
       if (!point.empty() && study.by_transmitter && !add_regions(at, transmitters, point)) point.clear();
-      if (point.empty()) return out;  // stopped
+      if (point.empty()) return out;  // it was stopped
       host.say(point_line(study, point));
       out.rows.insert(out.rows.end(), point.begin(), point.end());
       ++out.points;

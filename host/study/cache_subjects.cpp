@@ -1,4 +1,4 @@
-// A world of one frame is traced cold, then warm, again and again; a drive is driven once, its first frame being cold.
+// A world of one frame is traced cold, then warm, again and again; a drive is driven once, and its first frame is cold.
 // Errors are against the first subject, which has no cache.
 #include "study/cache_subjects.hpp"
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ struct Round {
   bool cold, warm;
 };
 
-// Another subject runs first each time. False: stopped.
+// Each round starts with another subject. Returns false if it was stopped.
 bool run_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWatch& watch) {
   std::vector<FrameResult> results(subjects.size());
   for (size_t i = 0; i < subjects.size(); ++i) {
@@ -62,7 +62,7 @@ bool run_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWat
   return true;
 }
 
-// A setting may contradict what the config says for all of them.
+// A setting may contradict the config that all of them share.
 void check_setting(const Setting& setting, const Config& applied) {
   for (const config::Contradiction& found : config::contradictions(applied))
     throw ConfigError(fmt::format("{}with the setting \"{}\", {}", applied.file.empty() ? "" : applied.file + ": ",

@@ -1,5 +1,5 @@
-// Settings of a study while they are measured: a Simulation each, all alive at once, their frames interleaved so that a
-// slow spell of the machine hits all.
+// Settings of a study while they are measured: one Simulation each, all existing at once, with their frames interleaved
+// so that a slow phase of the machine affects all.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace wavetracer::study {
 
-// What a setting's frames add up to.
+// Sums over a setting's frames.
 struct CacheSubject {
   explicit CacheSubject(Simulation s) : simulation(std::move(s)) {}
 
@@ -24,16 +24,16 @@ struct CacheSubject {
   FrameResult first, last;
 };
 
-// Segments of a frame, and of one depth of it.
+// Count segments of a frame, and of one depth of it.
 CacheCounts counts_of(const FrameResult& frame);
 CacheCounts counts_of(const FrameResult& frame, uint32_t depth);
 
-// Of a config with this number of rays. Throws ConfigError where a setting contradicts it.
+// Makes subjects of a config with this number of rays. Throws ConfigError if a setting contradicts it.
 std::vector<CacheSubject> make_subjects(const std::vector<Setting>& settings, const Config& config, uint64_t rays,
                                         const std::string& device);
 
-// A standing world `repeats` times, cold and warm; else `frames` frames after the cold one. With empty tables all are
-// cold, and count as warm ones do. False: stopped.
+// Runs a world without motion `repeats` times, cold and warm; else `frames` frames after the cold one. With empty
+// tables all frames are cold, and count as warm ones. Returns false if it was stopped.
 bool run_frames(std::vector<CacheSubject>& subjects, uint64_t frames, bool empty_tables, const Request& request,
                 StudyWatch& watch);
 

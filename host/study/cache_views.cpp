@@ -1,5 +1,5 @@
-// Rows to plots and tables of numbers.
-// Assumes that set_savings() has run.
+// Turns rows into plots and tables of numbers.
+// set_savings() must have run.
 #include "study/cache_views.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -34,13 +34,14 @@ NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vecto
 }
 
 constexpr const char* operations_note =
-    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: a "
-    "depth is what a frame that ends there takes more than one that ends before, which for the few segments of deep "
-    "paths is a small difference of large numbers and can come out negative; a row of depth 0 is all of a frame. The "
-    "hash is part of both read and write. The thesis' buffer call, the address of an entry, has no counterpart; what a "
-    "table costs besides is the gathering of missed rays";
+    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: "
+    "a depth is what a frame that ends there takes more than one that ends before, which for the few segments "
+    "of deep paths is a small difference of large numbers and can come out negative; "
+    "a row of depth 0 is all of a frame. The hash is part of both read and write. The thesis' buffer call, "
+    "the address of an entry, has no counterpart; what a table costs besides is the gathering of missed rays";
 
-// Of the rows of a drive and number of rays, the one that saves most and yet loses at most `lost_power`; null: none.
+// Returns, among the rows of a drive and number of rays, the one that saves most and loses at most `lost_power`; null
+// if there is none.
 const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string& drive, uint64_t rays,
                             double lost_power) {
   const CacheRow* best = nullptr;
@@ -51,7 +52,7 @@ const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string
   return best;
 }
 
-// The setting that saves most of those that lose little enough, for each world, number of rays and loss.
+// Shows for each world, number of rays and loss the setting that saves most among those that lose little enough.
 NumberTable trade_table(const std::vector<CacheRow>& rows, const std::string& head,
                         const std::function<std::string(const CacheRow&)>& value) {
   NumberTable table{.caption = "The fastest of those that lose little enough:",
@@ -157,7 +158,7 @@ CacheView trade(const std::string& column, const std::string& label, const std::
                 std::function<std::string(const CacheRow&)> value) {
   return [=](const CacheMeasurement& measured) -> CacheShown {
     std::vector<std::string> shown = settings_of(measured.rows);
-    shown.erase(shown.begin());  // what the others are measured by
+    shown.erase(shown.begin());  // the reference of the others
     return {.plot = {.settings = shown,
                      .x = column,
                      .x_label = label,
@@ -205,23 +206,22 @@ std::vector<LinePanel> panels_of(const std::vector<CacheRow>& rows, const std::v
 }
 
 std::vector<std::string> study_notes(const CacheMeasurement& measured, uint32_t repeats) {
-  return {
-      measured.frames > 0
-          ? fmt::format("times and errors: averages of equation 6.2 over {} frames after the first, which finds the "
-                        "table empty; the thesis averages 500 cycles",
-                        measured.frames)
-          : fmt::format("times: medians of {} frames with an empty table (cold) and of as many after them (warm); "
-                        "shares and savings are of the warm ones",
-                        repeats),
-      "device time from profiling events, the settings in turns: all stages that discover, from generate_rays and the "
-      "order to interact, with cache_lookup, cache_gather, cache_store and cache_purge",
-      "errors: against the same frame with the same rays and no cache; paths pair by ends and sequence of surfaces. "
-      "Where reception is exact, each path is solved and visible whatever led to it, so those that only the cached "
-      "frame finds are no false ones",
-      fmt::format(
-          "the thesis does not say how far a transmitter moves until its entries are stale; here {:g} m, unless "
-          "the table says otherwise",
-          thesis_position_step_m)};
+  return {measured.frames > 0
+              ? fmt::format("times and errors: averages of equation 6.2 over {} frames after the first, "
+                            "which finds the table empty; the thesis averages 500 cycles",
+                            measured.frames)
+              : fmt::format("times: medians of {} frames with an empty table (cold) and of as many after them (warm); "
+                            "shares and savings are of the warm ones",
+                            repeats),
+          "device time from profiling events, the settings in turns: all stages that discover, from generate_rays "
+          "and the order to interact, with cache_lookup, cache_gather, cache_store and cache_purge",
+          "errors: against the same frame with the same rays and no cache; paths pair by ends "
+          "and sequence of surfaces. "
+          "Where reception is exact, each path is solved and visible whatever led to it, so those "
+          "that only the cached frame finds are no false ones",
+          fmt::format("the thesis does not say how far a transmitter moves until its entries are stale; here {:g} m, "
+                      "unless the table says otherwise",
+                      thesis_position_step_m)};
 }
 
 }  // namespace wavetracer::study

@@ -1,5 +1,5 @@
 // Figures of caches: a view of a study, and the claims on its rows.
-// Assumes that figures of one study are made of one measurement, as thesis.cpp does.
+// Figures of one study are made of one measurement, as thesis.cpp does.
 #include "study/cache_claims.hpp"
 #include "study/run.hpp"
 

@@ -1,4 +1,4 @@
-// A claim of the thesis: its words, and what rows must show for it.
+// A claim of the thesis: its words, and the condition on rows.
 #pragma once
 #include <functional>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace wavetracer::study {
 
-// The verdict on rows. Predicates are made by order_claims.hpp, cache_claims.hpp, cache_regions.hpp and
-// coherence_frames.hpp.
+// Returns the verdict on rows. order_claims.hpp, cache_claims.hpp, cache_regions.hpp and coherence_frames.hpp make such
+// judges.
 template <class Row>
 using Judge = std::function<Judgement(const std::vector<Row>&)>;
 

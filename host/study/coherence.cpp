@@ -1,5 +1,5 @@
-// Pairing by launch index and depth, then statistics of what was paired.
-// Sums of points are of differences, so that places far from the origin lose nothing.
+// Pairs by launch index and depth, then computes statistics of the pairs.
+// Sums are of differences of points, so that places far from the origin lose no digits.
 #include "study/coherence.hpp"
 #include <algorithm>
 #include <glm/geometric.hpp>

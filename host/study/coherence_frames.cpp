@@ -1,4 +1,4 @@
-// Records frame by frame and keeps three: the first, the one before and the one at hand.
+// Records frame by frame and keeps three: the first, the previous and the current one.
 // Rays of one launch index have one direction in all frames, so that the index pairs them.
 #include "study/coherence_frames.hpp"
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 namespace wavetracer::study {
 namespace {
 
-// Six times the signed volume of a tetrahedron.
+// Returns six times the signed volume of a tetrahedron.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-// A point in the plane of a triangle counts as in front of it, so that a way is seen to cross it once.
+// A point in the plane of a triangle counts as in front of it, so that a way crosses it once.
 bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, const glm::dvec3& b,
              const glm::dvec3& c) {
   if ((volume(a, b, c, from) < 0) == (volume(a, b, c, to) < 0)) return false;
@@ -26,7 +26,7 @@ bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, 
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// Two at least, since frames are compared.
+// At least two, since frames are compared.
 uint32_t wanted_frames(const FrameFigure& figure, const Request& request) {
   const uint64_t frames = request.frames > 0 ? request.frames + 1 : figure.frames / (request.quick ? 5 : 1);
   return static_cast<uint32_t>(std::clamp<uint64_t>(frames, 2, UINT32_MAX));
@@ -37,7 +37,7 @@ Config frame_world(const FrameFigure& figure, const Config& config, uint32_t fra
   return has_vehicles(config) ? config : driven(config, frames - 1);
 }
 
-// What the transmitter drives through. A vehicle without a body is none.
+// Describes the traffic around the transmitter. Vehicles without a body do not count.
 std::string world_words(const TracedWorld& traced) {
   size_t bodies = 0;
   for (const Instance& instance : traced.world.instances())
@@ -48,8 +48,8 @@ std::string world_words(const TracedWorld& traced) {
 std::string drive_note(const Drive& drive, const TracedWorld& traced) {
   const glm::dvec3 &from = drive.place_m.front(), &to = drive.place_m.back();
   return fmt::format(
-      "drive: {} frames {:g} s apart, of the transmitter \"{}\" from ({:.5g}, {:.5g}, {:.5g}) m to "
-      "({:.5g}, {:.5g}, {:.5g}) m, in {}",
+      "drive: {} frames {:g} s apart, of the transmitter \"{}\" from ({:.5g}, {:.5g}, {:.5g}) m to ({:.5g}, "
+      "{:.5g}, {:.5g}) m, in {}",
       drive.frames(), drive.time_s(1), drive.name, from.x, from.y, from.z, to.x, to.y, to.z, world_words(traced));
 }
 
@@ -66,7 +66,7 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
                  const std::string& where) {
   std::vector<Drive> running(transmitters.size());
   Drive longest;
-  bool mounted = false;  // whether any is on a vehicle
+  bool mounted = false;  // true if any transmitter is on a vehicle
   for (uint32_t frame = 0; frame < count && longest.frames() < frames; ++frame) {
     const WorldState world = state(frame);
     for (const EndState& end : world.transmitters) mounted = mounted || end.instance != no_instance;
@@ -86,8 +86,8 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
   }
   if (longest.frames() >= least) return longest;
   throw ConfigError(
-      fmt::format("{}no transmitter is there in {} frames that follow each other ({} of them were looked "
-                  "at): give its vehicle a longer trajectory, or more frames in [time]",
+      fmt::format("{}no transmitter is there in {} frames that follow each other ({} of them were looked at): "
+                  "give its vehicle a longer trajectory, or more frames in [time]",
                   where, least, count));
 }
 
@@ -98,8 +98,8 @@ void check_way(const Drive& drive, const Scene& scene) {
     for (const auto& [a, b, c] : scene.triangles)
       if (crosses(from, to, scene.vertices[a], scene.vertices[b], scene.vertices[c]))
         throw ConfigError(
-            fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; give it another "
-                        "position_m or velocity_m_s (without one it drives along +x)",
+            fmt::format("transmitter \"{}\": its way of {:.1f} m leads through the scene; "
+                        "give it another position_m or velocity_m_s (without one it drives along +x)",
                         drive.name, drive.moved_m(drive.frames() - 1)));
   }
 }
@@ -167,7 +167,7 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   const FrameHits first = record(drive.transmitter, drive.first);
   FrameHits previous = first;
   for (uint32_t frame = 1; frame < drive.frames(); ++frame) {
-    if (host.interrupted()) return found;  // half a drive is no result
+    if (host.interrupted()) return found;  // half of a drive is no result
     host.tell(experiment.name, frame, drive.frames(), "frames");
     FrameHits now = record(drive.transmitter, drive.first + frame);
     for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})
@@ -191,11 +191,12 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   found.words = frame_words(experiment, rows, drive, world_words(traced), traced.device.name);
   found.notes = {
       drive_note(drive, traced),
-      "total is equation 6.4 divided by the root of the number of components (three, less those that are constant); "
-      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in the "
-      "lists of hits",
-      "both is the share of rays that hit in both frames among those that hit in either; same_surface and "
-      "same_sequence are shares of the rays that hit in both"};
+      "total is equation 6.4 divided by the root of the number of components (three, less those "
+      "that are constant); "
+      "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in "
+      "the lists of hits",
+      "both is the share of rays that hit in both frames among those that hit in either; "
+      "same_surface and same_sequence are shares of the rays that hit in both"};
   return found;
 }
 

@@ -1,4 +1,4 @@
-// How far what rays hit in one frame of a drive is what the same rays hit in another.
+// Compares the hits of rays in one frame of a drive with those of the same rays in another.
 // A. Zhdanov, TU Munich, 2014, section 6.3.2, equation 6.4 and figure 6.13.
 #pragma once
 #include <functional>
@@ -13,20 +13,20 @@
 
 namespace wavetracer::study {
 
-// A frame beside an earlier one, at one depth.
+// A frame compared with an earlier one, at one depth.
 struct FramePair {
   std::string against;  // "first": frame 0, "previous": the frame before
   uint32_t frame = 0;
   uint32_t depth = 0;
   DepthCoherence found;
-  double by_place = undefined;  // equation 6.4, normalised, of points paired by their place in lists of hits
+  double by_place = undefined;  // equation 6.4, normalised, for points paired by their index in lists of hits
 };
 
-// The frames in which a transmitter launches its rays: numbers that follow each other, times, and where it is (file
-// axes). Functions count frames from the first of them.
+// The frames in which a transmitter launches its rays: consecutive numbers, times, and its positions (file axes).
+// Functions count frames from the first of them.
 struct Drive {
-  uint32_t transmitter = 0;  // of the world
-  std::string name = "";     // of the transmitter
+  uint32_t transmitter = 0;  // in the world
+  std::string name = "";     // name of the transmitter
   uint32_t first = 0;        // frame of the world
   std::vector<double> at_s = {};
   std::vector<glm::dvec3> place_m = {};
@@ -36,24 +36,24 @@ struct Drive {
   double moved_m(uint32_t frame) const;  // the length of its way
 };
 
-// The first `frames` frames, or as many as there are, in which one transmitter is there all the time. One on a vehicle
-// is taken if there are any, since it moves; of those the first that is there so long. Throws ConfigError where none is
-// there in `least` frames that follow each other. state: of each of `count` frames; where: begins the message.
+// Plans the first `frames` frames, or as many as there are, in which one transmitter is always present. A transmitter
+// on a vehicle is preferred, since it moves; among those, the first that is present long enough. Throws ConfigError if
+// none is present in `least` consecutive frames. state: of each of `count` frames; where: begins the message.
 Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<WorldState(uint32_t)>& state,
                  uint64_t count, const glm::dvec3& origin_m, uint32_t frames, uint32_t least, const std::string& where);
-// Throws ConfigError where the way leads through the scene.
+// Throws ConfigError if the way passes through objects of the scene.
 void check_way(const Drive& drive, const Scene& scene);
 
-// A frame beside another, depth by depth.
+// Compares a frame with another, depth by depth.
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against, uint32_t frame);
 
 Columns<FramePair> frame_columns(const Drive& drive);
 
-// "at depth 1 if paired by ray and bounce, at no depth if paired by place": where subsequent frames correlate by a mean
-// from `low` to `high`.
+// Returns "at depth 1 if paired by ray and bounce, at no depth if paired by place": where subsequent frames correlate
+// by a mean from `low` to `high`.
 Judge<FramePair> correlate_on_average(double low, double high);
-// Likewise: where their correlation falls below `low`, and where it rises to `high`, or to four fifths of it, but no
-// further.
+// In the same way: where their correlation falls below `low`, and where it rises to `high`, or to four fifths of it,
+// but no further.
 Judge<FramePair> correlation_falls_below(double low);
 Judge<FramePair> correlation_rises_to(double high);
 

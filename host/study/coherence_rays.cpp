@@ -1,5 +1,5 @@
-// One frame for each map of directions, judged in launch order: the order in which rays share launches and packets.
-// A ray that ended leaves a gap, so a lag counts launched rays at every depth.
+// Traces one frame for each map of directions, and judges it in launch order: the order in which rays share launches
+// and packets. A ray that ended leaves a gap, so a lag counts launched rays at every depth.
 #include "study/coherence_rays.hpp"
 #include <fmt/format.h>
 #include <numeric>
@@ -70,8 +70,8 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),
                   drive.name),
-      "points and distance are equation 3.4 over the squares of what is paired, of hit points as vectors and of "
-      "segment lengths; same_surface and same_primitive are shares of the pairs; a pair is two rays that hit"};
+      "points and distance are equation 3.4 over the squares of what is paired, of hit points as vectors "
+      "and of segment lengths; same_surface and same_primitive are shares of the pairs; a pair is two rays that hit"};
   return found;
 }
 

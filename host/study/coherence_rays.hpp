@@ -1,4 +1,4 @@
-// How far what a ray hits is what the rays hit that are launched after it, for each map of directions.
+// Compares the hit of a ray with those of rays that are launched after it, for each map of directions.
 // A. Zhdanov, TU Munich, 2014, section 3.2.2 and equation 3.4.
 #pragma once
 #include <string>

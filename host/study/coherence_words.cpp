@@ -1,5 +1,5 @@
-// What coherence says: numbers, a column per depth, and what they mean for the claims.
-// Correlations and shares have two decimals; whoever compares them with the table rounds likewise.
+// Texts about coherence: numbers, a column per depth, and their meaning for the claims.
+// Correlations and shares have two decimals; comparisons with the table must round in the same way.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 
 std::string number(double value) {
   if (std::isnan(value)) return "undefined";
-  return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0);  // + 0.0: no minus before a zero
+  return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0);  // + 0.0 avoids a minus before a zero
 }
 
-// A column per depth.
+// Makes a table with a column per depth.
 NumberTable depth_table(const std::string& caption, size_t depths) {
   NumberTable table{.caption = caption, .heads = {""}, .rows = {}};
   for (size_t depth = 1; depth <= depths; ++depth) table.heads.push_back(fmt::format("depth {}", depth));
@@ -28,7 +28,8 @@ void add(NumberTable& table, const std::string& what, const std::vector<double>&
   table.rows.back().resize(table.heads.size(), "undefined");
 }
 
-// Where values are so: "at every depth", "at no depth", "at depths 1 and 3". Each depth is a case of `tally`.
+// Says where values satisfy a condition: "at every depth", "at no depth", "at depths 1 and 3". Each depth is a case of
+// `tally`.
 std::string where_depths(const std::vector<double>& values, const std::function<bool(double)>& are_so, Tally& tally) {
   std::vector<std::string> words;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -45,7 +46,7 @@ using FrameValue = std::function<double(const FramePair&)>;
 double by_ray(const FramePair& row) { return row.found.points.total; }
 double by_place(const FramePair& row) { return row.by_place; }
 
-// A list per depth: the values of all frames against their previous ones, where they are defined.
+// Returns a list per depth: the defined values of all frames against their previous ones.
 std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<std::vector<double>> out;
   for (const FramePair& row : rows) {
@@ -68,7 +69,7 @@ double greatest_value(const std::vector<double>& values) {
 
 using FrameSummary = double (*)(const std::vector<double>&);
 
-// A value per depth, of what subsequent frames have.
+// Returns a value per depth, for subsequent frames.
 std::vector<double> summaries(const std::vector<FramePair>& rows, const FrameValue& value, FrameSummary summary) {
   std::vector<double> out;
   for (const std::vector<double>& values : previous_values(rows, value)) out.push_back(summary(values));
@@ -79,7 +80,7 @@ std::vector<double> previous_means(const std::vector<FramePair>& rows, const Fra
   return summaries(rows, value, mean_value);
 }
 
-// Where a summary of the correlations of subsequent frames is so, for both pairings.
+// Says where a summary of the correlations of subsequent frames satisfies a condition, for both pairings.
 Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bool(double)>& are_so) {
   return [=](const std::vector<FramePair>& rows) {
     Tally tally;
@@ -90,7 +91,7 @@ Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bo
   };
 }
 
-// A value per depth, of the last frame against the first.
+// Returns a value per depth, of the last frame against the first.
 std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<double> out;
   for (const FramePair& row : rows)
@@ -104,7 +105,7 @@ const LagRow* find_lag(const std::vector<LagRow>& rows, const std::string& direc
   return nullptr;
 }
 
-// A value per depth, of neighbours.
+// Returns a value per depth, of neighbours.
 std::vector<double> neighbours(const std::vector<LagRow>& rows, const std::string& directions,
                                double LagCoherence::*value) {
   std::vector<double> out;
@@ -113,14 +114,14 @@ std::vector<double> neighbours(const std::vector<LagRow>& rows, const std::strin
   return out;
 }
 
-// The first lag at which points correlate by less than half.
+// Returns the first lag at which points correlate by less than half.
 std::string half_lag(const std::vector<LagRow>& rows, const std::string& directions, uint32_t depth) {
   for (const LagRow& row : rows)
     if (row.directions == directions && row.depth == depth && row.found.points < 0.5) return grouped(row.found.lag);
   return "none measured";
 }
 
-// "0.98 at lag 987": where points of first hits correlate most.
+// Returns "0.98 at lag 987": where points of first hits correlate most.
 std::string greatest_words(const std::vector<LagRow>& rows, const std::string& directions) {
   const LagRow* best = nullptr;
   for (const LagRow& row : rows)
@@ -170,7 +171,7 @@ Words frame_words(const Experiment& experiment, const std::vector<FramePair>& ro
   return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, fields), table};
 }
 
-// Assumes ascending lags from 1 on for each map and depth.
+// Lags must ascend from 1 for each map and depth.
 Words lag_words(const Experiment& experiment, const std::vector<LagRow>& rows, const std::string& device) {
   const std::vector<double> same = neighbours(rows, "hilbert", &LagCoherence::same_surface);
   NumberTable table = depth_table("Rays launched one after the other:", same.size());

@@ -1,5 +1,5 @@
-// A table as a list of columns: each a name, and what a row has there.
-// Comma-separated; no cell needs quotes. Six digits a number: more than a clock is good for.
+// A table as a list of columns: each has a name and a function for a row's cell.
+// Cells are separated by commas; none needs quotes. Numbers have six digits: more than a clock is good for.
 #pragma once
 #include <fmt/format.h>
 #include <functional>
@@ -11,7 +11,7 @@ namespace wavetracer::study {
 
 template <class Row>
 struct Column {
-  // get: a member, or a function of a row; text, a whole number, a truth value or a number.
+  // get: a member, or a function of a row; returns text, a whole number, a truth value or a number.
   template <class Get>
   Column(std::string column, Get get)
       : name(std::move(column)), cell([get](const Row& row) {
@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const Columns<Row>& columns) {
   return out;
 }
 
-// The names, then a line for each row.
+// Returns the names, then a line for each row.
 template <class Row>
 std::string encode(const Columns<Row>& columns, const std::vector<Row>& rows) {
   std::string text = fmt::format("{}\n", fmt::join(names_of(columns), ","));

@@ -11,13 +11,13 @@
 
 namespace wavetracer::study {
 
-// Cells of directions that the unit sphere passes through, where a component is cut into `division` cells: cubes of
-// side h meet a surface in 3/2 of its area over h^2, on average over its directions.
+// Number of cells of directions that the unit sphere passes through, if a component is cut into `division` cells: cubes
+// of side h meet a surface in 3/2 of its area over h^2, on average over its directions.
 inline double direction_cells(double division) { return 1.5 * std::numbers::pi * division * division; }
 
 inline double control_error(double rays, double division) { return std::sqrt(rays / direction_cells(division)); }
 
-// The division of this C_E, 1 at least.
+// Returns the division for this C_E, at least 1.
 inline uint32_t control_division(uint64_t rays, double error) {
   const double division = std::sqrt(static_cast<double>(rays) / (1.5 * std::numbers::pi)) / error;
   return static_cast<uint32_t>(std::max(1.0, std::round(division)));

@@ -1,6 +1,6 @@
-// Groups of rows of one table.
-// Means of cycles leave the longest and shortest out, as a few operations are interrupted for thousands of times as
-// long as the others take. Medians would not do: clocks tick in steps of some twenty cycles.
+// Groups rows of one table.
+// Means of cycles leave the longest and shortest out, as a few operations are interrupted for thousands of times their
+// usual duration. Medians would not work: clocks tick in steps of some twenty cycles.
 #include "study/entry_summary.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace wavetracer::study {
 namespace {
 
-// Of the cycles that were measured, the mean of the middle nine tenths.
+// The mean of the middle nine tenths of the measured cycles.
 struct Cycles {
   std::vector<double> values;
   void add(uint32_t cycles) {
@@ -55,7 +55,7 @@ double variance(const RunningMean& mean) {
   return std::pow(mean.standard_error(), 2) * static_cast<double>(mean.count());
 }
 
-// Of depth 1, and of all below it, weighted by their entries.
+// Values of depth 1, and of all deeper ones, weighted by their entries.
 struct Levels {
   double bucket = undefined, below = undefined;
 };
@@ -105,7 +105,8 @@ EntrySummary summary_of(const CacheEntryRows& rows) {
   run_entries /= static_cast<double>(std::max<size_t>(out.runs.size(), 1));
   out.dispersion = variance(all) / all.mean();
   const double by_chance = variance(all) / run_entries;
-  out.clustering = by_chance > 0 ? variance(means) / by_chance : by_chance;  // all alike: 0; too few: NaN
+  // 0 if all are alike, NaN if there are too few.
+  out.clustering = by_chance > 0 ? variance(means) / by_chance : by_chance;
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What the entries of a ray cache's table (output.cache_entries) say of a setting: by their depth in the trees of
+// Statistics of the entries of a ray cache's table (output.cache_entries) for a setting: by their depth in the trees of
 // buckets, by region, and along the table.
 #pragma once
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace wavetracer::study {
 
-// Entries that have something in common. Cycles are means of the middle nine tenths; NaN where no entry has answered,
-// or there is no clock.
+// Entries that have something in common. Cycles are means of the middle nine tenths; NaN if no entry has answered, or
+// there is no clock.
 struct EntryGroup {
   uint32_t number = 0;  // a depth in the trees, from 1, or a region, from 0
   uint64_t entries = 0, hits = 0;
@@ -20,30 +20,31 @@ struct EntryGroup {
 struct SlotRun {
   uint32_t first_slot = 0;
   uint64_t entries = 0;
-  double hits = 0;  // of an entry on average
+  double hits = 0;  // average over the entries
 };
 
 struct EntrySummary {
   std::vector<EntryGroup> by_depth, by_region;  // ascending; entries that no search finds are left out of by_depth
-  std::vector<SlotRun> runs;                    // of entries that hold a segment, along the table
-  // The variance of the entries' hits over their mean: 1 if every entry is as likely to be asked (Poisson), less where
-  // hits are still more even. NaN without hits.
+  std::vector<SlotRun> runs;                    // runs of entries that hold a segment, along the table
+  // The variance of the entries' hits over their mean: 1 if every entry is equally likely to be asked (Poisson), less
+  // if hits are more even than that. NaN without hits.
   double dispersion = 0;
-  // The variance of the runs' means over what it would be if entries answered as often wherever they are: about 1
-  // then, larger where busy entries lie together, 0 where all entries are alike. NaN for fewer than two runs.
+  // The variance of the runs' means over the variance expected if the place did not matter: about 1 then, larger if
+  // busy entries lie together, 0 if all entries are alike. NaN for fewer than two runs.
   double clustering = 0;
 };
 
-constexpr uint32_t slot_runs = 50;  // of about equal numbers of entries
+constexpr uint32_t slot_runs = 50;  // runs have about equal numbers of entries
 
 EntrySummary summary_of(const CacheEntryRows& rows);
 
-// Do entries in the buckets themselves, of depth 1, take more cycles than those below? None where a kind is missing.
+// Tells whether entries in the buckets themselves, of depth 1, take more cycles than deeper ones. Returns nothing if
+// one kind is missing.
 std::optional<bool> reads_longer_in_buckets(const EntrySummary& entries);
 std::optional<bool> writes_longer_in_buckets(const EntrySummary& entries);
-// Hits are as even as chance makes them: dispersion is 1.5 at most.
+// Tells whether hits are as even as chance makes them: dispersion is 1.5 at most.
 std::optional<bool> are_even(const EntrySummary& entries);
-// No busy entries lie together: clustering is 2 at most.
+// Tells whether no busy entries lie together: clustering is 2 at most.
 std::optional<bool> is_without_clusters(const EntrySummary& entries);
 
 }  // namespace wavetracer::study

@@ -1,5 +1,5 @@
-// Entries to tables and plots.
-// Assumes that a study has both a setting and its counted twin.
+// Turns entries into tables and plots.
+// A study must have both a setting and its counted twin.
 #include "study/entry_views.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -10,17 +10,17 @@ namespace wavetracer::study {
 namespace {
 
 constexpr const char* cycles_note =
-    "cycles are those of the clock of the compute unit that did the operation, read before and after it: the mean "
-    "over the middle nine tenths of the entries of a depth, for each its last operation; on a GPU they contain the "
-    "time of other work-items that "
-    "shared the unit, and a device without such a clock shows none";
+    "cycles are those of the clock of the compute unit that did the operation, read before and after it: "
+    "the mean over the middle nine tenths of the entries of a depth, for each its last operation; "
+    "on a GPU they contain the time of other work-items that shared the unit, and a device without such "
+    "a clock shows none";
 
 const CacheRow* counted_row(const CacheMeasurement& measured, const std::string& setting) {
   const CacheRow& first = measured.rows.front();
   return find_cached(measured.rows, counted_name(setting), first.rays, first.drive);
 }
 
-// In the buckets themselves, and on average below them.
+// Returns the value in the buckets themselves, and the average below them.
 std::string levels(const std::vector<EntryGroup>& depths, double EntryGroup::*cycles, bool below) {
   double sum = 0, entries = 0;
   for (const EntryGroup& group : depths) {
@@ -56,8 +56,8 @@ CacheView operations_by_tree_depth(std::vector<std::string> settings) {
                  .panels = {{"write", "write_cycles", "cycles", first.drive, true},
                             {"read", "read_cycles", "cycles", first.drive, true}}},
         .table = "drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n",
-        .numbers = {.caption = fmt::format("Nanoseconds per segment at {} rays, and cycles of an entry in a "
-                                           "bucket itself and below it:",
+        .numbers = {.caption = fmt::format("Nanoseconds per segment at {} rays, and cycles of an entry in "
+                                           "a bucket itself and below it:",
                                            grouped(first.rays)),
                     .heads = {"setting", "write", "read", "gather", "cycles of a write: bucket", "below",
                               "of a read: bucket", "below"},
@@ -83,20 +83,18 @@ CacheView operations_by_tree_depth(std::vector<std::string> settings) {
 CacheView hits_along_table(std::vector<std::string> settings) {
   return [=](const CacheMeasurement& measured) {
     const std::string& drive = measured.rows.front().drive;
-    CacheShown out{
-        .plot = {.columns = {"drive", "setting", "first_slot", "entries", "hits"},
-                 .settings = settings,
-                 .x = "first_slot",
-                 .x_label = "place in the table",
-                 .panels_a_row = 1,
-                 .panels = {{"hits of an entry, on average over runs of entries", "hits", "hits", drive}}},
-        .table = "drive,setting,first_slot,entries,hits\n",
-        .numbers = {.caption =
-                        "Entries of the table and their hits. If chance alone spread them, both numbers would be "
-                        "about 1:",
-                    .heads = {"setting", "all", "that hold a segment", "of these, that never answered",
-                              "variance of hits over mean", "clustering of hits"},
-                    .rows = {}}};
+    CacheShown out{.plot = {.columns = {"drive", "setting", "first_slot", "entries", "hits"},
+                            .settings = settings,
+                            .x = "first_slot",
+                            .x_label = "place in the table",
+                            .panels_a_row = 1,
+                            .panels = {{"hits of an entry, on average over runs of entries", "hits", "hits", drive}}},
+                   .table = "drive,setting,first_slot,entries,hits\n",
+                   .numbers = {.caption = "Entries of the table and their hits. If chance alone spread them, "
+                                          "both numbers would be about 1:",
+                               .heads = {"setting", "all", "that hold a segment", "of these, that never answered",
+                                         "variance of hits over mean", "clustering of hits"},
+                               .rows = {}}};
     for (const std::string& setting : settings) {
       const CacheRow* row = counted_row(measured, setting);
       if (!row || row->cache.entries_by_hits.empty()) continue;

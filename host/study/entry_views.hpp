@@ -1,4 +1,4 @@
-// What a figure shows of the entries of a cache's table: figures 6.2, 6.4 and 6.6 of the thesis.
+// Figures about the entries of a cache's table: figures 6.2, 6.4 and 6.6 of the thesis.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,18 +7,18 @@
 
 namespace wavetracer::study {
 
-// A setting whose cache counts and keeps its entries, for whole frames: "chained mixed counted". Apart from those that
-// are timed, as counting costs time.
+// Returns a setting whose cache counts and keeps its entries, for whole frames: "chained mixed counted". It is separate
+// from those that are timed, as counting costs time.
 Setting counted(Setting setting);
 std::string counted_name(const std::string& setting);
 
-// Cycles of reads and writes by the depth of an entry in the tree of its bucket, of the counted twins of these
+// Shows cycles of reads and writes by the depth of an entry in the tree of its bucket, for the counted twins of these
 // settings, beside the nanoseconds per segment of the settings themselves.
 CacheView operations_by_tree_depth(std::vector<std::string> settings);
-// Hits of entries along the table, of the counted twins of these settings.
+// Shows hits of entries along the table, for the counted twins of these settings.
 CacheView hits_along_table(std::vector<std::string> settings);
 
-// The entries of the counted twin of a row's setting in one region, from 0; null where there are none.
+// Returns the entries of the counted twin of a row's setting in one region, from 0; null if there are none.
 const EntryGroup* entries_of_region(const std::vector<CacheRow>& rows, const CacheRow& row, uint32_t region);
 
 }  // namespace wavetracer::study

@@ -1,5 +1,5 @@
 // The list of experiments, and the configs that they measure.
-// What is built in is text, read as a file is.
+// Built-in configs are text, which is read like a file.
 #include "study/experiment.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr const char* mast = R"([[transmitter]]
 name = "rsu"
 position_m = [8.0, 8.0, 6.0]
 )";
-// More of them, on other streets and at the edge of the city.
+// More transmitters, on other streets and at the edge of the city.
 constexpr const char* more_masts = R"([[transmitter]]
 name = "rsu-2"
 position_m = [97.5, 97.5, 6.0]
@@ -36,7 +36,7 @@ position_m = [-97.5, -97.5, 6.0]
 name = "rsu-4"
 position_m = [150.0, 0.0, 20.0]
 )";
-// 50 km/h on the right-hand lane of a street.
+// A car at 50 km/h in the right-hand lane of a street.
 constexpr const char* car = R"([[transmitter]]
 name = "car"
 position_m = [10.0, -3.0, 1.5]

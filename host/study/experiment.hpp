@@ -1,6 +1,6 @@
-// The experiments of `wavetracer bench`, as data: what is measured, what of it is shown, and what is claimed of it.
-// run.hpp carries one out. Those called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
-// To add one, add a row to one of the lists below; its claims are predicates of NAME_claims.hpp and the like.
+// The experiments of `wavetracer bench`, as data: what is measured, shown, and claimed. run.hpp carries one out. Those
+// called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
+// To add one, add a row to one of the lists below; its claims are predicates of NAME_claims.hpp and similar files.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -15,78 +15,78 @@
 
 namespace wavetracer::study {
 
-// Orders of rays, over the numbers of rays of ray_counts.hpp. Fields of its words: order_fields().
+// Orders of rays, over the numbers of rays of ray_counts.hpp. The fields of its words are order_fields().
 struct OrderFigure {
-  std::vector<Series> series;  // the first is what gains are against
-  bool moves;                  // averages over the frames of a moving_world(); else medians of the first frame
+  std::vector<Series> series;  // gains are relative to the first series
+  bool moves;                  // true: averages over the frames of a moving_world(); false: medians of the first frame
   Claims<OrderRow> claims;
 };
 
-// A view of a study of caches; figures share studies. Fields: cache_fields().
+// A view of a study of caches; figures share studies. The fields are cache_fields().
 struct CacheFigure {
   std::shared_ptr<const CacheStudy> study;
   CacheView view;
   Claims<CacheRow> claims = {};
-  std::vector<std::string> settings = {};  // those that the field {saves} is about
+  std::vector<std::string> settings = {};  // the settings for the field {saves}
 };
 
-// What rays of one transmitter hit in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and {apart}
-// (metres of the transmitter's way, and of it a frame), {world} (what it drives through), {age} (of the first frame, in
-// seconds).
+// Compares the hits of one transmitter's rays in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and
+// {apart} (metres of the transmitter's way, and per frame), {world} (the traffic around it), {age} (of the first frame,
+// in seconds).
 struct FrameFigure {
   Claims<FramePair> claims;
   uint32_t frames = 201;  // 2 s at 100 frames per second
-  bool traffic = false;   // of the built-in city, which stands still otherwise
+  bool traffic = false;   // adds traffic to the built-in city, which has none otherwise
 };
 
-// What rays hit along the order of their launch, for each map of directions. Fields: {device}, {rays}, {fibonacci}:
-// "0.98 at lag 987", where first hits of Fibonacci rays correlate most.
+// Compares hits along the order of the launch, for each map of directions. Fields: {device}, {rays}, {fibonacci}: "0.98
+// at lag 987", where first hits of Fibonacci rays correlate most.
 struct LagFigure {};
 
 struct Experiment {
-  std::string name;       // on the command line, and of the files
+  std::string name;       // name on the command line, and of the files
   std::string doc;        // one line for the list
-  std::string title;      // of the report and the plot
-  std::string caption;    // of the plot
-  std::string paragraph;  // what the thesis says, where, and how it was measured; with fields
+  std::string title;      // title of the report and the plot
+  std::string caption;    // caption of the plot
+  std::string paragraph;  // the thesis' statement, its place, and how it was measured; with fields
   std::variant<OrderFigure, CacheFigure, FrameFigure, LagFigure> figure;
 
-  // Null for other kinds.
+  // Returns null for other kinds.
   template <class Figure>
   const Figure* as() const {
     return std::get_if<Figure>(&figure);
   }
   const CacheStudy* study() const { return as<CacheFigure>() ? as<CacheFigure>()->study.get() : nullptr; }
-  // It launches one number of rays, so that --rays is refused.
+  // It launches one number of rays, so --rays is refused.
   bool one_ray_count() const;
   // It is about frames that move, see moving_world().
   bool moves() const;
 };
 
-const std::vector<Experiment>& standing_figures();        // 6.1 to 6.9
-const std::vector<Experiment>& traffic_figures();         // 6.10 to 6.13, and coherence-frames
-const std::vector<Experiment>& hashing_figures();         // 6.14 to 6.18
+const std::vector<Experiment>& standing_figures();        // figures 6.1 to 6.9
+const std::vector<Experiment>& traffic_figures();         // figures 6.10 to 6.13, and coherence-frames
+const std::vector<Experiment>& hashing_figures();         // figures 6.14 to 6.18
 const std::vector<Experiment>& further_experiments();     // beyond the thesis' figures
 const std::vector<Experiment>& innerframe_experiments();  // coherence inside a frame, answered by a cache
 
-// All of them, in this order.
+// Returns all of them, in this order.
 const std::vector<Experiment>& experiments();
 // Throws ConfigError with the known names and the nearest of them.
 const Experiment& find_experiment(const std::string& name);
-// A line for each experiment.
+// Returns a line for each experiment.
 std::string experiment_list();
 
-constexpr const char* built_in_city_name = "built-in city";  // as its Config::file
+constexpr const char* built_in_city_name = "built-in city";  // used as Config::file
 
-// Scene and ends of an experiment: those of the file, or of the built-in city where the name is empty. Throws
-// ConfigError, also where a set gives a key that the experiment varies.
+// Returns scene and ends of an experiment: those of the file, or of the built-in city if the name is empty. Throws
+// ConfigError, also if a set gives a key that the experiment varies.
 Config experiment_config(const Experiment& experiment, const std::string& file, const std::vector<std::string>& sets);
 
-// Throws ConfigError, with the name of the experiment, where this config has nothing for it to measure.
+// Throws ConfigError, with the name of the experiment, if this config has nothing for it to measure.
 void check_experiment(const Experiment& experiment, const Config& config);
 
-// The config of a figure of orders, with a frame before the `frames` that are averaged over where the figure moves.
-// Every frame launches all rays of transmitters, and no others: none is saved by reuse or a cache, none added by
+// Returns the config of a figure of orders, with a frame before the `frames` that are averaged if the figure moves.
+// Every frame launches all rays of transmitters, and no others: none is saved by reuse or a cache, none is added by
 // receivers for diffraction.
 Config point_config(const OrderFigure& figure, const Config& config, uint64_t frames);
 

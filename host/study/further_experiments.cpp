@@ -1,6 +1,6 @@
-// Beyond the thesis' figures: coherence inside a frame, and what the two quantisations of a cache trade.
-// cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast as it
-// gets without a sort.
+// Experiments beyond the thesis' figures: coherence inside a frame, and the trade-off of the two quantisations of a
+// cache. cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast
+// as possible without a sort.
 #include <fmt/format.h>
 #include <utility>
 #include "study/experiment.hpp"
@@ -9,7 +9,7 @@
 namespace wavetracer::study {
 namespace {
 
-// The same setting with room for all segments, along a Hilbert curve, one key changed.
+// Returns the same setting with room for all segments, along a Hilbert curve, with one key changed.
 Setting varied(const std::string& name, const Setting& base, const std::function<void(CacheConfig&)>& change) {
   return {name, [apply = base.apply, change](Config& config) {
             apply(config);
@@ -66,18 +66,19 @@ const std::vector<Experiment> further = {
      .doc = "autocorrelation of what rays hit along the launch order of one frame, for each map of directions",
      .title = "Coherence inside a frame",
      .caption = "Autocorrelation and common surfaces along the launch order",
-     .paragraph = "The thesis takes the autocorrelation of results along the rays of a frame (equation 3.4) for the "
-                  "measure of coherence inside it, expects that of a group of coherent rays only one need be traced "
-                  "(section 3.2.2), and gives no values. Measured on {device} with {rays} rays. Fibonacci rays have "
-                  "their neighbours elsewhere: first hits correlate most, by {fibonacci}. Tracing one ray for each "
-                  "two in hilbert order gives the other the wrong surface in the share of the last row.",
+     .paragraph = "The thesis takes the autocorrelation of results along the rays of a frame (equation 3.4) "
+                  "for the measure of coherence inside it, expects that of a group of coherent rays only one need "
+                  "be traced (section 3.2.2), and gives no values. Measured on {device} with {rays} rays. "
+                  "Fibonacci rays have their neighbours elsewhere: first hits correlate most, by {fibonacci}. "
+                  "Tracing one ray for each two in hilbert order gives the other the wrong surface in the share of "
+                  "the last row.",
      .figure = LagFigure{}},
     {.name = "cache-division",
      .doc = "speed, hits and error of caches against the cells of their directions",
      .title = "Cells of directions",
      .caption = caption,
-     .paragraph = "The thesis chooses 200,000 and 10,000 cells a direction component and gives no reason. Measured "
-                  "on {device}, against rays along a Hilbert curve without a cache.",
+     .paragraph = "The thesis chooses 200,000 and 10,000 cells a direction component and gives no reason. "
+                  "Measured on {device}, against rays along a Hilbert curve without a cache.",
      .figure = CacheFigure{.study = by_division,
                            .view = trade("division", "division (cells a direction component)", "division",
                                          [](const CacheRow& row) { return grouped(row.division); })}},

@@ -38,7 +38,7 @@ Claims<OrderRow> moving_gains() {
   return claims;
 }
 
-// All in order, and no cache and two of them also without.
+// Returns all settings in order, and also no cache and two caches without order.
 std::vector<Setting> with_orders(std::vector<Setting> settings) {
   for (Setting& setting : settings) setting = with_order(setting);
   for (const Setting& setting : {no_cache(), position(3), precision(thesis_residual, 3)})
@@ -64,9 +64,9 @@ const std::vector<Experiment> hashes = {
      .doc = "traffic: time by hash function",
      .title = "Frames in traffic by hash function",
      .caption = "Average time of a frame by hash function",
-     .paragraph = "If purged by position, the thesis finds Morton codes 15% faster than the uniform hash from 20,000 "
-                  "rays on, and the mixed one like the uniform; if purged by precision, Morton codes slower than no "
-                  "cache (section 6.3.2, figure 6.14). Measured on {device}.",
+     .paragraph = "If purged by position, the thesis finds Morton codes 15% faster than the uniform hash "
+                  "from 20,000 rays on, and the mixed one like the uniform; if purged by precision, "
+                  "Morton codes slower than no cache (section 6.3.2, figure 6.14). Measured on {device}.",
      .figure =
          CacheFigure{
              .study = hashing,
@@ -94,12 +94,11 @@ const std::vector<Experiment> hashes = {
      .doc = "traffic: error by hash function",
      .title = "Errors in traffic by hash function",
      .caption = "Error by hash function",
-     .paragraph = "By position, the thesis finds the error with Morton codes on average twice that with the uniform "
-                  "hash, and the mixed one's like the uniform's; by precision, Morton codes the most accurate "
-                  "(section 6.3.2, figure 6.15). Its lookups do not compare keys, so that collisions of a hash are "
-                  "errors; in tables \"printed\" they are so here, in ours they are misses, and a hash decides only "
-                  "which segments find room. Measured on "
-                  "{device}.",
+     .paragraph = "By position, the thesis finds the error with Morton codes on average twice "
+                  "that with the uniform hash, and the mixed one's like the uniform's; by precision, "
+                  "Morton codes the most accurate (section 6.3.2, figure 6.15). Its lookups do not compare keys, "
+                  "so that collisions of a hash are errors; in tables \"printed\" they are so here, "
+                  "in ours they are misses, and a hash decides only which segments find room. Measured on {device}.",
      .figure =
          CacheFigure{
              .study = hashing,
@@ -129,10 +128,9 @@ const std::vector<Experiment> hashes = {
      .doc = "traffic: time by hash function, rays in order",
      .title = "Frames in traffic by hash function, rays in order",
      .caption = "Average time of a frame by hash function, rays in order",
-     .paragraph = "With rays in order (here H3DH; the thesis does not say which), the thesis finds caches to save "
-                  "nothing, but those by precision with "
-                  "the uniform and the mixed hash up to some 37,000 rays (section 6.3.2, figure 6.16). Measured on "
-                  "{device}.",
+     .paragraph = "With rays in order (here H3DH; the thesis does not say which), the thesis finds caches "
+                  "to save nothing, but those by precision with the uniform and the mixed hash up to some 37,000 "
+                  "rays (section 6.3.2, figure 6.16). Measured on {device}.",
      .figure =
          CacheFigure{
              .study = hashing_ordered,
@@ -154,9 +152,10 @@ const std::vector<Experiment> hashes = {
      .title = "Errors in traffic by hash function, rays in order",
      .caption = "Error by hash function, rays in order",
      .paragraph =
-         "With rays in order, the thesis finds the error of the caches that save time, those by precision "
-         "with the uniform and the mixed hash, to hover around 5 units, more than by position, and sorting "
-         "to reduce the error slightly (section 6.3.2, figure 6.17, and its fourth conclusion). Measured on {device}.",
+         "With rays in order, the thesis finds the error of the caches that save time, those by precision with "
+         "the uniform and the mixed hash, to hover around 5 units, more than by position, "
+         "and sorting to reduce the error slightly (section 6.3.2, figure 6.17, and its fourth conclusion). "
+         "Measured on {device}.",
      .figure =
          CacheFigure{
              .study = hashing_ordered,
@@ -174,10 +173,11 @@ const std::vector<Experiment> hashes = {
      .doc = "traffic: average time of a frame while the transmitters move, reordered against not",
      .title = "Frames in traffic, with reordering and without",
      .caption = "Time a ray against the number of rays",
-     .paragraph = "Without a cache, the thesis finds reordering to take 23% less time than no reordering (WS) at "
-                  "1,000 rays and almost 60% less, 2.5 times the speed, at 49,000, and the gain to grow with the "
-                  "number of rays (section 6.3.2, figure 6.18). Measured on {device}, averaged over {frames} frames "
-                  "of traffic whose transmitters move.{reason} Rays born in order need no sort.",
+     .paragraph = "Without a cache, the thesis finds reordering to take 23% less time than no reordering (WS) "
+                  "at 1,000 rays and almost 60% less, 2.5 times the speed, at 49,000, and the gain to grow with "
+                  "the number of rays (section 6.3.2, figure 6.18). Measured on {device}, "
+                  "averaged over {frames} frames of traffic whose transmitters move.{reason} Rays born "
+                  "in order need no sort.",
      .figure = OrderFigure{.series = {unordered(), ordered("hilbert3d-histogram"), born_ordered()},
                            .moves = true,
                            .claims = moving_gains()}},

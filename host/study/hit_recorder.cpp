@@ -1,5 +1,5 @@
-// A batch that is traced again, because its sequences did not fit, enters the same hits again.
-// Labels of rays tell their samples, however queues are ordered.
+// A batch that is traced again, because its sequences did not fit, records the same hits again.
+// Labels of rays give their samples, in any order of the queues.
 #include "study/hit_recorder.hpp"
 #include <algorithm>
 #include <bit>
@@ -16,14 +16,14 @@ DeviceSummary summary(const gpu::DeviceInfo& info) {
   return {info.platform, info.name, info.driver, info.opencl_c, info.gpu};
 }
 
-// What experiments on hits look at: reflections of as many rays as the configuration says.
+// Experiments on hits use reflections only, of as many rays as the configuration says.
 TraceConfig reflections(TraceConfig trace) {
   trace.reflection = true;
   trace.diffraction = trace.transmission = trace.scattering = false;
   return trace;
 }
 
-// A plane of three-component vectors of a ray queue.
+// Reads a plane of three-component vectors of a ray queue.
 std::vector<glm::dvec3> read_vectors(const RayQueue& rays, size_t plane) {
   std::vector<glm::dvec3> out(rays.count);
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
-// What every ray of a launch hit, depth by depth, read back to the host: it follows the rays of a discovery.
-// Assumes few rays: planes of the queue are copied at every depth.
+// Records what every ray of a launch hit, depth by depth, on the host: it follows the rays of a discovery. Rays should
+// be few: planes of the queue are copied at every depth.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace wavetracer::study {
 
-// A world on a device, for experiments that look at rays instead of paths.
+// A world on a device, for experiments that use rays instead of paths.
 struct TracedWorld {
   TracedWorld(const Config& config, const std::string& device_text);
 
@@ -23,7 +23,7 @@ struct TracedWorld {
   Scene scene;
   World world;
   DeviceScene on_device;
-  std::optional<InstancePlacement> placement;  // where there are vehicles
+  std::optional<InstancePlacement> placement;  // set if there are vehicles
   DeviceSummary device;
 };
 
@@ -32,18 +32,17 @@ Drive plan_drive(const TracedWorld& traced, uint32_t frames, uint32_t least, con
 
 class HitRecorder final : public RayFollower {
  public:
-  // Takes rays, directions, seed and max_depth of `trace`; rays are reflected, and nothing else. `traced` must outlive
-  // it.
+  // Uses rays, directions, seed and max_depth of `trace`; rays are only reflected. `traced` must outlive this object.
   HitRecorder(TracedWorld& traced, const TraceConfig& trace);
-  // Hits of the rays of a transmitter in a frame of the world; their points are recentred. The vehicle that carries it
-  // is in no way of its rays.
+  // Returns hits of the rays of a transmitter in a frame of the world; their points are recentred. The vehicle that
+  // carries it does not block its rays.
   FrameHits operator()(uint32_t transmitter, uint32_t frame);
 
  private:
   void begin_batch(std::vector<LaunchPart> parts) override { parts_ = std::move(parts); }
   void follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
               const std::optional<AnsweredRays>& answered) override;
-  // Of a sample of the batch.
+  // Returns the launch index of a sample of the batch.
   uint64_t launch_index(uint32_t sample) const;
 
   TracedWorld& traced_;

@@ -1,5 +1,5 @@
-// RowList to verdicts.
-// What was not measured confirms nothing.
+// Turns rows into verdicts.
+// A row that was not measured confirms nothing.
 #include "study/innerframe_claims.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,7 +23,7 @@ RowList rows_of_settings(const CacheRows& rows, const std::vector<std::string>& 
 
 double error_of(const CacheRow& row) { return control_error(static_cast<double>(row.rays), row.division); }
 
-// RowList of one world, setting and number of rays, by ascending C_E.
+// Returns rows of one world, setting and number of rays, by ascending C_E.
 std::vector<RowList> ladders(const CacheRows& rows, const std::vector<std::string>& settings) {
   std::map<std::tuple<std::string, std::string, uint64_t>, RowList> found;
   for (const CacheRow* row : rows_of_settings(rows, settings))
@@ -101,7 +101,8 @@ Judge<CacheRow> error_grows(std::vector<std::string> settings) {
 
 Judge<CacheRow> error_is_controlled(std::vector<std::string> settings, double factor, double negligible) {
   return [=](const CacheRows& rows) -> Judgement {
-    // By world, setting and place on the ladder, which is that of one C_E: the shares at all numbers of rays.
+    // Keys are world, setting and index in the ladder, which stands for one C_E; values are the shares at all numbers
+    // of rays.
     std::map<std::tuple<std::string, std::string, size_t>, std::vector<double>> shares;
     for (const RowList& ladder : ladders(rows, settings))
       for (size_t step = 0; step < ladder.size(); ++step)

@@ -1,5 +1,5 @@
-// What is claimed of tracing one ray per group, as predicates on rows: one row for each setting, C_E and number of
-// rays. Assumes that the first row of a number of rays has no cache, and that set_savings() has run.
+// The claims about tracing one ray per group, as predicates on rows: one row for each setting, C_E and number of rays.
+// The first row of a number of rays must have no cache, and set_savings() must have run.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace wavetracer::study {
 
-// Of settings that never hand a hit to a ray whose own plane is elsewhere: as many segments are traced as there are
-// groups, on average over frames.
+// For settings that never hand a hit to a ray on another plane: as many segments are traced as there are groups, on
+// average over frames.
 Judge<CacheRow> one_ray_a_group(std::vector<std::string> settings);
-// Of every number of rays, whether one of the settings takes at least half a percent less time than no cache and loses
-// at most this share of the paths: "at 10,000 and 50,000 rays".
+// Judges for every number of rays whether one of the settings takes at least half a percent less time than no cache and
+// loses at most this share of the paths: "at 10,000 and 50,000 rays".
 Judge<CacheRow> somewhere_faster(std::vector<std::string> settings, double lost_share);
-// The most that any row saves: "confirmed: up to 131 times", "not confirmed: 12 times at most".
+// Judges the most that any row saves: "confirmed: up to 131 times", "not confirmed: 12 times at most".
 Judge<CacheRow> fewer_traced_times(double claimed);
 Judge<CacheRow> times_as_fast(double claimed);
-// At every number of rays the largest C_E of a setting loses more paths than its smallest.
+// Judges whether at every number of rays the largest C_E of a setting loses more paths than its smallest.
 Judge<CacheRow> error_grows(std::vector<std::string> settings);
-// At equal C_E the shares of lost paths at all numbers of rays are within a factor of `factor` of each other, or all
-// below `negligible`.
+// Judges whether at equal C_E the shares of lost paths at all numbers of rays are within a factor of `factor` of each
+// other, or all below `negligible`.
 Judge<CacheRow> error_is_controlled(std::vector<std::string> settings, double factor, double negligible);
 
 }  // namespace wavetracer::study

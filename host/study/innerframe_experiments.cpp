@@ -1,5 +1,5 @@
-// Coherence inside a frame: of rays with equal keys one is traced, at cells of directions that the control equation
-// gives for a C_E. Every frame finds its table empty, so that it saves nothing but what is in itself.
+// Coherence inside a frame: of rays with equal keys one is traced, with cells of directions that the control equation
+// gives for a C_E. Every frame finds its table empty, so that it only saves time within itself.
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace wavetracer::study {
 namespace {
 
-// No commas: they are cells of tables.
+// They contain no commas, since they are cells of tables.
 constexpr const char *each = "no groups", *own = "groups with own hit points", *taken = "groups with one hit point";
 const std::vector<std::string> grouped_settings = {own, taken};
 
@@ -30,7 +30,7 @@ Setting grouping(const std::string& name, double error, Directions directions, c
 std::vector<Setting> by_error(Directions directions) {
   std::vector<Setting> settings = {
       {"no cache", [directions](Config& config) { config.trace.directions = directions; }}};
-  // As the thesis: what is cached moves, and the ray becomes the one that was traced.
+  // As in the thesis: moving objects are cached too, and the ray becomes the one that was traced.
   const Change as_thesis = [](CacheConfig& cache) {
     cache.scope = "all";
     cache.hit_point = "cached";
@@ -85,11 +85,11 @@ CacheShown groups_of_keys(const CacheMeasurement& measured) {
                                                        {"lost paths", "lost_share", "share", "", true, 1e-5}})},
           .numbers = groups_table(measured.rows),
           .notes = {"every frame finds its table empty; segments \"answered in the frame\" took the hit of the ray "
-                    "that was traced for their group, others that are not traced were answered by the table with a hit "
-                    "of an earlier depth",
-                    "with its own hit point a ray that meets the plane of its group's surface outside of it is traced "
-                    "as well; with one hit point it becomes the ray that was traced, as in the thesis; without groups "
-                    "every ray that the table does not answer is traced"}};
+                    "that was traced for their group, others that are not traced were answered by the table with "
+                    "a hit of an earlier depth",
+                    "with its own hit point a ray that meets the plane of its group's surface outside of it "
+                    "is traced as well; with one hit point it becomes the ray that was traced, as in the thesis; "
+                    "without groups every ray that the table does not answer is traced"}};
 }
 
 CacheFigure innerframe_figure(const std::string& name, Directions directions) {
@@ -101,17 +101,18 @@ CacheFigure innerframe_figure(const std::string& name, Directions directions) {
                      {"up to 50 times fewer rays are traced (Popov)", fewer_traced_times(50)},
                      {"rendering is 2.5 times as fast at least (Popov)", times_as_fast(2.5)},
                      {"a larger C_E errs more", error_grows(grouped_settings)},
-                     {"C_E controls the error: at equal C_E, lost paths are within a factor of three whatever the "
-                      "number of rays",
+                     {"C_E controls the error: at equal C_E, lost paths are within a factor of three whatever "
+                      "the number of rays",
                       error_is_controlled(grouped_settings, 3, 1e-3)}}};
 }
 
 constexpr const char* innerframe_paragraph =
-    "The thesis expects that of a group of coherent rays inside a frame only one need be traced (sections 1.1 and "
-    "3.2.2), after Popov, who groups paths by quantised ends, controls the error by |A(e)| |A(l)| = C_E^2 / (P(e) P(l) "
-    "N) (equation 2.3), and traces up to 50 times fewer rays and renders 2.5 to 6.7 times as fast (section 2.1); it "
-    "measures none of it. For a cell of directions, C_E is the root of the rays that a launch has in it. Measured on "
-    "{device} with cache.innerframe";
+    "The thesis expects that of a group of coherent rays inside a frame only one need be traced (sections 1.1 "
+    "and 3.2.2), after Popov, who groups paths by quantised ends, controls the error by |A(e)| |A(l)| = C_E^2 / "
+    "(P(e) P(l) "
+    "N) (equation 2.3), and traces up to 50 times fewer rays and renders 2.5 to 6.7 times as fast (section 2.1); "
+    "it measures none of it. For a cell of directions, C_E is the root of the rays that a launch has in it. "
+    "Measured on {device} with cache.innerframe";
 
 const std::vector<Experiment> innerframe = {
     {.name = "innerframe",

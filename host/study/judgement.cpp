@@ -1,5 +1,5 @@
-// Cases to an outcome.
-// One case that holds and one that does not make "in part", whatever else is there.
+// Turns cases into an outcome.
+// One case that holds and one that does not make "in part", whatever the others are.
 #include "study/judgement.hpp"
 #include <array>
 #include "study/text.hpp"

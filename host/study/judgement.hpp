@@ -1,4 +1,4 @@
-// What rows say of a claim: an outcome out of five, and the words for what was measured.
+// The judgement of a claim: one of five outcomes, and words for what was measured.
 #pragma once
 #include <ostream>
 #include <string>
@@ -7,17 +7,17 @@
 namespace wavetracer::study {
 
 enum class ClaimOutcome {
-  not_judged,  // nothing was measured that could speak for or against the claim
+  not_judged,  // nothing was measured that could confirm or refute the claim
   refuted,     // it holds in no case
   in_part,     // it holds in some cases
   reproduced,  // it holds in every case
-  exceeded     // it holds, and every case goes beyond the claimed number by a tenth of it at least
+  exceeded     // it holds, and every case exceeds the claimed number by a tenth of it at least
 };
 
-// What a measured factor or share is beyond, against the claimed one, for a claim to be exceeded.
+// A claim is exceeded if a measured factor or share is beyond this times the claimed one.
 constexpr double exceeding = 1.1;
 
-// "not judged", "refuted", "in part", "reproduced", "exceeded"
+// Returns "not judged", "refuted", "in part", "reproduced" or "exceeded".
 std::string_view word(ClaimOutcome outcome);
 
 struct Judgement {
@@ -36,12 +36,12 @@ class Tally {
   ClaimOutcome outcome() const;
 
  private:
-  int failed_ = 0, held_ = 0, beyond_ = 0;  // beyond_: of those that held
+  int failed_ = 0, held_ = 0, beyond_ = 0;  // beyond_: part of held_
   bool in_part_ = false;
 };
 
 Judgement not_measured();
-// "confirmed" and reproduced, or "not confirmed" and refuted; `words` take the place of these.
+// Returns "confirmed" and reproduced, or "not confirmed" and refuted; `words` replace these.
 Judgement judgement(bool holds);
 Judgement judgement(bool holds, std::string words);
 

@@ -1,5 +1,5 @@
-// Rows to phrases. Factors have two decimals.
-// Assumes that compare() has set the gains.
+// Turns rows into phrases. Factors have two decimals.
+// compare() must have set the gains.
 #include "study/order_claims.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -41,7 +41,7 @@ double gain_of(const Rows& rows, const std::string& method, Gain gain) {
   return gain_at(rows, method, rows.back().rays, gain);
 }
 
-// The numbers of rays that were measured, from `first` to `last`.
+// Returns the numbers of rays that were measured, from `first` to `last`.
 std::set<uint64_t> counts_between(const Rows& rows, uint64_t first, uint64_t last) {
   std::set<uint64_t> counts;
   for (const OrderRow& row : rows)
@@ -57,8 +57,8 @@ std::string reason(const Rows& rows) {
                                         grouped(claimed_many), grouped(claimed_few));
   if (fixed >= 50)
     return start +
-           "which is what launching and the longest single rays cost this device, however few there are; an order can "
-           "change the rest alone, and its own launches come on top.";
+           "which is what launching and the longest single rays cost this device, however few there are; "
+           "an order can change the rest alone, and its own launches come on top.";
   return start + "so most of the time at the larger count is that of its rays, which an order can change.";
 }
 

@@ -1,5 +1,5 @@
-// Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is thin on an
-// axis of four decades. Assumes gnuplot 5.
+// Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is small on an
+// axis of four decades. It needs gnuplot 5.
 #include <fmt/format.h>
 #include <set>
 #include "study/order_rows.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 size_t column_number(const std::string& name) { return column_of(names_of(order_columns(false)), name); }
 
-// One colour per mnemonic; launch shapes of one method differ in their dashes.
+// Each mnemonic has one colour; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {
   std::set<std::string> earlier;
   for (const Series& other : series) {

@@ -1,5 +1,5 @@
-// A Simulation a series, all alive at once, their frames interleaved.
-// Assumes device memory for the queues of all of them.
+// Each series has a Simulation; all exist at once, with their frames interleaved.
+// Device memory must hold the queues of all of them.
 #include "study/order_rows.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 struct OrderSubject {
   Simulation simulation;
-  uint64_t rays = 0, segments = 0, paths = 0, sequences = 0;  // of all frames that count
+  uint64_t rays = 0, segments = 0, paths = 0, sequences = 0;  // sums over all counted frames
   std::vector<StageSeconds> samples{};
 
   void count(const FrameResult& frame) {
@@ -32,10 +32,11 @@ double average(std::vector<double> values) {
 
 void check_same(const OrderRow& a, const OrderRow& b) {
   if (a.paths == b.paths && a.sequences == b.sequences) return;
-  throw RuntimeError(fmt::format(
-      "{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, though no order may "
-      "change what is found: the device or its driver gives wrong results; try another one with --device",
-      grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
+  throw RuntimeError(
+      fmt::format("{} rays: {} finds {} paths in {} sequences, {} finds {} in {} from the same rays, "
+                  "though no order may change what is found: the device or its driver gives wrong results; "
+                  "try another one with --device",
+                  grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Figures of orders: the time of every series at every number of rays.
-// Assumes that a frame without a cache, reuse or diffraction launches the rays of its transmitters and no others.
+// A frame without a cache, reuse or diffraction launches the rays of its transmitters and no others.
 #include <fmt/format.h>
 #include <algorithm>
 #include "base/stopwatch.hpp"
@@ -13,9 +13,11 @@ namespace wavetracer::study {
 namespace {
 
 constexpr uint64_t thesis_frames = 500, cpu_frames = 20;
-// Means are of fewer frames where rays are many: of so many rays of a transmitter, and of these frames at least.
+// With many rays, means are over fewer frames: about this many rays of a transmitter in all, and at least this many
+// frames.
 constexpr uint64_t rays_of_means = 100000000, least_frames = 5;
-// A figure begins no number of rays that would end later than this, unless --rays asks for it or --minutes says else.
+// A figure starts no number of rays that would end later than this, unless --rays asks for it or --minutes gives
+// another limit.
 constexpr double gpu_minutes = 3, cpu_minutes = 10;
 
 std::string point_line(const Experiment& experiment, const std::vector<OrderRow>& rows) {
@@ -37,7 +39,7 @@ uint64_t wanted_frames(const Request& request, bool gpu) {
   return (gpu ? thesis_frames : cpu_frames) / (request.quick ? 5 : 1);
 }
 
-// Frames that are averaged over at this number of rays, of the `frames` of the world that are wanted.
+// Returns the number of averaged frames at this number of rays, out of the wanted `frames` of the world.
 uint64_t frames_at(uint64_t rays, uint64_t frames, const Request& request) {
   if (request.frames > 0) return frames;
   return std::min(frames, std::max(rays_of_means / rays, least_frames));
@@ -47,26 +49,26 @@ std::vector<std::string> notes_of(const OrderFigure& figure, const std::vector<O
                                   const Request& request) {
   const std::string times =
       figure.moves ? fmt::format(
-                         "times: means (equation 6.2) over {} frames that follow the first, {} at {} rays, the "
-                         "series in turns",
+                         "times: means (equation 6.2) over {} frames that follow the first, {} at {} rays, "
+                         "the series in turns",
                          rows.front().frames, rows.back().frames, grouped(rows.back().rays))
                    : fmt::format("times: medians of {} warm frames, the series in turns", request.repeats);
   return {
       times +
-          "; tracing is generate_rays, trace, trace_moving, compact, scan and interact, the sort is order and "
-          "sort, all from profiling events",
+          "; tracing is generate_rays, trace, trace_moving, compact, scan and interact, the sort is order "
+          "and sort, all from profiling events",
       "every frame launches all rays of its transmitters: trace.reuse, trace.diffraction and cache.kind are off" +
           std::string(figure.moves ? "" : "; where vehicles drive, it is the first frame in which something sends")};
 }
 
-// The first frame in which something launches rays; 0 where nothing ever does.
+// Returns the first frame in which rays are launched; 0 if there is none.
 uint32_t first_sending(Simulation& probe, const Host& host) {
   for (uint32_t frame = 0; frame < probe.frame_count() && !host.interrupted(); ++frame)
     if (probe.run_frame(frame).counts.rays > 0) return frame;
   return 0;
 }
 
-// What the figures of orders measure, and how far.
+// The state of a figure of orders while it is measured.
 struct OrderRun {
   const OrderFigure& figure;
   const Experiment& experiment;
@@ -74,11 +76,11 @@ struct OrderRun {
   const Host& host;
   Config config = {};
   uint64_t frames = 0;  // 0: the figure does not move
-  uint32_t still = 0;   // the frame that is measured then
+  uint32_t still = 0;   // the frame that is measured in that case
   double most_s = 0;
   std::vector<uint64_t> counts = {};
 
-  // Rays of a point, of all its frames.
+  // Returns the rays of all frames of a point.
   double work(uint64_t rays) const {
     return static_cast<double>(rays) * static_cast<double>(frames > 0 ? frames_at(rays, frames, request) : 1);
   }
@@ -98,8 +100,8 @@ DeviceSummary prepare(OrderRun& run) {
     run.frames = std::min<uint64_t>(run.frames, probe.frame_count() - 1);
   if (run.figure.moves && run.frames == 0)
     throw ConfigError(
-        fmt::format("{}: {} averages over the frames of a drive, and there is one frame alone: give "
-                    "trajectories that last longer, or another [time]",
+        fmt::format("{}: {} averages over the frames of a drive, and there is one frame alone: give trajectories "
+                    "that last longer, or another [time]",
                     run.request.config.file, run.experiment.name));
   run.config = point_config(run.figure, run.request.config, run.frames);
   run.host.say(fmt::format("{}: {} series at {} to {} rays on {}", run.experiment.name, run.figure.series.size(),
@@ -107,14 +109,14 @@ DeviceSummary prepare(OrderRun& run) {
   return device;
 }
 
-// Whether the next point, if it takes as long as the last one did for as many rays, ends in time.
+// Tells whether the next point ends in time, if its time per ray is that of the last one.
 bool in_time(const OrderRun& run, size_t next, double spent_s, double last_s) {
   if ((run.request.rays && !run.request.minutes) || next == 0) return true;
   const double next_s = last_s * run.work(run.counts[next]) / run.work(run.counts[next - 1]);
   return spent_s + next_s <= run.most_s;
 }
 
-// Adds the rows of all points. Returns what was left out, as a note; empty: nothing.
+// Adds the rows of all points. Returns a note about what was left out, or an empty text.
 std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Findings& found) {
   uint64_t done = 0, all = 0;
   for (const uint64_t rays : run.counts) all += rays;
@@ -138,7 +140,7 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
     std::vector<OrderRow> point;
     try {
       point = measure_orders(run.config, run.figure.series, rays, of, run.request.device);
-    } catch (const DeviceError& error) {  // such as too little memory; what was measured before is kept
+    } catch (const DeviceError& error) {  // such as too little memory; earlier measurements are kept
       if (rows.empty()) throw;
       return fmt::format("left out: {} to {} rays, as the device failed: {}", grouped(rays), grouped(run.counts.back()),
                          error.what());

@@ -1,5 +1,5 @@
 // Text between tags is escaped here, and nowhere else.
-// Assumes that cells hold no line ends.
+// Cells must not contain line ends.
 #include "study/page.hpp"
 #include <fmt/chrono.h>
 #include <fmt/format.h>

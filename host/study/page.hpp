@@ -1,5 +1,6 @@
-// Pages of what experiments found, in HTML and in Markdown: headings, sections, tables, drawings.
-// Strings only. Assumes SVG as gnuplot writes it, with its identifiers in quotes and references that begin with #.
+// Makes pages of the results of experiments, in HTML and in Markdown: headings, sections, tables, drawings.
+// It only handles strings. SVG is as gnuplot writes it, with its identifiers in quotes and references that begin with
+// #.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -13,45 +14,45 @@ namespace wavetracer::study {
 struct Experiment;
 struct Findings;
 
-// Where numbers come from.
+// The origin of the numbers.
 struct Heading {
   DeviceSummary device = {};
   std::string scene = "", command_line = "", date = "";
 };
-// With the date of today.
+// Makes a heading with today's date.
 Heading heading_of(const Config& config, const DeviceSummary& device, const std::string& command_line);
 
 // One experiment of a page.
 struct Section {
   std::string name, title;
   std::string caption = "";  // of its plot
-  Words words = {};          // without a paragraph: nothing was measured
-  std::string svg = "";      // empty: gnuplot is absent or failed
+  Words words = {};          // without a paragraph if nothing was measured
+  std::string svg = "";      // empty if gnuplot is missing or failed
   std::vector<std::string> notes = {};
-  std::string problem = "";  // why there is nothing, or not all
+  std::string problem = "";  // why there is no result, or only a part of it
 };
 Section section_of(const Experiment& experiment, const Findings& found);
 
-// Device, scene, date, version and command, a line each.
+// Returns device, scene, date, version and command, one per line.
 std::string heading_markdown(const Heading& heading);
 
-// A page of one section, whose plot is NAME.svg beside it.
+// Returns a page of one section, whose plot is NAME.svg beside it.
 std::string page_markdown(const Section& section, const Heading& heading);
 
-// Text as HTML shows it, also between quotes of an attribute.
+// Returns text with escapes for HTML, also within quotes of an attribute.
 std::string escaped(std::string text);
-// "<td>a</td><td>b</td>" of the tag "td".
+// Returns "<td>a</td><td>b</td>" for the tag "td".
 std::string cells_html(const std::vector<std::string>& cells, const char* tag);
 std::string table_html(const NumberTable& table);
-// more: items beside those of the heading, after the scene.
+// more: items in addition to those of the heading, after the scene.
 std::string heading_html(const Heading& heading, const std::vector<std::string>& more = {});
 std::string section_html(const Section& section);
-// A page that refers to nothing outside of it.
+// Returns a page that refers to nothing outside of it.
 std::string document_html(const std::string& title, const std::string& style, const std::string& body);
 
-// The text of a file; empty where it cannot be read.
+// Returns the text of a file; empty if it cannot be read.
 std::string file_text(const std::filesystem::path& file);
-// An SVG document as an element of a page: no prolog, and identifiers that begin with `prefix`.
+// Returns an SVG document as an element of a page: without prolog, and with identifiers that begin with `prefix`.
 std::string inline_svg(const std::string& document, const std::string& prefix);
 
 }  // namespace wavetracer::study

@@ -1,4 +1,4 @@
-// Both frames sorted by link and sequence, then merged like two lists.
+// Both frames are sorted by link and sequence, then merged like two lists.
 // Sums run in that order, so that equal frames give errors of exactly zero.
 #include "study/path_error.hpp"
 #include <algorithm>
@@ -20,12 +20,12 @@ constexpr double speed_of_light_m_s = 299792458;
 
 double share(double part, double whole) { return whole > 0 ? part / whole : undefined; }
 
-// What a vertex touches: numbers of surfaces are those of one model, and those of edges are numbers of their own.
+// Returns what a vertex touches: numbers of surfaces are those of one model; edges have their own numbers.
 auto touched(const Paths& paths, uint64_t vertex) {
   return std::tuple(paths.vertex_surface[vertex], paths.vertex_instance[vertex], paths.vertex_interaction[vertex]);
 }
 
-// Negative, zero or positive as path i of a comes before, is, or comes after path j of b.
+// Returns a negative number, zero or a positive number if path i of a comes before, equals, or comes after path j of b.
 int compare(const Paths& a, size_t i, const Paths& b, size_t j) {
   if (a.tx[i] != b.tx[j]) return a.tx[i] < b.tx[j] ? -1 : 1;
   if (a.rx[i] != b.rx[j]) return a.rx[i] < b.rx[j] ? -1 : 1;
@@ -110,7 +110,7 @@ void compare_links(const Paths& reference, const std::vector<size_t>& a, const P
   out.doppler_spread_hz = spreads_hz / static_cast<double>(out.links);
 }
 
-// Of all vertices, in the order of the paths.
+// Returns the centroid of all vertices, in the order of the paths.
 glm::dvec3 centroid(const Paths& paths, const std::vector<size_t>& order) {
   glm::dvec3 sum{0};
   double count = 0;

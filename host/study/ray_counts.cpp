@@ -1,5 +1,5 @@
-// Ranges in, ray counts out.
-// Numbers are read as std::from_chars reads them, so the locale does not matter.
+// Turns ranges into ray counts.
+// Numbers are parsed by std::from_chars, so the locale does not matter.
 #include "study/ray_counts.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t fewest_rays = claimed_few, most_rays = 1000000000;  // 10^9
 
-// 0, which no range may hold, where the text is no whole number.
+// Returns 0, which no range may contain, if the text is no whole number.
 uint64_t whole_number(std::string_view text) {
   double value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,5 +1,5 @@
-// Points, then files. The table, the script and the report appear together; the plot follows if gnuplot is there.
-// Assumes a folder that can be written to: the program looks before it measures.
+// Measures points, then writes files. The table, the script and the report appear together; the plot follows if gnuplot
+// is there. The folder must be writable: the program checks that before it measures.
 #include "study/run.hpp"
 #include <fmt/format.h>
 #include <span>
@@ -30,12 +30,12 @@ std::vector<fs::path> write_files(const Experiment& experiment, const Request& r
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
   const fs::path plot = named(".svg");
-  remove_old_file(plot);  // an earlier one would belie the new table
+  remove_old_file(plot);  // an old plot would not match the new table
   const std::string problem = run_gnuplot(folder.path(), experiment.name + ".gp");
   if (problem.empty()) {
     written.push_back(plot);
   } else {
-    remove_old_file(plot);  // half drawn
+    remove_old_file(plot);  // it is incomplete
     host.say(problem);
   }
   return written;

@@ -1,5 +1,5 @@
 // Carries an experiment out: measures point by point, then writes NAME.csv, NAME.gp, NAME.svg and NAME.md to a folder.
-// Assumes that nothing else keeps the device busy; what others do to the CPU hits all series alike.
+// Nothing else may use the device; other load of the CPU affects all series alike.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -13,58 +13,60 @@
 namespace wavetracer::study {
 
 struct Request {
-  Config config;                 // see experiment_config; output.directory is where the files go
-  std::string device;            // as Simulation takes it
+  Config config;                 // see experiment_config; files go to output.directory
+  std::string device;            // in the form of Simulation's argument
   std::optional<RayRange> rays;  // not given: those of the figure
   uint32_t repeats = 5;
-  uint64_t frames = 0;                 // of a drive; 0: what suits the device
-  bool quick = false;                  // fewer rays and frames
-  std::optional<double> minutes = {};  // after which a figure of orders begins no more points; else: by device
-  std::string command_line;            // for the report
+  uint64_t frames = 0;                 // frames of a drive; 0: a number that suits the device
+  bool quick = false;                  // uses fewer rays and frames
+  std::optional<double> minutes = {};  // a figure of orders starts no more points after this time; default: by device
+  std::string command_line;            // printed in the report
 };
 
-// What the program lends: a line of progress, whether the user wants to stop, and how far a task is.
+// Services of the program: it prints lines of progress, tells whether the user wants to stop, and shows the state of a
+// task.
 struct Host {
   std::function<void(const std::string&)> say;
   std::function<bool()> interrupted;
-  // what: is measured now; done: of total; unit: of what is counted ("rays"). May be left out.
+  // what: the current measurement; done: of total; unit: of the count ("rays"). It may be empty.
   std::function<void(const std::string& what, uint64_t done, uint64_t total, const std::string& unit)> at = {};
   void tell(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) const {
     if (at) at(what, done, total, unit);
   }
 };
 
-// What an experiment leaves to be written.
+// The results of an experiment, before they are written.
 struct Findings {
   DeviceSummary device;
-  size_t points = 0, planned = 0;    // measured, and asked for; nothing is written where none was
-  std::string table{}, script{};     // NAME.csv and NAME.gp
-  Words words{};                     // of the report
-  std::vector<std::string> notes{};  // lines of the report: how it was measured
+  size_t points = 0, planned = 0;    // measured and requested points; nothing is written if none was measured
+  std::string table{}, script{};     // contents of NAME.csv and NAME.gp
+  Words words{};                     // text of the report
+  std::vector<std::string> notes{};  // lines of the report that say how it was measured
 };
 
-// One function for each kind of figure. A stop is heeded after the point in progress. Throws ConfigError, InputError,
-// DeviceError or RuntimeError.
+// One function for each kind of figure. A stop takes effect after the point in progress. Throws ConfigError,
+// InputError, DeviceError or RuntimeError.
 Findings measure(const OrderFigure& figure, const Experiment& experiment, const Request& request, const Host& host);
 Findings measure(const CacheFigure& figure, const Experiment& experiment, const Request& request, const Host& host);
 Findings measure(const FrameFigure& figure, const Experiment& experiment, const Request& request, const Host& host);
 Findings measure(const LagFigure& figure, const Experiment& experiment, const Request& request, const Host& host);
 
-// What figures say of their rows.
+// Return the words of figures about their rows.
 Words order_words(const Experiment& experiment, const std::vector<OrderRow>& rows, const std::string& device);
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
                   const std::string& world, const std::string& device);
 Words lag_words(const Experiment& experiment, const std::vector<LagRow>& rows, const std::string& device);
-// What a figure of caches shows of its study.
+// Returns what a figure of caches shows of its study.
 Findings show(const Experiment& experiment, const CacheMeasurement& measured, const Request& request);
 
-// The measurement that fits the experiment. Throws ConfigError also where the request asks for what it cannot give.
+// Makes the measurement for the experiment. Throws ConfigError also if the request asks for something that the
+// experiment does not have.
 Findings find_out(const Experiment& experiment, const Request& request, const Host& host);
 
 struct Report {
-  std::string text;                          // for the terminal
-  std::vector<std::filesystem::path> files;  // empty: stopped before the first point
-  size_t points = 0, planned = 0;            // measured, and asked for: numbers of rays of a figure
+  std::string text;                          // printed on the terminal
+  std::vector<std::filesystem::path> files;  // empty if it was stopped before the first point
+  size_t points = 0, planned = 0;            // measured and requested points: numbers of rays of a figure
 };
 
 // Writes the files of findings that have points.

@@ -1,5 +1,5 @@
-// A row of panels a drive, as the figures order them; the key stands on the right.
-// Assumes gnuplot 5.
+// Each drive has a row of panels, in the order of the figures; the key is on the right.
+// It needs gnuplot 5.
 #include "study/scripts.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -26,13 +26,14 @@ std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index
       plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
                    : std::to_string(x);
   return fmt::format(
-      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype "
-      "{} pointsize 0.6 title '{}'",
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize "
+      "0.6 title '{}'",
       plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
       index / colours.size() + 1, index < colours.size() ? 7 : 6, quoted(plot.settings[index]));
 }
 
-// Ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an error.
+// Computes ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an
+// error.
 std::string statistics(const LinePlot& plot) {
   std::string text = fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column(plot, plot.x));
   for (size_t i = 0; i < plot.panels.size(); ++i)
@@ -66,13 +67,13 @@ std::string x_axis(const LinePlot& plot) {
   return plot.depths ? "set xtics 1\nset xrange [0.5 : x_max + 0.5]\n" : "set xrange [x_min - 0.5 : x_max + 0.5]\n";
 }
 
-// Correlations and shares: every axis ends at 1 and begins a little below 0, or where the values do.
+// For correlations and shares: every axis ends at 1 and begins a little below 0, or at the smallest value.
 std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
   std::string text = fmt::format("set title '{}'\nplot ", quoted(panel.title));
   for (uint32_t depth = 1; depth <= plot.max_depth; ++depth)
     text += fmt::format(
-        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? column({}) : NaN) with {} linecolor '{}' "
-        "title 'depth {}'",
+        "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? "
+        "column({}) : NaN) with {} linecolor '{}' title 'depth {}'",
         depth == 1 ? "" : ", \\\n  ", plot.name, column_of(plot.columns, panel.x), column_of(plot.columns, panel.only),
         quoted(panel.equals), column_of(plot.columns, "depth"), depth, column_of(plot.columns, panel.y),
         plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],
@@ -100,7 +101,7 @@ std::string script_head(const std::string& name, size_t width, size_t height) {
 
 std::string line_script(const LinePlot& plot) {
   const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
-  const size_t height = 120 + 340 * rows;  // pixels; margins are 60 and 75 of them, gaps 105
+  const size_t height = 120 + 340 * rows;  // in pixels; margins are 60 and 75 of them, gaps 105
   const auto part = [height](double pixels) { return pixels / static_cast<double>(height); };
   std::string text = script_head(plot.name, 1250, height) + statistics(plot) + "set key off\n" + x_axis(plot) +
                      fmt::format(

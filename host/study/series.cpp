@@ -1,4 +1,4 @@
-// Series of the methods of wavetracer/order_methods.hpp.
+// Makes series from the methods of wavetracer/order_methods.hpp.
 #include "study/series.hpp"
 #include <algorithm>
 #include <stdexcept>
@@ -13,7 +13,7 @@ OrderMethodRow row_of(const std::string& method) {
   return *row;
 }
 
-// The shape that a method is launched in unless another one is asked for.
+// Returns the shape in which a method is launched by default.
 std::string own_shape(const OrderMethodRow& method) {
   return std::to_string(std::max(method.launch_dimensions, 1u)) + "d";
 }

@@ -1,4 +1,4 @@
-// Figures 6.1 to 6.9: orders, and the chained and the open table, in a standing scene.
+// Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"
 #include "study/cache_regions.hpp"
@@ -22,7 +22,7 @@ Names counted_names(Names names) {
   return names;
 }
 
-// Ours, then the same as the thesis prints them.
+// Returns our tables, then the same as the thesis prints them.
 Names with_printed(Names names) {
   const Names ours = names;
   for (const std::string& name : ours) names.push_back("printed " + name);
@@ -45,14 +45,14 @@ std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
   return std::make_shared<const CacheStudy>(std::move(study));
 }
 
-// Of settings, each with its counted twin.
+// Returns settings, each with its counted twin.
 std::vector<Setting> with_counted(std::vector<Setting> settings) {
   const size_t count = settings.size();
   for (size_t i = 1; i < count; ++i) settings.push_back(counted(settings[i]));
   return settings;
 }
 
-// One number of rays, depth by depth, or transmitter by transmitter.
+// Makes a study of one number of rays, depth by depth, or transmitter by transmitter.
 CacheStudy operations_study(const std::string& name, std::vector<Setting> settings, bool by_transmitter) {
   return {.name = name,
           .settings = std::move(settings),
@@ -62,7 +62,7 @@ CacheStudy operations_study(const std::string& name, std::vector<Setting> settin
           .by_transmitter = by_transmitter};
 }
 
-// 1,000 doubled up to the thesis' 20,480,000 at most, which is the last.
+// The numbers of rays are 1,000 doubled up to the thesis' 20,480,000 at most, which is the last.
 CacheStudy rays_study(const std::string& name, std::vector<Setting> settings) {
   CacheStudy study{
       .name = name, .settings = std::move(settings), .rays = {}, .few_rays = {1000, 16000, 64000}, .at_once = 4};
@@ -77,14 +77,14 @@ bool writes_as_three_reads(const CacheRow& row) {
   return reads >= 2.5 && reads <= 3.5;
 }
 bool gathers_quickly(const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }
-// Of the chained tables that keep their entries.
+// Judges the chained tables that keep their entries.
 Judge<CacheRow> of_entries(std::optional<bool> (*holds)(const EntrySummary&)) {
   return of_each(chained_counted, [holds](const CacheRow& row) { return holds(row.entries); });
 }
 bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
 bool some_never_answer(const CacheRow& row) { return row.cache.entries_by_hits.front() > 0; }
 
-// What figures 6.3 and 6.7 claim of tracing a segment against looking it up.
+// Returns the claims of figures 6.3 and 6.7 about tracing a segment against looking it up.
 Claims<CacheRow> trace_claims(const Names& settings) {
   return {{"tracing takes longer than a read",
            of_each(settings, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); })},
@@ -94,13 +94,13 @@ Claims<CacheRow> trace_claims(const Names& settings) {
            of_each(settings, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); })}};
 }
 
-// What figure 6.3 claims beside that.
+// Returns the other claims of figure 6.3.
 Claims<CacheRow> bucket_claims() {
   Claims<CacheRow> claims = trace_claims(all_chained);
   claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_time_of_a_ray)});
   return claims;
 }
-// What figure 6.7 claims beside the same.
+// Returns the other claims of figure 6.7.
 Claims<CacheRow> region_claims() {
   Claims<CacheRow> claims = trace_claims(all_mutexes);
   claims.push_back({"regions that take longer to write and read are faster to trace",
@@ -111,7 +111,7 @@ Claims<CacheRow> region_claims() {
 
 OrderFigure all_orders() {
   Series direction_origin = ordered("direction-origin");
-  direction_origin.each_depth = true;  // what it is for: rays that no longer share their origin
+  direction_origin.each_depth = true;  // the method is meant for rays that no longer share their origin
   const std::string h3dh = "hilbert3d-histogram", hz = "morton-histogram", to_2d = h3dh + "-hilbert2d",
                     to_3d = h3dh + "-hilbert3d";
   Claims<OrderRow> claims = h3dh_gains();
@@ -169,10 +169,10 @@ const std::vector<Experiment> standing = {
      .doc = "chained cache: what a write and a read of a segment take, by hash",
      .title = "Operations of the chained table",
      .caption = operations_caption,
-     .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against 50 "
-                  "ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next to nothing "
-                  "(section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. What the table adds besides is "
-                  "the gathering of missed rays.",
+     .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against "
+                  "50 ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next "
+                  "to nothing (section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. "
+                  "What the table adds besides is the gathering of missed rays.",
      .figure =
          CacheFigure{
              .study = chained_operations,
@@ -186,10 +186,10 @@ const std::vector<Experiment> standing = {
      .doc = "chained cache: writes and reads against tracing",
      .title = "Operations of the chained table and tracing",
      .caption = operations_caption,
-     .paragraph =
-         "The thesis finds almost no tracing operation to exceed 2 s, and draws writes and reads far below it "
-         "(section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). Measured on {device} at {rays} rays. "
-         "A cache can only save time where a read is cheaper than tracing.",
+     .paragraph = "The thesis finds almost no tracing operation to exceed 2 s, and draws writes "
+                  "and reads far below it (section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). "
+                  "Measured on {device} at {rays} rays. "
+                  "A cache can only save time where a read is cheaper than tracing.",
      .figure =
          CacheFigure{.study = chained_operations, .view = operations(all_chained, true), .claims = bucket_claims()}},
     {.name = "figure-6.4",
@@ -210,9 +210,9 @@ const std::vector<Experiment> standing = {
      .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the chained table",
      .caption = times_caption,
-     .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, but "
-                  "between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). Measured on {device} with a "
-                  "warm table, one of them saves time {saves}.",
+     .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, "
+                  "but between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). "
+                  "Measured on {device} with a warm table, one of them saves time {saves}.",
      .figure = CacheFigure{.study = chained_rays,
                            .view = times_by_rays,
                            .claims = {{"no gain below 2,560,000 and beyond 10,240,000 rays",
@@ -250,16 +250,17 @@ const std::vector<Experiment> standing = {
      .doc = "open cache: writes and reads against tracing",
      .title = "Operations of the open table and tracing",
      .caption = regions_caption,
-     .paragraph = "The thesis finds operations of the open table much faster than tracing, 1 to 2.5 s against some "
-                  "0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
+     .paragraph = "The thesis finds operations of the open table much faster than tracing, "
+                  "1 to 2.5 s against some 0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
      .figure =
          CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained, true), .claims = region_claims()}},
     {.name = "figure-6.8",
      .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the open table",
      .caption = times_caption,
-     .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, most with "
-                  "the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, figure 6.8). "
+     .paragraph = "The thesis finds the open table with two locks to save time from some 50,000 rays on, "
+                  "most with the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, "
+                  "figure 6.8). "
                   "Measured on {device} with a warm table, one of them saves time {saves}.",
      .figure = CacheFigure{.study = open_rays,
                            .view = times_by_rays,
@@ -279,10 +280,10 @@ const std::vector<Experiment> standing = {
      .doc = "open cache with a mutex against none, rays in order",
      .title = "Frames with the open table, rays in order",
      .caption = times_caption,
-     .paragraph = "With a mutex and rays in order (here H3DH; the thesis does not say which), the thesis finds the "
-                  "open table to save time from some "
-                  "16,000 rays on, 2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a "
-                  "warm table, one of them saves time {saves}.",
+     .paragraph = "With a mutex and rays in order (here H3DH; the thesis does not say which), "
+                  "the thesis finds the open table to save time from some 16,000 rays on, "
+                  "2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a warm table, "
+                  "one of them saves time {saves}.",
      .figure = CacheFigure{.study = open_rays_ordered,
                            .view = times_by_rays,
                            .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))},

@@ -1,4 +1,4 @@
-// Two passes: means, then products of deviations. Values are counted from the first one, so that equal values have
+// Uses two passes: means, then products of deviations. Values are counted from the first one, so that equal values have
 // deviations of exactly zero.
 #include "study/statistics.hpp"
 #include <glm/geometric.hpp>
@@ -8,7 +8,7 @@
 namespace wavetracer::study {
 namespace {
 
-// x less its mean.
+// Returns x minus its mean.
 std::vector<double> deviations(std::span<const double> x) {
   std::vector<double> out(x.begin(), x.end());
   double sum = 0;

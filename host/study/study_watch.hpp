@@ -1,4 +1,4 @@
-// How far a study of caches is, and whether it is to stop.
+// The progress of a study of caches, and whether it should stop.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace wavetracer::study {
 
-// How far a study is, in rays that were launched; the last numbers of rays take most of the time.
+// The progress of a study in launched rays, since the largest numbers of rays take most of the time.
 struct StudyWatch {
   const Host& host;
   const std::string& name;
   uint64_t rays = 0, done = 0, all = 0;  // rays: of a frame
-  // Another frame begins; false: stopped.
+  // Begins another frame; returns false if it was stopped.
   bool next() {
     host.tell(name, done, all, "rays");
     done += rays;
@@ -21,13 +21,13 @@ struct StudyWatch {
   }
 };
 
-// What a point is cut into beside the whole.
+// The parts that are measured at a point besides the whole.
 struct PointCuts {
   uint32_t depths;
   size_t transmitters;
 };
 
-// Frames of all settings at a point.
+// Returns the frames of all settings at a point.
 inline uint64_t frames_of_point(const CacheStudy& study, const PointCuts& cuts, uint64_t frames, uint32_t repeats) {
   const size_t cut = cut_settings(study).size();
   const uint64_t groups = (study.settings.size() - 1 + study.at_once - 1) / study.at_once,

@@ -1,5 +1,5 @@
-// Tables as text. Cells hold no line ends; a bar in a cell is escaped.
-// Assumes ASCII, so that bytes are columns.
+// Writes tables as text. Cells must not contain line ends; a bar in a cell is escaped.
+// Text is ASCII, so that bytes are columns.
 #include "study/text.hpp"
 #include <fmt/args.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace wavetracer::study {
 namespace {
 
-constexpr double least = 0.001;  // what is said in full
+constexpr double least = 0.001;  // smallest value that is printed in full
 
 std::string percent(double value) { return fmt::format("{:.{}f}%", value, std::abs(value) < 9.95 ? 1 : 0); }
 

@@ -1,6 +1,6 @@
-// What an experiment says of its measurement: sentences, a verdict on each claim, and the numbers behind them.
-// The report, the terminal and the thesis' page show the same. Numbers are rounded here; whoever compares them with the
-// table of an experiment rounds likewise.
+// The words of an experiment about its measurement: sentences, a verdict on each claim, and the numbers behind them.
+// The report, the terminal and the thesis' page show the same. Numbers are rounded here; comparisons with the table of
+// an experiment must round in the same way.
 #pragma once
 #include <map>
 #include <string>
@@ -29,25 +29,25 @@ struct Words {
 
 NumberTable verdict_table(const std::vector<Verdict>& verdicts);
 
-// In Markdown, columns aligned, so that it can be read as it is.
+// Returns the table in Markdown with aligned columns, so that its source can be read.
 std::string markdown(const NumberTable& table);
-// The paragraph, the verdicts and the numbers; without an end of line.
+// Returns the paragraph, the verdicts and the numbers, without a final line end.
 std::string words_text(const Words& words);
 
-// What takes the place of {NAME} in a text.
+// The texts that replace {NAME}.
 using Fields = std::map<std::string, std::string>;
 // Throws std::runtime_error for a name that has no field.
 std::string filled(const std::string& text, const Fields& fields);
 
-// "12.3", "1230", "0.0012", "less than 0.001": never an exponent. digits: those that count.
+// Returns "12.3", "1230", "0.0012", "less than 0.001": never an exponent. digits: number of significant digits.
 std::string plain(double value, int digits = 3);
-// A share as "2.5%", "0.031%" or "none".
+// Returns a share as "2.5%", "0.031%" or "none".
 std::string share_words(double share);
-// "12% less time", "3.0% more time", "the same time" within half a percent.
+// Returns "12% less time", "3.0% more time", or "the same time" within half a percent.
 std::string saved_words(double percent);
-// "confirmed" or "not confirmed".
+// Returns "confirmed" or "not confirmed".
 std::string verdict(bool holds);
-// "a, b and c"
+// Returns "a, b and c".
 std::string list_words(const std::vector<std::string>& words);
 
 }  // namespace wavetracer::study

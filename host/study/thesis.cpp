@@ -1,5 +1,5 @@
-// Figure by figure: measure or take the study's rows, write the files, keep what the page shows.
-// Requests are made before anything is measured: what is wrong with one is a mistake of the user's, and not forgiven.
+// Goes figure by figure: measures or takes the study's rows, writes the files, keeps the section for the page.
+// Requests are made before anything is measured: a mistake of the user in one of them ends the program.
 #include "study/thesis.hpp"
 #include <fmt/format.h>
 #include <map>
@@ -37,7 +37,7 @@ Findings findings(const Experiment& experiment, const Request& request, const Ho
   return show(experiment, studies.at(study.name), request);
 }
 
-// What the page shows of a figure; errors become sentences.
+// Returns the page's section of a figure; errors become sentences.
 Section figure_of(const Experiment& experiment, const Request& request, const Host& host, Studies& studies,
                   Report& report) {
   Section figure = unmeasured(experiment);
@@ -67,18 +67,18 @@ void write(const fs::path& path, const std::string& text) {
   PendingFile(path, std::as_bytes(std::span(text))).commit();
 }
 
-// The page as far as it goes, so that whatever ends the program later leaves it.
+// Writes the page so far, so that it exists even if the program is ended later.
 void write_so_far(const ThesisPage& page, const fs::path& directory) {
   PendingDirectory folder(directory);
   write(folder.path() / "thesis.html", thesis_html(page));
   folder.keep();
 }
 
-// thesis.csv, its plot and the page.
+// Writes thesis.csv, its plot and the page.
 void write_page(ThesisPage& page, const fs::path& directory, const Host& host, Report& report) {
   PendingDirectory folder(directory);
   const auto named = [&folder](const char* name) { return folder.path() / name; };
-  remove_old_file(named("thesis.svg"));  // an earlier one would belie the new table
+  remove_old_file(named("thesis.svg"));  // an old plot would not match the new table
   if (!page.rows.empty()) {
     write(named("thesis.csv"), speed_error_table(page.rows));
     write(named("thesis.gp"), speed_error_script(page.rows, page.heading.device.name));
@@ -105,7 +105,7 @@ std::vector<const Experiment*> thesis_experiments() {
 
 Report run_thesis(const std::function<Request(const Experiment&)>& request_for, const Host& host) {
   const std::vector<const Experiment*> figures = thesis_experiments();
-  std::vector<Request> requests;  // all of them before hours of measuring, since each may hold a mistake of the user's
+  std::vector<Request> requests;  // all of them before hours of measuring, since each may contain a mistake of the user
   for (const Experiment* experiment : figures) requests.push_back(request_for(*experiment));
   const Request& first = requests.front();
   Config probe = first.config;

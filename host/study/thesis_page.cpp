@@ -1,5 +1,5 @@
 // The page and its picture: strings only.
-// A row of the table has cells that need no escape but its names.
+// Only the names in a row of the table may need escapes.
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
@@ -10,8 +10,8 @@
 namespace wavetracer::study {
 namespace {
 
-// Of every study, drive and setting the row with the most rays; settings without a cache of their own, which others are
-// measured by, are left out.
+// Returns for every study, drive and setting the row with the most rays, without the settings that have no cache and
+// serve as references.
 std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
   const auto key = [](const CacheRow& row) { return std::tie(row.study, row.drive, row.setting); };
   std::map<std::tuple<std::string, std::string, std::string>, uint64_t> most;
@@ -24,7 +24,7 @@ std::vector<CacheRow> best_known(const std::vector<CacheRow>& rows) {
 
 bool shown(const CacheRow& row) { return is_whole(row) && row.error.reference_paths > 0 && row.cache.on; }
 
-// Of each cache at its most rays.
+// Returns the numbers of each cache at its most rays.
 NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
   NumberTable table{
       .caption = "",
@@ -43,7 +43,7 @@ NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
   return table;
 }
 
-// Every claim, and where more of it is.
+// Lists every claim, and where the page has more about it.
 std::string verdicts_html(const std::vector<Section>& figures) {
   std::string text = "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<p>" + outcome_counts(figures) +
                      "</p>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
@@ -117,7 +117,7 @@ std::string speed_error_script(const std::vector<CacheRow>& rows, const std::str
   plot.x_label = "time saved (%)";
   plot.points = true;
   plot.least_x = -100;
-  // No error is drawn at the bottom of an axis.
+  // Rows without an error are drawn at the bottom of an axis.
   plot.panels = {{"lost power", "lost_power", "share", "", true, 1e-7},
                  {"lost paths", "lost_share", "share", "", true, 1e-5},
                  {"spurious paths", "spurious_share", "share", "", true, 1e-5},

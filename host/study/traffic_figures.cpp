@@ -1,5 +1,5 @@
-// Figures 6.10 to 6.13, and coherence-frames: caches in traffic, purged by the transmitter's position or by precision;
-// correlation between frames.
+// Figures 6.10 to 6.13, and coherence-frames: caches in traffic, whose entries expire by the transmitter's position or
+// by precision; correlation between frames.
 // Claims: A. Zhdanov, TU Munich, 2014, section 6.3.2.
 #include <memory>
 #include "study/cache_claims.hpp"
@@ -12,11 +12,12 @@ namespace {
 
 constexpr const char* frames_caption = "Correlation and common surfaces of frames against time";
 constexpr const char* frames_paragraph =
-    "The thesis finds subsequent frames of traffic to correlate by about 25% on average, from less than 5% to almost "
-    "50%, by equation 6.4 (section 6.3.2, figure 6.13), which leaves open which points are paired and, as printed, is "
-    "not divided by the root of three. Measured on {device}, {rays} rays of a transmitter that drives {moved} m "
-    "through {world} in {frames} frames; subsequent ones are {apart} m apart. The last row is the share of "
-    "rays for which a sequence of the first frame, {age} s old, still stands.";
+    "The thesis finds subsequent frames of traffic to correlate by about 25% on average, "
+    "from less than 5% to almost 50%, by equation 6.4 (section 6.3.2, figure 6.13), which leaves open "
+    "which points are paired and, as printed, is not divided by the root of three. Measured on {device}, "
+    "{rays} rays of a transmitter that drives {moved} m through {world} in {frames} frames; "
+    "subsequent ones are {apart} m apart. The last row is the share of rays for which a sequence of "
+    "the first frame, {age} s old, still stands.";
 
 Claims<FramePair> frame_claims() {
   return {{"subsequent frames correlate by about 25% on average: 20 to 30%", correlate_on_average(0.2, 0.3)},
@@ -45,9 +46,10 @@ const std::vector<Experiment> traffic = {
      .doc = "traffic: distance of centroids with a cache from those without, frame by frame",
      .title = "Distance of centroids",
      .caption = "Distance of centroids and its running mean",
-     .paragraph = "Figure 6.10 of the thesis shows its program at work: the centroids of two clouds of points, their "
-                  "distance in the frame and its average so far (equations 6.2 and 6.3). Here both are drawn frame "
-                  "by frame, of path vertices with a cache against none. Measured on {device} at {rays} rays.",
+     .paragraph = "Figure 6.10 of the thesis shows its program at work: the centroids of two clouds of points, "
+                  "their distance in the frame and its average so far (equations 6.2 and 6.3). "
+                  "Here both are drawn frame by frame, of path vertices with a cache against none. "
+                  "Measured on {device} at {rays} rays.",
      .figure = CacheFigure{.study = centroid_study,
                            .view = centroids(
                                {position_mixed, precision_mixed, printed(position_mixed), printed(precision_mixed)})}},
@@ -55,8 +57,8 @@ const std::vector<Experiment> traffic = {
      .doc = "traffic: time with position purging, precision purging and no cache",
      .title = "Frames in traffic by purging",
      .caption = "Average time of a frame against the number of rays",
-     .paragraph = "The thesis finds the open table to take 10% less time than no cache for few and medium numbers of "
-                  "rays and 15% for many if purged by position, 30% and 17% by precision 0.0125 (section 6.3.2, "
+     .paragraph = "The thesis finds the open table to take 10% less time than no cache for few and medium numbers "
+                  "of rays and 15% for many if purged by position, 30% and 17% by precision 0.0125 (section 6.3.2, "
                   "figure 6.11). Measured on {device}.",
      .figure =
          CacheFigure{
@@ -80,9 +82,9 @@ const std::vector<Experiment> traffic = {
      .title = "Errors in traffic by purging",
      .caption = "Error against the number of rays",
      .paragraph = "The thesis finds the centroid of the points to be off by 2 units at most if purged by position, "
-                  "but for 8 at the first number of rays, and by 7 at most by precision 0.093, three times as far on "
-                  "average, and leaves open what a unit is to a path (section 6.3.2, figure 6.12). Measured on "
-                  "{device}, of path vertices in metres.",
+                  "but for 8 at the first number of rays, and by 7 at most by precision 0.093, "
+                  "three times as far on average, and leaves open what a unit is to a path (section 6.3.2, "
+                  "figure 6.12). Measured on {device}, of path vertices in metres.",
      .figure =
          CacheFigure{
              .study = purging,

@@ -1,5 +1,5 @@
-// Configurations made of configurations.
-// Assumes of the built-in city that its traffic is generated with the city's own options.
+// Makes configurations from configurations.
+// The built-in city's traffic is generated with the city's own options.
 #include "study/worlds.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -49,14 +49,14 @@ Config with_traffic(const Config& city, const std::string& drive, uint64_t frame
 }
 
 Config driven(const Config& asked, uint64_t frames) {
-  Config standing = asked;  // stations send and receive by themselves: the first of all that send is what moves
+  Config standing = asked;  // stations send and receive: the first of all transmitters is the one that moves
   standing.transmitters.insert(standing.transmitters.end(), asked.stations.begin(), asked.stations.end());
   standing.receivers.insert(standing.receivers.end(), asked.stations.begin(), asked.stations.end());
   standing.stations.clear();
   if (standing.transmitters.empty())
     throw ConfigError(
-        fmt::format("{}nothing that sends can be driven: give a [[transmitter]] or a [[station]], or vehicles "
-                    "with antennas ([[mount]]) and their trajectories",
+        fmt::format("{}nothing that sends can be driven: give a [[transmitter]] or a [[station]], "
+                    "or vehicles with antennas ([[mount]]) and their trajectories",
                     standing.file.empty() ? "" : standing.file + ": "));
   const RadioEnd& end = standing.transmitters.front();
   Config config = standing;
@@ -79,7 +79,7 @@ Config driven(const Config& asked, uint64_t frames) {
                     .polarization = end.polarization,
                     .orientation_deg = end.orientation_deg}};
   config.transmitters.clear();
-  config.links.transmitters = {"*"};  // the end has another name now, and is one of a vehicle
+  config.links.transmitters = {"*"};  // the end has another name now, and belongs to a vehicle
   config.links.v2i = config.links.i2i;
   return config;
 }

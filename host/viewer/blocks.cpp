@@ -1,5 +1,5 @@
 // Base64 by RFC 4648, and the elements around it.
-// JSON keeps its meaning when < stands as an escape, because < appears in it within strings only.
+// In JSON every < is replaced by an escape, which keeps the meaning, because < appears within strings only.
 #include "viewer/blocks.hpp"
 
 namespace wavetracer {

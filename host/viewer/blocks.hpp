@@ -1,5 +1,5 @@
-// Binary data on a page: little-endian arrays in base64, which the page's data.js reads by their names.
-// Values that 16 bits cannot hold are clamped, those that are no numbers become 0.
+// Binary data on a page: little-endian arrays in base64, which the page's data.js reads by name.
+// Values that 16 bits cannot hold are clamped; NaN becomes 0.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,7 @@ namespace wavetracer {
 
 static_assert(std::endian::native == std::endian::little, "pages hold little-endian arrays");
 
-// Bytes of values one after the other.
+// The bytes of values one after the other.
 class Packer {
  public:
   template <class T>
@@ -23,7 +23,7 @@ class Packer {
   void add(const glm::dvec3& p) {
     for (int axis = 0; axis < 3; ++axis) add(static_cast<float>(p[axis]));
   }
-  // value in -limit..limit as a multiple of limit / 32767.
+  // Adds a value in -limit..limit as a multiple of limit / 32767.
   void add_share(double value, double limit) {
     const double share = std::isfinite(value) ? std::clamp(value / limit, -1.0, 1.0) : 0.0;
     add(static_cast<int16_t>(std::lround(32767 * share)));
@@ -37,10 +37,10 @@ class Packer {
 
 std::string base64(std::string_view bytes);
 
-// An element that a browser shows and runs nothing of. name: letters, digits and _.
+// Returns an element that a browser neither shows nor runs. name: letters, digits and _.
 std::string block_element(const std::string& name, const Packer& data);
 
-// JSON text for a script element: ASCII, without a character that could end the element.
+// Returns JSON text for a script element: ASCII, without a character that could end the element.
 std::string script_text(std::string json);
 
 }  // namespace wavetracer

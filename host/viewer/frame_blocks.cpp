@@ -1,5 +1,5 @@
-// Each frame is one block: counts, then 4-byte, 2-byte and 1-byte columns, so that all are aligned where they lie.
-// float32 relative to the centre is 0.1 mm in a city; angles are 16 bits, 0.006 degrees.
+// Each frame is one block: counts, then 4-byte, 2-byte and 1-byte columns, so that all are aligned. Coordinates are
+// float32 relative to the centre, exact to 0.1 mm in a city; angles have 16 bits, 0.006 degrees.
 #include "viewer/frame_blocks.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace wavetracer {
 namespace {
 
 constexpr uint64_t link_bytes = 33, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
-// Links take at most this share of the room: the gain over time of a link is worth less than the paths to look at.
-// Where there is a map, its colours come first.
+// Links take at most this share of the space: the gain of a link over time is worth less than the paths. If there is a
+// map, its colours come first.
 constexpr double links_share = 0.25, map_links_share = 0.75;
 
 uint64_t path_bytes(const Paths& paths, size_t path) {
@@ -60,7 +60,7 @@ void add_columns(const Paths& paths, const std::vector<size_t>& kept, Packer& wi
   for (const size_t i : kept) wide.add(paths.tx[i]);
   for (const size_t i : kept) wide.add(paths.rx[i]);
   uint32_t vertices = 0;
-  for (const size_t i : kept) wide.add(vertices += paths.depth[i]);  // where the vertices of the path end
+  for (const size_t i : kept) wide.add(vertices += paths.depth[i]);  // index at which the vertices of the path end
   for (const auto* column : {&paths.aod_theta_rad, &paths.aod_phi_rad, &paths.aoa_theta_rad, &paths.aoa_phi_rad})
     for (const size_t i : kept)
       narrow.add_share(std::remainder((*column)[i], glm::two_pi<double>()), glm::pi<double>());
@@ -113,10 +113,10 @@ void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {
   box = box ? PageBounds{glm::min(box->lower, point), glm::max(box->upper, point)} : PageBounds{point, point};
 }
 
-// What a first look at all frames tells: how strong rows are, and what takes room in any case.
+// A first pass over all frames: the strengths of rows, and the bytes that are needed in any case.
 struct Survey {
   Strongest paths, links;
-  uint64_t fixed_bytes = 0;  // that frames take without paths and links
+  uint64_t fixed_bytes = 0;  // bytes of frames without paths and links
 
   Survey(const SavedRun& run, const FrameSelection& selection, FrameBlocks& out) {
     const auto own = static_cast<uint64_t>(std::ranges::count(selection.own_receivers, true));
@@ -143,8 +143,8 @@ struct Survey {
   }
 };
 
-// The rows of the paths that the page holds, the weakest first: it draws them in this order, so that the strongest lie
-// on top.
+// Returns the rows of the paths that the page holds, the weakest first: it draws them in this order, so that the
+// strongest lie on top.
 std::vector<size_t> kept_paths(const Paths& paths, Strongest& strongest) {
   std::vector<size_t> kept;
   for (size_t i = 0; i < paths.size(); ++i)

@@ -1,5 +1,5 @@
 // A grid begins with a cell 0,0 and ends where the next name is not that of the next cell.
-// A last row that is not whole makes it no grid: its receivers are then ends like others.
+// If its last row is incomplete, it is no grid: its receivers are then ordinary ends.
 #include "viewer/grid_maps.hpp"
 #include <algorithm>
 #include "simulation/receiver_grid.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t least_cells = 4;
 
-// The grid whose cell 0,0 is receiver `first`; count() = 0 where there is none.
+// Returns the grid whose cell 0,0 is receiver `first`; count() = 0 if there is none.
 GridMap grid_from(const std::vector<RadioEnd>& receivers, uint32_t first) {
   const std::string& name = receivers[first].name;
   constexpr std::string_view begin = "/0,0";

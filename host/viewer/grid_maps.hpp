@@ -1,5 +1,5 @@
-// Receivers that make up a grid, as [[receiver_grid]] does: the page draws them as a map and not one by one.
-// Known by their names, NAME/IX,IY row by row, so that a run needs no configuration to be read.
+// Receivers that form a grid, as [[receiver_grid]] makes it: the page draws them as a map and not one by one. They are
+// recognised by their names, NAME/IX,IY row by row, so that a run can be read without its configuration.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,16 +16,16 @@ struct GridMap {
   uint32_t count() const { return columns * rows; }
 };
 
-// In the order of their receivers; at least 2 x 2 cells, or 4 in a row.
+// Returns grids in the order of their receivers, of at least 2 x 2 cells, or 4 in a row.
 std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers);
 
-// Appends an element block_grid_K of heights for each grid, and returns what else the page must know of them.
-// position_m: of all receivers of the run. Assumes that cells lie in equal steps along x and y, and never move.
+// Appends an element block_grid_K of heights for each grid, and returns the other data that the page needs about them.
+// position_m: of all receivers of the run. Cells must lie in equal steps along x and y, and never move.
 nlohmann::json add_grid_blocks(const std::vector<GridMap>& grids, const std::vector<RadioEnd>& receivers,
                                const std::vector<glm::dvec3>& position_m, const glm::dvec3& centre_m,
                                std::string& elements);
 
-// Whether each receiver is on its own, and not a cell of a grid.
+// Tells for each receiver whether it is on its own, and not a cell of a grid.
 std::vector<bool> outside_of_grids(const std::vector<GridMap>& grids, size_t receivers);
 
 }  // namespace wavetracer

@@ -25,7 +25,7 @@ std::vector<LinkRow> empty_rows(const SavedFrame& frame) {
   return rows;
 }
 
-// |h|^2 at the carrier, as radio/links.cpp has it. Whole turns of the phase are left out before the sine is taken.
+// Adds |h|^2 at the carrier, as in radio/links.cpp. Whole turns of the phase are removed before the sine is taken.
 void add_narrowband_gains(const Paths& paths, const std::vector<size_t>& row_of, double frequency_hz,
                           std::vector<LinkRow>& rows) {
   using Response = std::remove_cvref_t<decltype(paths.a[0])>;
@@ -42,7 +42,8 @@ void add_narrowband_gains(const Paths& paths, const std::vector<size_t>& row_of,
   }
 }
 
-// As radio/grouped_power.hpp has them. Paths of a link may stand apart in a file, which has no groups of them then.
+// Adds path gains as in radio/grouped_power.hpp. Paths of a link may be apart in a file; then the file has no groups of
+// them.
 void add_path_gains(const Paths& paths, const std::vector<size_t>& row_of, double frequency_hz,
                     std::vector<LinkRow>& rows) {
   std::vector<double> power(rows.size(), 0);
@@ -54,7 +55,7 @@ void add_path_gains(const Paths& paths, const std::vector<size_t>& row_of, doubl
     if (power[k] > 0) rows[k].path_gain_db = 10 * std::log10(power[k]);
 }
 
-// The row of a link, which is there.
+// Returns the row of a link, which must exist.
 size_t row_of_link(const std::vector<LinkRow>& rows, const Link& link) {
   const auto found = std::lower_bound(rows.begin(), rows.end(), link,
                                       [](const LinkRow& row, const Link& wanted) { return row.link < wanted; });

@@ -1,4 +1,4 @@
-// Points of rays, column by column.
+// Writes points of rays, column by column.
 // A ray is one sample of one transmitter: its rows follow each other, sorted by depth.
 #include "viewer/ray_blocks.hpp"
 #include <fmt/format.h>
@@ -8,9 +8,9 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t bytes_per_point = 15;  // in base64 a third more
+constexpr uint64_t bytes_per_point = 15;  // a third more in base64
 
-// Of each `step`-th ray its points but the receivers that it passes.
+// Returns the points of each `step`-th ray, without the receivers that it passes.
 std::vector<size_t> shown_points(const WaypointRows& rows, uint64_t step) {
   std::vector<size_t> out;
   uint64_t ray = 0;

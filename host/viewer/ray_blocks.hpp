@@ -1,4 +1,4 @@
-// Sampled rays (waypoints.h5) as blocks of a page.
+// Writes sampled rays (waypoints.h5) as blocks of a page.
 #pragma once
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -9,15 +9,15 @@
 namespace wavetracer {
 
 struct RayBlocks {
-  nlohmann::json frames = nlohmann::json::array();  // of each frame: points on the page
-  uint32_t highest_depth = 0;                       // of a point on the page
-  bool sources = false;                             // the file says who found where segments end
-  std::string warning;                              // which rays were left out, if any
+  nlohmann::json frames = nlohmann::json::array();  // for each frame, the number of points on the page
+  uint32_t highest_depth = 0;                       // largest depth of a point on the page
+  bool sources = false;                             // the file says what found the ends of segments
+  std::string warning;                              // says which rays were left out, if any
 };
 
 // Appends the elements block_rays_0, block_rays_1, ... for these frames, by their numbers. Points of a ray follow each
-// other; receivers that a ray passes are not among them. bytes: of base64, of all of them together; where they do not
-// fit, every second, third, ... ray is left out of all frames. The layout stands in page/rays.js.
+// other; receivers that a ray passes are not among them. bytes: limit of base64 for all of them together; if the rays
+// do not fit, only every second, third, ... ray of all frames is kept. page/rays.js describes the layout.
 RayBlocks add_ray_blocks(const SavedWaypoints& waypoints, const std::vector<uint32_t>& frames,
                          const glm::dvec3& centre_m, uint64_t bytes, std::string& elements);
 

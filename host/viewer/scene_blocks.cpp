@@ -1,4 +1,4 @@
-// Triangles keep their surface, surfaces their material and object, wedges their faces: what a click can ask for.
+// Triangles keep their surface, surfaces their material and object, wedges their faces, so that a click can show them.
 // Outlines are the edges that are not flat.
 #include "viewer/scene_blocks.hpp"
 #include "scene/volume_surface.hpp"

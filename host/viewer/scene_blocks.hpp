@@ -1,4 +1,4 @@
-// The city and the models of vehicles as blocks of a page, and the names that their surfaces have.
+// Writes the city and the models of vehicles as blocks of a page, and the names of their surfaces.
 // Coordinates are relative to the centre that the caller chose.
 #pragma once
 #include <glm/vec3.hpp>
@@ -8,8 +8,9 @@
 
 namespace wavetracer {
 
-// Appends the elements of the scene's blocks, all called PREFIX_..., and returns what the page must know of them.
-// from_centre_m: of the origin of the scene's vertices. free_edges: whether edges of one face count as diffracting.
+// Appends the elements of the scene's blocks, all called PREFIX_..., and returns the other data that the page needs
+// about them. from_centre_m: position of the origin of the scene's vertices. free_edges: whether edges of one face
+// count as diffracting.
 nlohmann::json add_scene_blocks(const Scene& scene, const std::string& prefix, const glm::dvec3& from_centre_m,
                                 bool free_edges, std::string& elements);
 

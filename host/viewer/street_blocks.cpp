@@ -1,5 +1,5 @@
 // A band has two vertices for each point of the centre line: to its left and to its right.
-// At a bend both lie on the line that halves the angle, so that the band keeps its width; at sharp ones nearly.
+// At a bend both lie on the line that halves the angle, so that the band keeps its width, at sharp bends approximately.
 #include "viewer/street_blocks.hpp"
 
 #include <fmt/format.h>
@@ -15,15 +15,15 @@
 namespace wavetracer {
 namespace {
 
-constexpr size_t most_points = 500'000;  // some 16 MB of a page
+constexpr size_t most_points = 500'000;  // about 16 MB of a page
 constexpr double margin_m = 100;
-constexpr double above_ground_m = 0.03;      // so that the ground does not hide them
-constexpr double least_cosine = 0.5;         // of half a bend: bands of sharp bends get no spikes
-constexpr double shortest_segment_m = 1e-3;  // shorter ones have no direction
+constexpr double above_ground_m = 0.03;      // so that the ground does not hide the streets
+constexpr double least_cosine = 0.5;         // for half a bend: bands of sharp bends get no spikes
+constexpr double shortest_segment_m = 1e-3;  // shorter segments have no direction
 
 glm::dvec2 flat(const glm::dvec3& p) { return {p.x, p.y}; }
 
-// Points that follow each other at one place are one.
+// Removes points that repeat the one before.
 std::vector<glm::dvec3> distinct(const std::vector<glm::dvec3>& line) {
   std::vector<glm::dvec3> out;
   for (const glm::dvec3& p : line)
@@ -31,7 +31,7 @@ std::vector<glm::dvec3> distinct(const std::vector<glm::dvec3>& line) {
   return out;
 }
 
-// To the left, from the centre line to the rim of the band at point k.
+// Returns the vector to the left, from the centre line to the rim of the band at point k.
 glm::dvec2 to_rim(const std::vector<glm::dvec3>& line, size_t k, double half_width_m) {
   const auto left = [&](size_t from) {
     const glm::dvec2 along = glm::normalize(flat(line[from + 1]) - flat(line[from]));
@@ -40,13 +40,13 @@ glm::dvec2 to_rim(const std::vector<glm::dvec3>& line, size_t k, double half_wid
   const glm::dvec2 before = left(k > 0 ? k - 1 : 0), after = left(std::min(k, line.size() - 2));
   const glm::dvec2 sum = before + after;
   const double length = glm::length(sum);
-  if (length < 1e-9) return half_width_m * after;  // it turns back
+  if (length < 1e-9) return half_width_m * after;  // the street turns back
   return sum * (half_width_m / (length * std::max(length / 2, least_cosine)));
 }
 
 struct Bands {
   Packer vertices, triangles;
-  uint32_t count = 0;  // of vertices
+  uint32_t count = 0;  // number of vertices
 
   void add(const std::vector<glm::dvec3>& rims, const glm::dvec3& centre_m) {
     for (size_t k = 0; k < rims.size(); k += 2) {

@@ -1,5 +1,5 @@
-// Puts the page together: metadata as JSON, blocks in base64, then the sources of the page in the order of their needs.
-// Names from files stand in the JSON only, and the page shows them as text, never as markup.
+// Puts the page together: metadata as JSON, blocks in base64, then the sources of the page in the order of their
+// dependencies. Names from files appear in the JSON only, and the page shows them as text, never as markup.
 #include "viewer/view.hpp"
 #include <fmt/format.h>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t least_frame_bytes = 8'000'000;  // for frames, even where the scene fills the page
-constexpr uint64_t form_bytes = 20'000;            // at most, of index.html, style.css and a warning or two
+constexpr uint64_t least_frame_bytes = 8'000'000;  // space for frames, even if the scene fills the page
+constexpr uint64_t form_bytes = 20'000;            // largest size of index.html, style.css and a warning or two
 
 std::vector<size_t> chosen_rows(const SavedRun& run, const ViewOptions& options) {
   std::vector<size_t> rows;
@@ -38,7 +38,7 @@ std::vector<size_t> chosen_rows(const SavedRun& run, const ViewOptions& options)
 
 bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// What float32 coordinates on the page are relative to: the scene's origin, or the middle of the ends.
+// Returns the origin of float32 coordinates on the page: the scene's origin, or the middle of the ends.
 glm::dvec3 centre_of(const SavedRun& run, const Scene& scene, size_t row) {
   if (!scene.vertices.empty()) return scene.origin_m;
   const SavedFrame frame = run.frame(row);
@@ -59,7 +59,7 @@ json transmitter_rows(const SavedRun& run) {
   return rows;
 }
 
-// Without the cells of grids, whose names the page makes itself.
+// Leaves out the cells of grids, whose names the page makes itself.
 json receiver_rows(const SavedRun& run, const std::vector<bool>& own) {
   json rows = json::array();
   for (size_t i = 0; i < own.size(); ++i)
@@ -67,8 +67,8 @@ json receiver_rows(const SavedRun& run, const std::vector<bool>& own) {
   return rows;
 }
 
-// A row per kind of path, the least special first: the code of its interaction, 0 of line of sight; the words of the
-// interaction and of the path; its colours; whether the run has computed it, or holds one.
+// Returns a row per kind of path, the least special first: the code of its interaction, 0 for line of sight; the words
+// for the interaction and the path; its colours; whether the run has computed it, or holds one.
 json path_kind_rows(const Config& config, uint32_t interactions) {
   json rows = json::array();
   const auto add = [&](unsigned code, std::string_view interaction, const PathKind& kind, bool shown) {
@@ -104,7 +104,7 @@ json instance_rows(const SavedRun& run, const SavedWorld& world) {
   return rows;
 }
 
-// What the page needs to tell received powers; null where the configuration does not give it.
+// Returns the values that the page needs for received powers; null if the configuration does not give them.
 json link_budget_row(const RadioConfig& radio) {
   const double noise = noise_dbm(radio);
   return {{"transmit_power_dbm", radio.transmit_power_dbm ? json(*radio.transmit_power_dbm) : json()},
@@ -129,15 +129,15 @@ json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& 
 void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
   if (blocks.shown_paths < blocks.paths)
     page.warnings.push_back(
-        fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) or another "
-                    "limit (--max-paths) show the others",
+        fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) "
+                    "or another limit (--max-paths) show the others",
                     blocks.shown_paths, blocks.paths));
   if (blocks.shown_links < blocks.links)
     page.warnings.push_back(fmt::format("gains over time are there for the {} strongest of {} links of all frames",
                                         blocks.shown_links, blocks.links));
 }
 
-// Sampled rays, for which a quarter of the page is kept; null where the run holds none.
+// Writes sampled rays, which may take a quarter of the page; null if the run holds none.
 json ray_rows(const SavedRun& run, const std::vector<size_t>& rows, const ViewOptions& options,
               const glm::dvec3& centre_m, std::string& elements, ViewPage& page) {
   const std::optional<SavedWaypoints> waypoints = saved_waypoints(run);
@@ -158,7 +158,7 @@ struct Mark {
   std::string_view mark, text;
 };
 
-// The template with its marks, in their order, replaced by their texts.
+// Returns the template with its marks, in their order, replaced by their texts.
 std::string filled(std::string_view form, std::initializer_list<Mark> marks) {
   size_t size = form.size();
   for (const Mark& mark : marks) size += mark.text.size();

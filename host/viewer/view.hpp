@@ -1,5 +1,5 @@
-// A run as one HTML page that needs no network and opens from the disk: city, vehicles, ends, paths, charts.
-// What does not fit into the page is left out by power, the weakest first, and counted.
+// Makes one HTML page of a run that needs no network and opens from the disk: city, vehicles, ends, paths, charts. If
+// not all paths fit, the weakest are left out and counted.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -10,28 +10,28 @@
 
 namespace wavetracer {
 
-// What browsers open in a second or two.
+// A size that browsers open in a second or two.
 constexpr uint64_t page_bytes = 60'000'000;
 
 struct ViewOptions {
   // Numbers of frames, both ends included.
   uint32_t first_frame = 0, last_frame = std::numeric_limits<uint32_t>::max();
-  uint64_t max_paths = 0;           // of all frames, the strongest; 0: as many as keep the page below max_bytes
+  uint64_t max_paths = 0;           // the strongest of all frames; 0: as many as keep the page below max_bytes
   std::string title = {};           // empty: the run's folder
-  uint64_t max_bytes = page_bytes;  // of the page, where the scene leaves room for 8 MB of frames
-  double reload_s = 0;              // after which the page loads itself again; 0: never
+  uint64_t max_bytes = page_bytes;  // limit of the page, if the scene leaves room for 8 MB of frames
+  double reload_s = 0;              // the page reloads itself after this time; 0: never
 };
 
 struct ViewPage {
   std::string html;  // ASCII
   size_t frames = 0;
-  uint64_t paths = 0;                 // on the page
-  std::vector<std::string> warnings;  // what is missing or was left out; the page shows them too
+  uint64_t paths = 0;                 // number of paths on the page
+  std::vector<std::string> warnings;  // missing or omitted parts; the page shows them too
 };
 
-// Throws ConfigError where the run has no frame between those two, InputError where its file is damaged.
+// Throws ConfigError if the run has no frame between those two, InputError if its file is damaged.
 ViewPage make_view(const SavedRun& run, const ViewOptions& options);
-// The same of a run whose world was loaded already, with outlines.
+// Does the same for a run whose world was loaded already, with outlines.
 ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptions& options);
 
 }  // namespace wavetracer

@@ -1,11 +1,11 @@
-// Antenna arrays: where the elements of an end are, and what a path is between every two elements of its ends.
-// A path is solved once, between the centres of the arrays. Its length between two elements follows from its geometry:
-// with radio.wavefront = "spherical" exactly, from the images of the elements in the mirrors of the path and from the
-// edges and tiles between them; with "plane" to first order, from its directions at both ends. Assumes that elements
-// see the same sequences of surfaces as the centres do. Fresnel coefficients, patterns and polarisations are those at
-// the centres.
+// Antenna arrays: the positions of an end's elements, and the path between every two elements of its ends. A path is
+// solved once, between the centres of the arrays. Its length between two elements follows from its geometry: with
+// radio.wavefront = "spherical" exactly, from the images of the elements in the mirrors of the path and from the edges
+// and tiles between them; with "plane" to first order, from its directions at both ends. Elements are assumed to see
+// the same sequences of surfaces as the centres. Fresnel coefficients, patterns and polarisations are those at the
+// centres.
 //
-// Shapes. Of an end: elements x ports; antenna number i of an end is element i / ports, port i % ports. Matrices are
+// An end has elements x ports antennas; antenna number i of an end is element i / ports, port i % ports. Matrices are
 // row major: [receiver's ...][transmitter's ...].
 #pragma once
 #include <complex>
@@ -22,23 +22,23 @@ namespace wavetracer {
 
 class Simulation;
 
-// Where the elements of an end are in the axes of its antenna (boresight +x), metres from the position of the end; one
-// element in the origin for an end without an array. Elements of a panel are in the plane x = 0, column by column:
-// element column * rows + row; columns go towards +y, rows down from +z, as those of sionna.rt.PlanarArray. Throws
-// ConfigError for an array that the configuration does not have.
+// Returns the positions of an end's elements in the axes of its antenna (boresight +x), in metres from the position of
+// the end; one element in the origin for an end without an array. Elements of a panel are in the plane x = 0, column by
+// column: element column * rows + row; columns go towards +y, rows down from +z, as those of sionna.rt.PlanarArray.
+// Throws ConfigError for an array that is not in the configuration.
 std::vector<glm::dvec3> element_positions_m(const Config& config, const RadioEnd& end);
 
-// Frequencies and times of [response]; both empty where it is off. Frequencies are absolute: of each carrier in its
-// order carrier + k bandwidth / subcarriers, k from -floor(subcarriers / 2) on. Times are counted from that of the
-// frame.
+// Return the frequencies and times of [response]; both are empty if it is off. Frequencies are absolute: for each
+// carrier in order, carrier + k bandwidth / subcarriers, with k from -floor(subcarriers / 2) on. Times are relative to
+// that of the frame.
 std::vector<double> response_frequencies_hz(const Config& config);
 std::vector<double> response_times_s(const Config& config);
 
 // One path between all pairs of elements, [rx element][tx element].
 struct ElementPaths {
   uint32_t rx_elements = 1, tx_elements = 1;
-  std::vector<double> delay_s;    // of the path between these elements
-  std::vector<double> amplitude;  // by which it spreads there, over that between the centres
+  std::vector<double> delay_s;    // delay of the path between these elements
+  std::vector<double> amplitude;  // spreading factor of the amplitude there, relative to that between the centres
 };
 
 class ElementModel {
@@ -47,39 +47,39 @@ class ElementModel {
   // ConfigError.
   ElementModel(const Config& config, const Scene& scene, std::span<const Scene> models = {},
                std::span<const Instance> instances = {});
-  // The same of a simulation, which must outlive it.
+  // Makes the model of a simulation, which must outlive it.
   explicit ElementModel(const Simulation& simulation);
 
   uint32_t tx_elements(uint32_t tx) const { return static_cast<uint32_t>(transmitters_.at(tx).positions_m.size()); }
   uint32_t rx_elements(uint32_t rx) const { return static_cast<uint32_t>(receivers_.at(rx).positions_m.size()); }
   uint32_t tx_ports(uint32_t tx) const { return transmitters_.at(tx).ports; }
   uint32_t rx_ports(uint32_t rx) const { return receivers_.at(rx).ports; }
-  // elements x ports
+  // Numbers of antennas: elements x ports.
   uint32_t tx_antennas(uint32_t tx) const { return tx_elements(tx) * tx_ports(tx); }
   uint32_t rx_antennas(uint32_t rx) const { return rx_elements(rx) * rx_ports(rx); }
 
-  // That of radio.frequency_hz first.
+  // Returns the carriers, radio.frequency_hz first.
   const std::vector<double>& carriers_hz() const { return carriers_hz_; }
 
-  // row: of frame.paths. Throws std::out_of_range where there is none.
+  // row: index in frame.paths. Throws std::out_of_range if there is none.
   ElementPaths element_paths(const FrameResult& frame, size_t row) const;
 
-  // Coefficients of a path between all pairs of antennas, [rx antenna][tx antenna]. As Paths::a: without the carrier
-  // phase of the path's own delay_s, so that h = sum coefficients exp(-j 2 pi f delay_s) at the carrier f.
-  // carrier: 0 is radio.frequency_hz; others are those of radio.frequencies_hz.
+  // Returns coefficients of a path between all pairs of antennas, [rx antenna][tx antenna]. Like Paths::a, they do not
+  // include the carrier phase of the path's own delay_s, so h = sum coefficients exp(-j 2 pi f delay_s) at the carrier
+  // f. carrier: 0 is radio.frequency_hz; others are those of radio.frequencies_hz.
   std::vector<std::complex<double>> coefficients(const FrameResult& frame, size_t row, uint32_t carrier = 0) const;
 
-  // The channel of a link, [time][rx antenna][tx antenna][frequency]:
+  // Returns the channel of a link, [time][rx antenna][tx antenna][frequency]:
   // h(f, t) = sum over its paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), with the delays between elements.
-  // frequencies_hz: absolute. times_s: from that of the frame on. carrier: whose coefficients these are. All 0 where
-  // the link has no path. Uses all cores; does not depend on their number.
+  // frequencies_hz: absolute. times_s: relative to that of the frame. carrier: the carrier of these coefficients. All
+  // values are 0 if the link has no path. It uses all cores; the result does not depend on their number.
   std::vector<std::complex<double>> response(const FrameResult& frame, Link link,
                                              std::span<const double> frequencies_hz, std::span<const double> times_s,
                                              uint32_t carrier = 0) const;
 
  private:
   struct End {
-    std::vector<glm::dvec3> positions_m;  // of elements
+    std::vector<glm::dvec3> positions_m;  // positions of elements
     uint32_t ports = 1;
   };
   friend class ElementLink;
@@ -89,7 +89,7 @@ class ElementModel {
   std::vector<Instance> instances_;
   std::vector<End> transmitters_, receivers_;
   std::vector<double> carriers_hz_;
-  bool plane_ = false;  // wavefronts
+  bool plane_ = false;  // wavefronts are plane
 };
 
 }  // namespace wavetracer

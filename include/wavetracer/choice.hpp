@@ -1,6 +1,6 @@
-// One of a few words, such as "exact" or "sphere", stored as its number: the type of configuration keys with choices.
-// In code a word is checked where it is compiled, and compared as a number; text that comes at run time goes through
-// parse() or named(), once.
+// One of a few words, such as "exact" or "sphere", stored as its number: the type of configuration keys with choices. A
+// word in code is checked by the compiler, and compared as a number; text at run time is converted once, by parse() or
+// named().
 #pragma once
 #include <algorithm>
 #include <array>

@@ -17,7 +17,7 @@
 namespace wavetracer {
 
 using UpAxis = Choice<"auto", "y", "z">;
-using ItuEdition = Choice<"P.2040-4", "P.2040-3">;  // of Recommendation ITU-R P.2040
+using ItuEdition = Choice<"P.2040-4", "P.2040-3">;  // edition of Recommendation ITU-R P.2040
 
 struct SceneConfig {
   std::string file;                                   // absolute after parsing (given relative to the config file)
@@ -25,21 +25,21 @@ struct SceneConfig {
   double scale = 1;                                   // metres per file unit (OBJ, GLB, PLY)
   UpAxis up = "auto";                                 // auto: y for glTF, else z
   std::map<std::string, std::string> material_alias;  // [scene.material_alias]: name in the file -> radio material
-  ItuEdition itu_edition = "P.2040-4";                // whose materials are known by name
-  bool extrapolate_materials = false;                 // beyond the range that they were measured in, with a warning
-  std::string default_material;                       // for meshes without one; empty: a missing material is an error
-  std::optional<double> plane_tolerance_m;            // of vertices about a plane; empty: by wavelength and file
-  std::string streets;                                // a SUMO network, for pictures only
+  ItuEdition itu_edition = "P.2040-4";                // edition whose materials are known by name
+  bool extrapolate_materials = false;       // use materials beyond the range that they were measured in, with a warning
+  std::string default_material;             // for meshes without one; empty: a missing material is an error
+  std::optional<double> plane_tolerance_m;  // tolerance of vertices about a plane; empty: by wavelength and file
+  std::string streets;                      // a SUMO network, for pictures only
 };
 
-// How a wave passes the elements of an array, see wavetracer/arrays.hpp.
+// The wavefront across the elements of an array, see wavetracer/arrays.hpp.
 using WavefrontShape = Choice<"spherical", "plane">;
 
 struct RadioConfig {
   double frequency_hz = 5.9e9;
   std::vector<double> frequencies_hz = {};  // several carriers, the first of which is frequency_hz; empty: that alone
   WavefrontShape wavefront = "spherical";
-  // The link budget; not given: no received power, no signal-to-noise ratio.
+  // The link budget; without it there is no received power and no signal-to-noise ratio.
   std::optional<double> transmit_power_dbm, bandwidth_hz;
   double noise_figure_db = 0;
 };
@@ -57,35 +57,36 @@ struct RadioEnd {  // [[transmitter]], [[receiver]] or [[station]]
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; for Doppler shifts only: the position does not change
-  std::string array = {};                          // an [[array]]; empty: one element
+  std::string array = {};                          // name of an [[array]]; empty: one element
   // Instead of position_m: latitude and longitude in degrees, and the height above the ground in m.
   std::optional<std::array<double, 3>> position_wgs84 = {};
-  HeightAbove above = "zero";  // what the height in position_m is measured from
+  HeightAbove above = "zero";  // the reference of the height in position_m
 };
 
 // The codebooks that are built in (else: a file).
 using NamedCodebook = Choice<"none", "dft">;
 
-struct ArrayConfig {  // [[array]]: where the elements of ends are
+struct ArrayConfig {  // [[array]]: the positions of the elements of ends
   std::string name;
   uint32_t rows = 1, columns = 1;  // a panel: rows along z, columns along y of the antenna's axes
   double vertical_spacing_wavelengths = 0.5, horizontal_spacing_wavelengths = 0.5;  // at radio.frequency_hz
-  std::optional<double> vertical_spacing_m = {}, horizontal_spacing_m = {};         // instead
-  std::vector<std::array<double, 3>> positions_m = {};  // instead of a panel: of elements, in the antenna's axes
-  std::string codebook = "none";                        // a NamedCodebook, or a codebook file
+  std::optional<double> vertical_spacing_m = {}, horizontal_spacing_m = {};         // alternatives to these
+  // Instead of a panel: positions of elements, in the antenna's axes.
+  std::vector<std::array<double, 3>> positions_m = {};
+  std::string codebook = "none";  // a NamedCodebook, or a codebook file
 };
 
 struct ResponseConfig {                     // [response]: the channel at subcarriers, for all pairs of elements
   std::optional<double> bandwidth_hz = {};  // not given: no responses
-  uint32_t subcarriers = 64;                // bandwidth_hz / subcarriers apart
-  uint32_t times = 1;                       // within a frame, from its own time on
+  uint32_t subcarriers = 64;                // spacing: bandwidth_hz / subcarriers
+  uint32_t times = 1;                       // number of times within a frame, from the frame's own time on
   double time_step_s = 1e-3;
 };
 
 struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the middles of square cells, for coverage
   std::string name;
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
-  // Instead of x_min_m and y_min_m, and of x_max_m and y_max_m: latitude and longitude in degrees.
+  // Alternatives to x_min_m and y_min_m, and to x_max_m and y_max_m: latitude and longitude in degrees.
   std::optional<std::array<double, 2>> south_west_wgs84 = {}, north_east_wgs84 = {};
   double step_m = 5;  // side of a cell
   double height_m = 1.5;
@@ -100,9 +101,9 @@ struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the m
 struct TrajectoriesConfig {
   std::string file;                         // a format of motion/read.hpp
   std::string generate;                     // arguments of `wavetracer scene city` about vehicles, instead of a file
-  std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + this
-  double scale = 1;                         // of positions in `file`
-  HeightAbove above = "zero";  // what heights in `file` are measured from; of a file in degrees always the ground
+  std::array<double, 3> offset_m{0, 0, 0};  // file coordinates of the scene = scale * those of `file` + offset_m
+  double scale = 1;                         // factor of positions in `file`
+  HeightAbove above = "zero";  // reference of heights in `file`; for a file in degrees it is always the ground
   bool persons = false, containers = false;
   std::string default_type;  // vehicle type of vehicles whose type is unknown; empty: such a vehicle is an error
 };
@@ -110,23 +111,24 @@ struct TrajectoriesConfig {
 struct TrackConfig {  // [[track]]: a vehicle on waypoints
   std::string id;
   std::string type = "passenger";
-  std::vector<std::array<double, 4>> waypoints;             // time_s, x, y, z; file coordinates of the scene
-  std::vector<std::array<double, 4>> waypoints_wgs84 = {};  // instead: time_s, latitude, longitude, m above the ground
-  HeightAbove above = "zero";                               // what the heights of waypoints are measured from
+  std::vector<std::array<double, 4>> waypoints;  // time_s, x, y, z; file coordinates of the scene
+  // Alternative: time_s, latitude, longitude, m above the ground.
+  std::vector<std::array<double, 4>> waypoints_wgs84 = {};
+  HeightAbove above = "zero";  // reference of the heights of waypoints
 };
 
 struct ParkedConfig {  // [[parked]]: vehicles that stand in all frames
   std::string name;    // the vehicles are called NAME/0, NAME/1, ...
   std::string file;    // CSV with a header that names the columns x, y and optionally z, yaw, type
   std::vector<std::array<double, 4>> places;  // x, y, z, yaw in degrees; file coordinates of the scene
-  std::string type = "passenger";             // where the file names none
-  bool mounts = false;                        // [[mount]]s put antennas on them, too
+  std::string type = "passenger";             // used where the file names none
+  bool mounts = false;                        // true if [[mount]] entries put antennas on them, too
 };
 
 // The bodies of vehicles that are built in (else: a mesh file).
 using NamedBody = Choice<"auto", "car", "van", "truck", "bus", "tram", "motorcycle", "pedestrian", "none">;
 
-struct VehicleTypeConfig {  // [[vehicle_type]]: what a type of the trajectories looks like
+struct VehicleTypeConfig {  // [[vehicle_type]]: the body of a type of the trajectories
   std::string name;
   std::string model = "auto";  // a NamedBody, or a mesh file (x ahead, z up, origin on the ground)
   // Not given: the size of the mesh file, or else of SUMO's vehicle class of this name.
@@ -170,8 +172,9 @@ struct TraceConfig {
   uint64_t max_rays = 10000000;               // with rays = "auto"
   bool reuse = true;                          // sequences of earlier frames of a drive are kept and solved again
   std::optional<uint64_t> refresh_rays = {};  // per transmitter, in a frame that reuses; not given: a tenth of rays
-  double discover_every_s = 0;                // frames that reuse launch rays this long after each other; 0: all do
-  uint32_t forget_frames = 50;                // a sequence that no ray has met for this many frames is dropped
+  // Time between frames that launch rays, if frames reuse sequences; 0: all frames launch rays.
+  double discover_every_s = 0;
+  uint32_t forget_frames = 50;  // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   uint32_t max_diffractions = 1;                  // per path, 1 to 8
@@ -183,11 +186,11 @@ struct TraceConfig {
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
-  std::optional<uint64_t> batch_rays = {};       // traced at once; not given: chosen for the device
-  std::optional<uint32_t> batch_receivers = {};  // that launch rays, computed at once; not given: 8192
+  std::optional<uint64_t> batch_rays = {};       // number of rays traced at once; not given: chosen for the device
+  std::optional<uint32_t> batch_receivers = {};  // number of ray-launching receivers computed at once; not given: 8192
 };
 
-// Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the word that was given.
+// Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the given word.
 using OrderMethod = Choice<"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
                            "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
                            "direction-origin", "auto">;
@@ -222,7 +225,7 @@ struct CacheConfig {
   CacheLocking locking = "readers";  // only for an open table
   uint32_t readers_number = 5;       // open, readers: an entry must be renewed after this many reads
   CachePurging purge = "position";
-  double position_step_m = 0.1;     // of the transmitter's position key
+  double position_step_m = 0.1;     // step of the transmitter's position key
   double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
   CacheScope scope = "static";      // static: vehicles and receivers are tested every time; all: they are cached too
   CacheHitPoint hit_point = "own";  // of an answered ray: own (its line meets the surface), cached (of the other ray)
@@ -239,8 +242,8 @@ struct OutputConfig {
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
   std::optional<uint32_t> max_paths_per_link = {};
-  uint32_t compression = 1;  // of the columns of HDF5 files: level of deflate, 0: none
-  bool keep_shards = false;  // of a drive that is complete and merged
+  uint32_t compression = 1;  // compression of HDF5 files: level of deflate, 0: none
+  bool keep_shards = false;  // keep the shards of a drive after it is complete and merged
 };
 
 struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer
@@ -250,22 +253,22 @@ struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type
 };
 
 struct LiveConfig {                      // [live]: what `wavetracer serve` accepts
-  double margin_m = 100;                 // how far vehicles may be outside of the scene's box
+  double margin_m = 100;                 // largest distance of vehicles from the scene's box
   uint32_t max_clients = 8;              // connections that have said hello
-  uint32_t max_strangers = 8;            // connections that have not
-  uint64_t max_message_bytes = 1048576;  // of one line
-  uint64_t max_queue_bytes = 67108864;   // of unread answers, per client
-  uint32_t max_pending_frames = 4;       // per client, not yet answered
-  double max_rate_hz = 1000;             // messages per client
+  uint32_t max_strangers = 8;            // connections that have not said hello
+  uint64_t max_message_bytes = 1048576;  // limit of one line
+  uint64_t max_queue_bytes = 67108864;   // limit of unread answers, per client
+  uint32_t max_pending_frames = 4;       // frames per client that are not answered yet
+  double max_rate_hz = 1000;             // messages per second and client
   double hello_timeout_s = 3;            // from the connection to the end of hello
   double message_timeout_s = 5;          // from the first byte of a line to its end
   std::optional<double> idle_timeout_s = 300;
-  double send_timeout_s = 10;  // without reading any byte of its answers
+  double send_timeout_s = 10;  // time without reading any byte of its answers
 };
 
 struct Config {
   std::string file;  // the TOML file, empty when built in code
-  std::string text;  // all of it with --set applied, echoed into the outputs: echoed_config()
+  std::string text;  // the whole configuration with --set applied, echoed into the outputs: echoed_config()
   SceneConfig scene;
   RadioConfig radio;
   AirConfig air;

@@ -1,4 +1,4 @@
-// How a run computes: its device, the order of its rays, and the features (interactions) that are on.
+// The settings of a run's computation: its device, the order of its rays, and the features (interactions) that are on.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,9 +12,9 @@ struct DeviceSummary {
   bool gpu = false;
 };
 
-// How rays were ordered and launched.
+// The order and the launch of rays.
 struct OrderSummary {
-  std::string method = "none";  // plain name; "none" also if order.method = "auto" found that no sort saves time
+  std::string method = "none";  // plain name; also "none" if order.method = "auto" found that no sort saves time
   bool each_depth = false;
   std::string launch_shape = "1d";
   std::optional<uint32_t> local_size = {};  // not set: chosen for the device
@@ -26,8 +26,8 @@ struct Feature {
   bool on = false;
   std::string reason;  // why it is off: "trace.diffraction = false", "no edge of the scene diffracts", ...
 };
-// By name: the words of interaction_kinds (interaction_kinds.hpp), double_diffraction, instances. What is off runs no
-// kernel.
+// Keys are the words of interaction_kinds (interaction_kinds.hpp), double_diffraction and instances. A feature that is
+// off runs no kernel.
 using Features = std::map<std::string, Feature>;
 
 }  // namespace wavetracer

@@ -30,7 +30,7 @@ struct FrameCounts {
   uint64_t receptions = 0;  // segments that passed a receiver, with trace.reception = "sphere"
 };
 
-// What the ray cache did in a frame. Counts are of this frame alone.
+// Statistics of the ray cache in a frame. Counts are of this frame alone.
 struct CacheSummary {
   bool on = false;       // false: the frame had no cache, and everything below is 0 or empty
   uint64_t lookups = 0;  // look-ups by rays, at all depths
@@ -39,7 +39,7 @@ struct CacheSummary {
   uint64_t groups = 0;   // with cache.innerframe: groups of equal keys in the frame, of which one ray each was traced
   uint64_t shared = 0;   // with cache.innerframe: segments that took the hit of the ray that was traced for their group
   uint64_t conflicts = 0;   // misses because another look-up or a write used the entry at that moment
-  uint64_t stale = 0;       // misses although the key was found, because its entry is out of date
+  uint64_t stale = 0;       // misses although the key was found, because its entry has expired
   uint64_t stored = 0;      // entries written
   uint64_t replaced = 0;    // entries that were written over another one
   uint64_t duplicates = 0;  // writes of a key that the table contained already
@@ -50,7 +50,8 @@ struct CacheSummary {
   // The table at the end of the frame: its size in entries, the entries that contain a segment, its device memory.
   uint64_t entries = 0, used = 0, bytes = 0;
   std::vector<uint64_t> lookups_per_depth, hits_per_depth, shared_per_depth;  // [0]: segments from transmitters
-  // With cache.statistics: how many of the used entries have answered 0, 1, 2, 3-4, 5-8, 9-16, ... times. Else empty.
+  // With cache.statistics: the numbers of used entries that have answered 0, 1, 2, 3-4, 5-8, 9-16, ... times. Else
+  // empty.
   std::vector<uint64_t> entries_by_hits;
 };
 
@@ -58,7 +59,7 @@ struct CacheSummary {
 using StageSeconds = std::map<std::string, double>;
 
 // Links without a path: the reasons for the first few, in words, and their number. Receivers of grids are counted
-// apart, because receivers inside of houses have no path.
+// separately, because receivers inside of houses have no path.
 struct MissingLinks {
   static constexpr size_t shown = 5;
   uint64_t links = 0, in_grids = 0;
@@ -66,7 +67,7 @@ struct MissingLinks {
   bool empty() const { return links + in_grids == 0; }
 };
 
-// The paths of a frame at another carrier: what differs from row to row of FrameResult::paths.
+// The paths of a frame at another carrier: the columns that differ from FrameResult::paths.
 struct CarrierFields {
   double frequency_hz = 0;
   std::vector<std::array<std::complex<double>, 4>> a;
@@ -75,14 +76,14 @@ struct CarrierFields {
 
 // The channel of every link of a frame, in their order, at response_times_s() and response_frequencies_hz().
 struct Responses {
-  uint32_t times = 0, frequencies = 0;  // 0: there are none
+  uint32_t times = 0, frequencies = 0;  // 0 if there are none
   // Link i has rows row_offset[i] to row_offset[i + 1] - 1, [time][rx antenna][tx antenna], see wavetracer/arrays.hpp.
   std::vector<uint64_t> row_offset{0};
   std::vector<std::complex<float>> h;  // [row][frequency]
 };
 
-// Gains of links through the beams of codebooks: rows of the links between ends of which one has a codebook, sorted by
-// link, then by beam; a side without one has one beam, number 0, which is its first element.
+// Gains of links through the beams of codebooks: rows for links of which at least one end has a codebook, sorted by
+// link, then by beam; a side without a codebook has one beam, number 0, which is its first element.
 struct BeamRows {
   std::vector<uint32_t> tx, rx, tx_beam, rx_beam;
   std::vector<double> gain_db;
@@ -93,17 +94,17 @@ struct FrameResult {
   uint32_t frame = 0;
   WorldState world;
   Paths paths;
-  std::vector<CarrierFields> carriers;  // of radio.frequencies_hz, but the first
+  std::vector<CarrierFields> carriers;  // fields at radio.frequencies_hz, without the first
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook
   FrameCounts counts;
-  MissedCounts missed;   // frames = 0 with a ray cache or trace.reception = "sphere", and where no rays were launched
-  LateCounts late;       // of a frame that launches rays after others that did not, with trace.discover_every_s
+  MissedCounts missed;   // frames = 0 with a ray cache or trace.reception = "sphere", and if no rays were launched
+  LateCounts late;       // set in a frame that launches rays after frames that did not, with trace.discover_every_s
   StageSeconds seconds;  // device stages only in frames that were profiled (Simulation::profile_every)
-  KernelTimes kernels;   // likewise, of the device stages
+  KernelTimes kernels;   // for the device stages, in the same frames
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
-  WaypointRows waypoints;        // of output.waypoints samples per transmitter
+  WaypointRows waypoints;        // waypoints of output.waypoints samples per transmitter
   CacheEntryRows cache_entries;  // with output.cache_entries
   std::vector<std::string> warnings;
   MissingLinks missing;  // set by Simulation::explain_missing, else empty

@@ -32,7 +32,7 @@ struct InteractionKind {
   bool TraceConfig::*asked_for;  // the value of that key
 };
 
-// The least special first. A row: code, step and waypoint; words; paths; key.
+// The least special comes first. A row: code, step and waypoint; words; paths; key.
 // clang-format off
 inline constexpr std::array<InteractionKind, 4> interaction_kinds{{
     {reflection, 0, WaypointKind::reflection, "reflection", "reflection",
@@ -62,7 +62,7 @@ constexpr const InteractionKind* find_interaction(uint8_t code) {
   return row == interaction_kinds.end() ? nullptr : &*row;
 }
 
-// "1 reflection, 2 diffuse scattering, ...", by their code.
+// Returns "1 reflection, 2 diffuse scattering, ...", by their code.
 inline std::string interaction_legend() {
   std::string legend;
   for (unsigned code = 1; code < 256; code *= 2)

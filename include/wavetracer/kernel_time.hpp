@@ -1,4 +1,4 @@
-// What one kernel cost: its share of a profile.
+// The cost of one kernel: its share of a profile.
 #pragma once
 #include <cstdint>
 #include <map>

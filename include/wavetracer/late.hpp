@@ -1,5 +1,5 @@
-// What frames that launch no rays may lack (trace.discover_every_s), measured where rays are launched again: the paths
-// that the sequences known before did not give.
+// Paths that frames without rays may lack (trace.discover_every_s), measured when rays are launched again: the paths
+// that the earlier sequences did not give.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -8,10 +8,10 @@ namespace wavetracer {
 
 // Counts that add up over frames. Powers are sums of |a|^2.
 struct LateCounts {
-  uint64_t discoveries = 0;   // frames that were measured; 0: nothing is known
-  uint64_t paths = 0;         // that the sequences known before did not give
-  double power = 0, all = 0;  // of these paths, and of all paths of these frames
-  double largest_share = 0;   // of power in all, of one frame
+  uint64_t discoveries = 0;   // number of frames that were measured; 0: nothing is known
+  uint64_t paths = 0;         // paths that the earlier sequences did not give
+  double power = 0, all = 0;  // power of these paths, and of all paths of these frames
+  double largest_share = 0;   // largest share of power in all, over frames
 
   void add(const LateCounts& more) {
     discoveries += more.discoveries;

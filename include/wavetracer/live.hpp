@@ -16,12 +16,12 @@ namespace wavetracer {
 
 // A vehicle that is present at an instant.
 struct LivePose {
-  std::string id;    // the caller's own, unique in a frame; the same vehicle keeps it
-  std::string type;  // of a [[live_vehicle]]; may not change while the vehicle stays
+  std::string id;    // the caller's own id, unique in a frame; the same vehicle keeps it
+  std::string type;  // type of a [[live_vehicle]]; must not change while the vehicle stays
   glm::dvec3 position_m{0};
   glm::dquat orientation{1, 0, 0, 0};  // w, x, y, z: from the vehicle (x ahead, y left, z up) to the scene; unit
-  // Not given: from the last two poses. 0 where there is no earlier one, where time did not go forward, and where the
-  // vehicle would have been faster than 150 m/s, which is a jump.
+  // Not given: computed from the last two poses. It is 0 if there is no earlier pose, if time did not go forward, or if
+  // the vehicle would have been faster than 150 m/s, which counts as a jump.
   std::optional<glm::dvec3> velocity_m_s, angular_velocity_rad_s;  // scene axes
 };
 
@@ -42,25 +42,25 @@ struct LiveType {
   std::string name;
   double length_m = 0, width_m = 0, height_m = 0;
   uint32_t first_place = 0, count = 0;
-  std::vector<MountConfig> mounts;  // that it carries
+  std::vector<MountConfig> mounts;  // mounts that it carries
 };
 
-// The traffic of one source of poses: the place of each of its vehicles, and its poses in the last two frames.
-// Several sources may use one Simulation in turn, each with its own traffic: in a frame all places are for one source.
+// The traffic of one source of poses: the place of each of its vehicles, and its poses in the last two frames. Several
+// sources may use one Simulation in turn, each with its own traffic: in a frame all places belong to one source.
 struct LiveTraffic {
   struct Vehicle {
     uint32_t place = 0;
     glm::dvec3 position_m{0};  // file coordinates
     glm::dquat orientation{1, 0, 0, 0};
-    std::optional<glm::dvec3> velocity_m_s = {};  // given, or from two poses
+    std::optional<glm::dvec3> velocity_m_s = {};  // given, or computed from two poses
   };
   using Vehicles = std::map<std::string, Vehicle, std::less<>>;  // by id
-  Vehicles vehicles;                                             // of the last frame
-  double time_s = 0;                                             // of the last frame
-  uint32_t frames = 0;                                           // computed so far; the number of the next frame
-  Vehicles earlier;                                              // of the frame before the last one
-  double earlier_s = 0;                                          // of the frame before the last one
-  DiscoveryMark discovery;                                       // see trace.discover_every_s
+  Vehicles vehicles;                                             // vehicles of the last frame
+  double time_s = 0;                                             // time of the last frame
+  uint32_t frames = 0;      // number of frames computed so far, which is the number of the next frame
+  Vehicles earlier;         // vehicles of the frame before the last one
+  double earlier_s = 0;     // time of the frame before the last one
+  DiscoveryMark discovery;  // see trace.discover_every_s
 };
 
 // A frame, and the names of its ends and vehicles that the sender of the poses uses. Absent ends have empty names.

@@ -1,5 +1,5 @@
 // The part of the configuration about radio materials.
-// A value that is not given is that of the library or of the scene file.
+// A value that is not given is taken from the library or the scene file.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace wavetracer {
 
-// Whose measurements give the largest attenuation of vegetation, see VegetationLaw (wavetracer/scene.hpp).
+// The measurements for the largest attenuation of vegetation, see VegetationLaw (wavetracer/scene.hpp).
 using Woodland = Choice<"none", "mixed", "deciduous">;
 
 struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;
-  std::string library = {};  // the material of the library that it is made of; empty: that of its own name
+  std::string library = {};  // the library material that it is based on; empty: that of its own name
   std::optional<double> a = {}, b = {}, c = {}, d = {};  // ITU-R P.2040 coefficients
   std::optional<double> permittivity = {}, conductivity_s_m = {};
   std::optional<double> thickness_m = {};  // infinity allowed: a half space

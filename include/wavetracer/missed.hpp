@@ -1,5 +1,6 @@
-// What the rays of a run may have missed, estimated from those rays themselves: docs/method.md, "What was missed".
-// A launch is four launches of a quarter of its rays: the paths that few of them found show how many none has found.
+// Estimates what the rays of a run have missed, from those rays themselves: docs/method.md, "What was missed". A launch
+// consists of four launches with a quarter of its rays each: the paths that few of them found show how many none has
+// found.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -12,12 +13,13 @@ struct Paths;
 // Counts that add up over frames. Powers are sums of |a|^2.
 struct MissedCounts {
   uint64_t frames = 0;  // 0: there is no estimate
-  // [k]: paths that rays had to find and k + 1 quarters found; [0] also paths that no quarter found alone, because
-  // their parts are of different quarters.
+  // [k]: paths that depend on rays and that k + 1 quarters found; [0] also counts paths that no quarter found alone,
+  // because their parts come from different quarters.
   std::array<uint64_t, 4> paths{};
-  std::array<double, 4> powers{};  // of these
-  double amplitude = 0;  // of these, sum of |a|: typical even if a few paths are much stronger than all others
-  double power = 0;      // of all paths
+  std::array<double, 4> powers{};  // power of these paths
+  // Sum of |a| over these paths: it is typical even if a few paths are much stronger than all others.
+  double amplitude = 0;
+  double power = 0;  // power of all paths
 };
 // low to high: the 95% confidence interval.
 struct MissedRange {
@@ -26,7 +28,7 @@ struct MissedRange {
 
 struct Missed {
   MissedRange paths;        // their number
-  MissedRange power_share;  // against the power that was found; 0 where that is 0
+  MissedRange power_share;  // relative to the power that was found; 0 if that is 0
 };
 
 void add(MissedCounts& sum, const MissedCounts& more);

@@ -1,4 +1,4 @@
-// Which names radio ends, vehicles and models may have: tables, plots and messages show them on one line.
+// The names that radio ends, vehicles and models may have: tables, plots and messages show them on one line.
 #pragma once
 #include <algorithm>
 #include <string_view>

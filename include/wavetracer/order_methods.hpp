@@ -1,6 +1,5 @@
-// The orders of rays: one row for each method, which everything that names, plans or compares methods reads.
-// Assumes the words of OrderMethod; the methods with a mnemonic are those of A. Zhdanov, TU Munich, 2014,
-// section 6.2.2.
+// The orders of rays: one row for each method, used by all code that names, plans or compares methods. The words are
+// those of OrderMethod; the methods with a mnemonic are those of A. Zhdanov, TU Munich, 2014, section 6.2.2.
 #pragma once
 #include <array>
 #include <optional>
@@ -9,13 +8,13 @@
 
 namespace wavetracer {
 
-// What rays are sorted by.
+// The key by which rays are sorted.
 enum class OrderKey { morton, morton_bins, hilbert_bins, direction_origin };
 
 struct OrderMethodRow {
-  OrderMethod name, mnemonic;      // the same word where the thesis has no such method
+  OrderMethod name, mnemonic;      // both words are the same if the thesis has no such method
   std::optional<OrderKey> key;     // not set: rays keep the order of their launch
-  unsigned launch_dimensions = 0;  // of the Hilbert curve that its launch goes along; 0: none, any launch does
+  unsigned launch_dimensions = 0;  // dimensions of the Hilbert curve that its launch follows; 0: any launch is possible
 };
 
 // "auto" has no row: it chooses one of these.

@@ -1,5 +1,6 @@
-// The part of the configuration about what stands and hangs between the ends: the air, and vegetation.
-// Defaults are defined here, each with its reason in the field table (host/config/outdoors_fields.cpp).
+// The part of the configuration about media between the ends that attenuate a wave without turning it: the air, and
+// vegetation.
+// Defaults are defined here; the field table (host/config/outdoors_fields.cpp) gives the reason for each.
 #pragma once
 #include <array>
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace wavetracer {
 
-struct AirConfig {       // [air]: what the air takes of every path, per metre of its length
+struct AirConfig {       // [air]: attenuation of every path by the air, per metre of its length
   double rain_mm_h = 0;  // rain rate, ITU-R P.838-3; 0: none
   double fog_g_m3 = 0;   // liquid water, ITU-R P.840-8; 0: none
   bool gases = false;    // oxygen and water vapour, ITU-R P.676-13
@@ -17,7 +18,7 @@ struct AirConfig {       // [air]: what the air takes of every path, per metre o
 
 using VegetationShape = Choice<"box", "cylinder", "spheroid">;
 
-struct VegetationConfig {  // [[vegetation]]: a volume of leaves and twigs, as the crown of a tree
+struct VegetationConfig {  // [[vegetation]]: a volume of leaves and twigs, such as the crown of a tree
   VegetationShape shape = "spheroid";
   std::array<double, 3> centre_m{0, 0, 0};  // file coordinates
   std::array<double, 3> size_m{0, 0, 0};    // along x, y and z before the turn

@@ -9,7 +9,7 @@ namespace wavetracer {
 // Row i: path i from transmitter tx[i] to receiver rx[i]; its interactions are entries first[i] .. first[i + 1].
 struct PathGeometry {
   std::vector<uint32_t> tx, rx;
-  std::vector<uint8_t> quarters;  // see Paths::quarters; of every path, or empty
+  std::vector<uint8_t> quarters;  // see Paths::quarters; one for every path, or empty
   std::vector<uint64_t> first{0};
   // One per interaction, numbered through the world (Instance::first_surface, first_wedge): the surface of a reflection
   // or transmission, the wedge of a diffraction, the tile of a diffuse scattering (scene/tiles.hpp).

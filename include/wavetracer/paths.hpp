@@ -8,19 +8,19 @@
 
 namespace wavetracer {
 
-// What happens to a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
+// The interaction of a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
 enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8 };
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
 
-// Groups of paths that are one wave: fields of a group are added with their phases, powers of groups as they are. A
-// diffracted wave near a shadow boundary is one with the wave that ends there, and a smaller part of it the farther it
-// is from the boundary. The power of a link is the sum over its groups g and pairs of ports of |sum over paths i of
-// w_ig a_i exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
-constexpr size_t most_groups = 4;  // of a path
+// Groups of paths that form one wave: fields within a group are added with their phases, then the powers of groups are
+// added. A diffracted wave near a shadow boundary belongs to the wave that ends there, with a weight that falls with
+// the distance from the boundary. The power of a link is the sum over its groups g and pairs of ports of |sum over
+// paths i of w_ig a_i exp(-j 2 pi f tau_i)|^2, with the weights w; squares of the weights of a path add up to 1.
+constexpr size_t most_groups = 4;  // largest number of groups of a path
 constexpr uint32_t no_group = 0xFFFFFFFFu;
-// Numbers in the link, 0, 1, 2 ... in the order of its rows; the one with the largest weight comes first, and the last
-// ones may be no_group with weight 0.
+// Numbers within the link, 0, 1, 2 ... in the order of its rows; the one with the largest weight comes first, and the
+// last ones may be no_group with weight 0.
 using GroupNumbers = std::array<uint32_t, most_groups>;
 using GroupWeights = std::array<double, most_groups>;
 constexpr GroupNumbers only_group(uint32_t number) { return {number, no_group, no_group, no_group}; }
@@ -36,8 +36,8 @@ struct Paths {
   std::vector<double> delay_s, gain_db;
   std::vector<std::array<std::complex<double>, 4>> a;
   std::vector<double> aod_theta_rad, aod_phi_rad, aoa_theta_rad, aoa_phi_rad, doppler_hz;
-  // Which quarters of the launch found the path, one bit each (missed.hpp); empty if that is not known. A path that
-  // needs no ray has all four.
+  // The quarters of the launch that found the path, one bit each (missed.hpp); empty if unknown. A path that needs no
+  // ray has all four.
   std::vector<uint8_t> quarters;
   // The groups of each path and its weight in them, see above; empty: every path is a group of its own.
   std::vector<GroupNumbers> group;
@@ -46,7 +46,8 @@ struct Paths {
   // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates
   std::vector<uint8_t> vertex_interaction;
-  std::vector<uint32_t> vertex_surface;  // in its scene or model; of a diffraction the wedge (`scene info --edges`)
+  // Index in its scene or model; for a diffraction the wedge (`scene info --edges`).
+  std::vector<uint32_t> vertex_surface;
   std::vector<uint32_t> vertex_instance;
 
   size_t size() const { return delay_s.size(); }

@@ -1,5 +1,6 @@
-// Waypoints of samples of launched rays, for study and pictures: where each ray went, even if it led to no path.
-// Columns of equal length, sorted by frame, tx, sample, depth; hits come before the end of their segment, by receiver.
+// Waypoints of samples of launched rays, for study and pictures: the points of each ray, even if it led to no path.
+// Columns have equal length and are sorted by frame, tx, sample, depth; hits come before the end of their segment, by
+// receiver.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -15,7 +16,7 @@ enum class WaypointKind : uint8_t {
   miss = 4,  // a point 1 m along the segment that met nothing
 };
 
-// Who found where the segment before a waypoint ends.
+// The origin of the hit at the end of the segment before a waypoint.
 enum class WaypointSource : uint8_t {
   launch = 0,   // there is no segment before it
   traced = 1,   // the ray was traced
@@ -29,7 +30,7 @@ struct WaypointRows {
   std::vector<uint32_t> depth;   // number of segments before this point: 0 at the transmitter
   std::vector<WaypointKind> kind;
   std::vector<glm::dvec3> position_m;  // file coordinates
-  std::vector<uint32_t> surface;       // as in Paths; the receiver of a hit; no_surface of launches and misses
+  std::vector<uint32_t> surface;       // as in Paths; for a hit the receiver; no_surface for launches and misses
   std::vector<uint32_t> instance;      // the vehicle of a moving surface, else no_instance
   std::vector<WaypointSource> source;
 

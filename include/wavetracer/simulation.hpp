@@ -19,12 +19,12 @@ namespace wavetracer {
 struct FrameProgress {
   Choice<"rays", "paths"> stage;  // rays that were launched, then steps of the exact solution
   uint64_t done = 0, total = 0;
-  uint64_t part = 0, parts = 1;  // of the frame, counted from 0: batches of receivers (trace.batch_receivers)
+  uint64_t part = 0, parts = 1;  // parts of the frame, counted from 0: batches of receivers (trace.batch_receivers)
 };
 // Called between batches of rays and between these steps; if it returns false, the frame is cancelled.
 using FrameObserver = std::function<bool(const FrameProgress&)>;
 
-// What run_frame() throws if the observer has cancelled the frame. The simulation can continue with any frame.
+// Thrown by run_frame() if the observer has cancelled the frame. The simulation can continue with any frame.
 class FrameStopped : public std::runtime_error {
  public:
   FrameStopped() : std::runtime_error("the frame was given up") {}
@@ -35,7 +35,7 @@ struct TransmitterRange {
   uint32_t first = 0, end = 0;
 };
 
-// Why frames of this configuration cannot be divided into blocks of transmitters; empty if they can.
+// Returns why frames of this configuration cannot be divided into blocks of transmitters; empty if they can.
 std::string block_obstacle(const Config& config);
 
 // Only for a live world, see wavetracer/live.hpp.
@@ -45,7 +45,7 @@ struct LivePose;
 struct LiveTraffic;
 struct LiveType;
 
-// How runs use Simulation::profile_every.
+// The value that runs give to Simulation::profile_every.
 inline constexpr uint32_t profiled_frames = 16;
 
 class Simulation {
@@ -58,42 +58,41 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  // Frames of one drive may be asked for in any order; with trace.reuse, what a frame finds depends on the frames since
-  // the last forget(). Throws ConfigError for a frame that the world does not have.
+  // Frames of one drive may be computed in any order; with trace.reuse, the result of a frame depends on the frames
+  // since the last forget(). Throws ConfigError for a frame that the world does not have.
   FrameResult run_frame(uint32_t frame);
-  // The links of these transmitters alone, as run_frame() finds them, bit for bit: nothing of earlier frames is reused,
-  // and counts are of the work that was done, which the rays of other ends are part of. Throws ConfigError where the
+  // Computes only the links of these transmitters, exactly as run_frame() finds them: results of earlier frames are not
+  // reused. Counts are of the work that was done, which includes the rays of other ends. Throws ConfigError if the
   // configuration couples all transmitters, see block_obstacle().
   FrameResult run_block(uint32_t frame, TransmitterRange transmitters);
-  // A frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws PoseError,
-  // which leaves all as it was, and ConfigError where there is no [[live_vehicle]].
+  // Computes a frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws
+  // PoseError, which changes nothing, and ConfigError if there is no [[live_vehicle]].
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
-  // The same at a time between the last two frames of poses of that traffic, which it leaves as it is: vehicles are on
-  // the cubic that has the positions and velocities of both, and turn evenly. With trace.discover_every_s such frames
-  // launch no rays. Throws PoseError for any other time.
+  // Computes a frame at a time between the last two frames of poses of that traffic, which it does not change: vehicles
+  // follow the cubic that has the positions and velocities of both, and turn evenly. With trace.discover_every_s such
+  // frames launch no rays. Throws PoseError for any other time.
   LiveFrame run_between(const LiveTraffic& traffic, double time_s);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;
-  // Measures the device's stages in the first of so many frames and leaves them out of the others: profiling makes
-  // launches slower, which short frames notice (on a GPU by a third). 1, as at first: in every frame. Blocks always
-  // are.
+  // Measures the device's stages in every `frames`-th frame only: profiling makes launches slower, which short frames
+  // notice (on a GPU by a third). With 1, the default, every frame is measured. Blocks (run_block) are always measured.
   void profile_every(uint32_t frames);
-  // The observer of all frames that follow; an empty function: none.
+  // Sets the observer of all following frames; an empty function removes it.
   void observe(FrameObserver observer);
   // Drops all sequences of earlier frames, and the content of a ray cache: the next frame is cold.
   void forget();
   uint64_t frame_count() const;
   double time_s(uint32_t frame) const;
   const Scene& scene() const;
-  // The configuration with the ends that are mounted on vehicles among its transmitters and receivers.
+  // Returns the configuration; its transmitters and receivers include the ends that are mounted on vehicles.
   const Config& config() const;
   const std::vector<Instance>& instances() const;
   const std::vector<Scene>& models() const;
-  // Why links of a frame have no path: what their direct lines meet first, and which feature that is off may add
+  // Explains why links of a frame have no path: what their direct lines meet first, and which disabled feature may add
   // paths. It costs a pass over the scene.
   MissingLinks explain_missing(const FrameResult& frame) const;
-  // What was left out or assumed when the scene and the trajectories were loaded; antennas and vehicles in impossible
-  // places.
+  // Returns warnings: what was left out or assumed when the scene and the trajectories were loaded; antennas and
+  // vehicles in impossible places.
   std::vector<std::string> warnings() const;
   const DeviceSummary& device() const;
   const OrderSummary& order() const;

@@ -1,4 +1,4 @@
-// The stages of a frame: every name that FrameResult::seconds may have, and what of the frame it belongs to.
+// The stages of a frame: every name that FrameResult::seconds may have, and the part of the frame that it belongs to.
 // Device stages are named where kernels are launched and buffers copied, host stages where a stopwatch is read. A frame
 // with a stage that is not listed here fails, so that sums over the parts of a frame are complete.
 #pragma once
@@ -51,7 +51,7 @@ constexpr const FrameStage* find_frame_stage(std::string_view name) {
   return nullptr;
 }
 
-// A frame has no entry for a stage that it did not need.
+// Returns 0 for a stage that a frame did not need, which has no entry.
 inline double stage_seconds(const StageSeconds& seconds, std::string_view stage) {
   const auto found = seconds.find(std::string(stage));
   return found == seconds.end() ? 0.0 : found->second;

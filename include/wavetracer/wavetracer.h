@@ -30,67 +30,69 @@ typedef struct wavetracer_simulation wavetracer_simulation; /* a scene on a devi
 typedef struct wavetracer_frame wavetracer_frame;           /* the results of one frame; may outlive its simulation */
 typedef struct wavetracer_error wavetracer_error;
 
-/* Codes of errors: those that the program exits with. */
+/* Error codes; the program exits with the same ones. */
 enum wavetracer_code {
   WAVETRACER_OK = 0,
   WAVETRACER_RUNTIME = 1,  /* out of memory, a full disk, an exceeded limit */
-  WAVETRACER_USAGE = 2,    /* a configuration or an argument that is wrong */
-  WAVETRACER_INPUT = 3,    /* a scene, antenna or trajectory file that is wrong */
+  WAVETRACER_USAGE = 2,    /* a wrong configuration or argument */
+  WAVETRACER_INPUT = 3,    /* a wrong scene, antenna or trajectory file */
   WAVETRACER_DEVICE = 4,   /* no OpenCL device, no memory on it, a kernel that does not build */
-  WAVETRACER_STOPPED = 130 /* an observer gave the frame up */
+  WAVETRACER_STOPPED = 130 /* an observer cancelled the frame */
 };
 
-/* For null: WAVETRACER_OK and "". The text lives as long as the error; it may have several lines. */
+/* Return code and text of an error; WAVETRACER_OK and "" for null. The text lives as long as the error; it may have
+   several lines. */
 int wavetracer_error_code(const wavetracer_error* error);
 const char* wavetracer_error_message(const wavetracer_error* error);
 void wavetracer_error_free(wavetracer_error* error);
 
-/* The version of the library, such as "0.3.0"; the text lives forever. */
+/* Returns the version of the library, such as "0.3.0"; the text lives forever. */
 const char* wavetracer_version(void);
 
-/* One line per OpenCL device, in the order of their index: name, tab, platform, tab, "GPU", "CPU" or "other". Lives
-   until the next call of this function in the same thread. "" if there is none, null with an error where they cannot be
-   listed. */
+/* Returns one line per OpenCL device, in the order of their index: name, tab, platform, tab, "GPU", "CPU" or "other".
+   The text lives until the next call of this function in the same thread. It is "" if there is none, and null with an
+   error if they cannot be listed. */
 const char* wavetracer_devices(wavetracer_error** error);
 
 /* Loads the scene of a configuration and compiles the kernels.
-   config: TOML text, as in the files of `wavetracer run`. folder: where its relative paths start; null: the current
-   one. sets: set_count texts "key=value" that are applied over it, as those of --set; may be null where set_count is 0.
+   config: TOML text, as in the files of `wavetracer run`. folder: start of its relative paths; null: the current
+   one. sets: set_count texts "key=value" that override it, like --set; may be null if set_count is 0.
    device: an index, or part of a platform's or device's name; null or "": the default choice. */
 wavetracer_simulation* wavetracer_open(const char* config, const char* folder, const char* const* sets,
                                        size_t set_count, const char* device, wavetracer_error** error);
 void wavetracer_close(wavetracer_simulation* self);
 
-/* What was opened; 0, NaN or null where self is null or the index is too large. Texts live until wavetracer_close. */
+/* Properties of the simulation; 0, NaN or null if self is null or the index is too large. Texts live until
+   wavetracer_close. */
 uint32_t wavetracer_frame_count(const wavetracer_simulation* self);
 double wavetracer_time_s(const wavetracer_simulation* self, uint32_t frame);
 size_t wavetracer_transmitter_count(const wavetracer_simulation* self);
 size_t wavetracer_receiver_count(const wavetracer_simulation* self);
-const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index); /* of a mount: VEHICLE/NAME */
+const char* wavetracer_transmitter_name(const wavetracer_simulation* self, size_t index); /* VEHICLE/NAME for a mount */
 const char* wavetracer_receiver_name(const wavetracer_simulation* self, size_t index);
-/* The carrier, and those of radio.frequencies_hz after it. */
+/* The carriers: radio.frequency_hz, then the others of radio.frequencies_hz. */
 size_t wavetracer_carrier_count(const wavetracer_simulation* self);
 double wavetracer_carrier_hz(const wavetracer_simulation* self, size_t index);
 const char* wavetracer_device_name(const wavetracer_simulation* self);
 const char* wavetracer_config_text(const wavetracer_simulation* self); /* every key with its value, TOML */
 const char* wavetracer_warnings(const wavetracer_simulation* self);    /* one per line; "" if there are none */
 
-/* Solves a frame, 0 to frame_count - 1. With trace.reuse, what a frame finds depends on the frames since the last
-   wavetracer_forget, which makes the next one cold. After a failure of code RUNTIME or DEVICE close the simulation. */
+/* Solves a frame, 0 to frame_count - 1. With trace.reuse, the result of a frame depends on the frames since the last
+   wavetracer_forget, which drops earlier results. After an error of code RUNTIME or DEVICE close the simulation. */
 wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t frame, wavetracer_error** error);
 void wavetracer_frame_free(wavetracer_frame* self);
 void wavetracer_forget(wavetracer_simulation* self);
 
-/* Who watches the frames that follow; a null observer: nobody. It is called in the thread of wavetracer_run_frame,
+/* Sets the observer of all following frames; null removes it. It is called in the thread of wavetracer_run_frame,
    between batches of rays (stage "rays": launched, of how many) and between the steps of the exact solution ("paths").
-   If it returns 0, the frame is given up with an error of code STOPPED; the simulation can go on with any frame, the
-   next one cold. user is handed to it as it is. Another observer is called from the next step on. */
+   If it returns 0, the frame is cancelled with an error of code STOPPED; the simulation can continue with any frame,
+   without earlier results. user is passed to it unchanged. A new observer is called from the next step on. */
 typedef int (*wavetracer_observer)(void* user, const char* stage, uint64_t done, uint64_t total);
 void wavetracer_observe(wavetracer_simulation* self, wavetracer_observer observer, void* user);
 
 /* Counts of a frame. */
 typedef struct wavetracer_counts {
-  uint64_t rays;       /* launched */
+  uint64_t rays;       /* launched rays */
   uint64_t segments;   /* rays traced or answered by the cache, all depths */
   uint64_t hits;       /* rays that met a surface */
   uint64_t sequences;  /* distinct sequences of surfaces */
@@ -99,20 +101,20 @@ typedef struct wavetracer_counts {
   uint64_t paths;      /* visible and distinct paths: the rows of the columns */
 } wavetracer_counts;
 
-/* What the rays of a frame may have missed: docs/method.md, "What was missed". low to high: where the truth is in 95
-   cases of 100. All NaN where that is not known, as with a ray cache or reception by spheres. */
+/* Estimate of what the rays of a frame have missed: docs/method.md, "What was missed". low to high: the 95% confidence
+   interval. All values are NaN if it is unknown, as with a ray cache or reception by spheres. */
 typedef struct wavetracer_missed {
   double paths, paths_low, paths_high;                   /* their number */
-  double power_share, power_share_low, power_share_high; /* their power against that which was found */
+  double power_share, power_share_low, power_share_high; /* relative to the power that was found */
 } wavetracer_missed;
 
-/* 0 of null. */
+/* 0 for null */
 uint32_t wavetracer_frame_number(const wavetracer_frame* self);
-double wavetracer_frame_time_s(const wavetracer_frame* self);     /* NaN of null */
+double wavetracer_frame_time_s(const wavetracer_frame* self);     /* NaN for null */
 uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 if any receiver has two */
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
-wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 of null */
-wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN of null */
+wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 for null */
+wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN for null */
 const char* wavetracer_frame_warnings(const wavetracer_frame* self); /* as wavetracer_warnings; lives as the frame */
 
 /* Results are columns with the names of the datasets in paths.h5. */
@@ -182,38 +184,38 @@ typedef struct wavetracer_column {
 int wavetracer_frame_column(const wavetracer_frame* self, const char* name, wavetracer_column* column,
                             wavetracer_error** error);
 
-/* The elements of the arrays of ends ([[array]]); 1 of an end without one, 0 where self is null or the index is too
+/* Number of elements of an end's array ([[array]]); 1 for an end without one, 0 if self is null or the index is too
    large. */
 size_t wavetracer_transmitter_elements(const wavetracer_simulation* self, size_t index);
 size_t wavetracer_receiver_elements(const wavetracer_simulation* self, size_t index);
-/* Where they are: 3 doubles each, metres from the position of the end, in the axes of its antenna. count: of the
-   doubles that there is room for. Return 1, or 0 with an error of code USAGE. */
+/* Write the positions of elements: 3 doubles each, metres from the position of the end, in the axes of its antenna.
+   count: number of doubles that fit. Return 1, or 0 with an error of code USAGE. */
 int wavetracer_transmitter_element_positions(const wavetracer_simulation* self, size_t index, double* positions_m,
                                              size_t count, wavetracer_error** error);
 int wavetracer_receiver_element_positions(const wavetracer_simulation* self, size_t index, double* positions_m,
                                           size_t count, wavetracer_error** error);
 
-/* Row `row` of the paths between all pairs of antennas, [rx antenna][tx antenna], an antenna being element * ports +
-   port: coefficients as the column a, without the carrier phase of the path's own delay_s. carrier: 0, or the place of
-   another one in radio.frequencies_hz. coefficients: pairs of doubles, real and imaginary part; count: of the pairs
-   that there is room for, which must be rx elements x rx ports x tx elements x tx ports. Returns 1, or 0 with an error
-   of code USAGE. */
+/* Writes row `row` of the paths between all pairs of antennas, [rx antenna][tx antenna]; antenna number = element *
+   ports + port. Coefficients are like the column a, without the carrier phase of the path's own delay_s. carrier: 0, or
+   the index of another one in radio.frequencies_hz. coefficients: pairs of doubles, real and imaginary part; count:
+   number of pairs that fit, which must be rx elements x rx ports x tx elements x tx ports. Returns 1, or 0 with an
+   error of code USAGE. */
 int wavetracer_element_coefficients(const wavetracer_simulation* self, const wavetracer_frame* frame, size_t row,
                                     uint32_t carrier, double* coefficients, size_t count, wavetracer_error** error);
 
-/* Rows rows[0] to rows[row_count - 1] of the paths between all pairs of elements, [row][rx element][tx element]: delays
-   in seconds, and the amplitudes by which they spread there over those between the centres. A coefficient between two
-   elements is a amplitude exp(-j 2 pi f (delay - delay_s)) at its carrier f, of every pair of ports. rx_elements,
-   tx_elements: that there is room for; where an end has fewer, amplitudes are 0. Returns 1, or 0 with an error of code
-   USAGE. */
+/* Writes the rows rows[0] to rows[row_count - 1] of the paths between all pairs of elements, [row][rx element]
+   [tx element]: delays in seconds, and amplitudes relative to those between the centres. The coefficient between two
+   elements is a amplitude exp(-j 2 pi f (delay - delay_s)) at its carrier f, for every pair of ports. rx_elements,
+   tx_elements: numbers of elements that fit; if an end has fewer, the other amplitudes are 0. Returns 1, or 0 with an
+   error of code USAGE. */
 int wavetracer_element_paths(const wavetracer_simulation* self, const wavetracer_frame* frame, const size_t* rows,
                              size_t row_count, size_t rx_elements, size_t tx_elements, double* delay_s,
                              double* amplitude, wavetracer_error** error);
 
-/* The channel of a link, [time][rx antenna][tx antenna][frequency], pairs of doubles:
+/* Writes the channel of a link, [time][rx antenna][tx antenna][frequency], pairs of doubles:
    h(f, t) = sum over its paths of a exp(-j 2 pi f delay) exp(j 2 pi doppler t), with the delays between elements.
-   frequencies_hz: absolute; times_s: from that of the frame on; carrier: whose coefficients these are; count: of the
-   pairs that there is room for. Returns 1, or 0 with an error of code USAGE. */
+   frequencies_hz: absolute; times_s: relative to that of the frame; carrier: the one of the coefficients; count:
+   number of pairs that fit. Returns 1, or 0 with an error of code USAGE. */
 int wavetracer_response(const wavetracer_simulation* self, const wavetracer_frame* frame, uint32_t tx, uint32_t rx,
                         uint32_t carrier, const double* frequencies_hz, size_t frequency_count, const double* times_s,
                         size_t time_count, double* h, size_t count, wavetracer_error** error);
@@ -222,8 +224,9 @@ int wavetracer_response(const wavetracer_simulation* self, const wavetracer_fram
 size_t wavetracer_column_count(void);
 const char* wavetracer_column_name(size_t index);
 
-/* Writes paths.h5, links.csv and summary.json into a folder, as the program does; what an earlier run left there goes.
-   frames: at least one, of this simulation, sorted by their number, each once. Returns 1, or 0 with an error. */
+/* Writes paths.h5, links.csv and summary.json into a folder, as the program does; results of an earlier run there are
+   removed. frames: at least one, of this simulation, sorted by their number, each once. Returns 1, or 0 with an error.
+ */
 int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames,
                      size_t count, wavetracer_error** error);
 

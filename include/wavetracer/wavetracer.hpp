@@ -2,14 +2,14 @@
 // Link wavetracer::wavetracer of find_package(wavetracer); the headers need glm and nothing else.
 //
 // Units are SI and part of the names: _m, _s, _hz, _rad, _deg, _db. Results are arrays of equal length, with one
-// element per path; declarations document the shapes. File coordinates are those of the scene file in metres;
-// recentred ones are file coordinates minus Scene::origin_m.
+// element per path; declarations document the shapes. File coordinates are those of the scene file in metres; recentred
+// ones are file coordinates minus Scene::origin_m.
 //
 // Errors are exceptions of error.hpp, each with the exit code of the command line: ConfigError, InputError,
-// DeviceError, RuntimeError. After one of them was thrown by Simulation::run_frame, drop that Simulation.
+// DeviceError, RuntimeError. If Simulation::run_frame throws one of them, drop that Simulation.
 //
-// Threads: only one thread at a time may use a Simulation; several may run in different threads. What they
-// return is plain data. Only one thread of the process at a time may call write_outputs().
+// Threads: only one thread at a time may use a Simulation; several may run in different threads. Results are plain
+// data. Only one thread of the process at a time may call write_outputs().
 #pragma once
 #include "wavetracer/arrays.hpp"
 #include "wavetracer/cache_entries.hpp"

@@ -33,7 +33,7 @@ struct EndState {
 
 constexpr uint32_t no_end = 0xFFFFFFFFu;
 
-// A transmitter and a receiver between which paths are wanted.
+// A transmitter and a receiver between which paths are computed.
 struct Link {
   uint32_t tx, rx;
   auto operator<=>(const Link&) const = default;
@@ -43,20 +43,20 @@ struct WorldState {
   double time_s = 0;
   std::vector<Placement> instances;
   std::vector<EndState> transmitters, receivers;
-  std::vector<Link> links;  // of ends that are present, sorted, each once
-  bool arrivals = false;    // of a live world: a vehicle has come, or jumped, since the frame before
+  std::vector<Link> links;  // links of ends that are present, sorted, each once
+  bool arrivals = false;    // in a live world: a vehicle has arrived, or jumped, since the previous frame
 };
 
 // The last frame of a source of poses that launched rays.
 struct DiscoveryMark {
   std::optional<double> time_s;
   std::vector<bool>
-      active;  // of the vehicles, then of the transmitters: whether they were there, and whether they sent
+      active;  // for the vehicles, then the transmitters: whether they were present, and whether they sent
 };
 
 // The properties of an instance that do not change with time.
 struct Instance {
-  std::string id, type;  // of the vehicle, as in its trajectory
+  std::string id, type;  // id and type of the vehicle, as in its trajectory
   uint32_t model = 0;    // index into the models of the world
   // Its surfaces and wedges are those of its model, numbered from here on; those of the static scene come first.
   uint32_t first_surface = 0;

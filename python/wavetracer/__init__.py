@@ -35,8 +35,8 @@ __all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopp
            "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "columns", "configs", "devices",
            "from_sionna", "version", "view"]
 
-# Where names are from. They are imported when they are asked for: the command `wavetracer` needs no library of this
-# process, nor NumPy, and does not wait for them.
+# The module of each name. Modules are imported when a name is asked for: the command `wavetracer` needs neither the
+# library in this process nor NumPy, and does not wait for them.
 _MODULES = {
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
     "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),

@@ -1,5 +1,5 @@
-"""Arguments of the package's functions, checked where they come in: what is of a wrong type is said in the words of the
-function, not in those of what it is handed on to."""
+"""Checks arguments of the package's functions at the entry: a message about a wrong type names the function that the
+user has called, not one that it calls."""
 from __future__ import annotations
 
 import math
@@ -23,7 +23,7 @@ def shown(value: Any) -> str:
 
 
 def integer(value: Any, what: str) -> int:
-    """An integer of Python or NumPy. what: whose it is, such as "the number of a frame"."""
+    """An integer of Python or NumPy. what: its name in messages, such as "the number of a frame"."""
     try:
         return operator.index(value)
     except TypeError:
@@ -80,7 +80,7 @@ def encoded(text: str, what: str) -> bytes:
 
 
 def each(values: Iterable[T], what: str) -> list[T]:
-    """Things to go through, of which a text is none."""
+    """A list of the items of an iterable; a text is refused."""
     if isinstance(values, (str, bytes)):
         raise TypeError(f"{what}, not the text {shown(values)}")
     try:

@@ -1,4 +1,4 @@
-"""Readers of measurement campaigns: files as they are published in, rows with line numbers out."""
+"""Readers of measurement campaigns: they take files as they are published, and return rows with line numbers."""
 from __future__ import annotations
 
 import csv
@@ -121,8 +121,8 @@ DUMP_LEVEL, DUMP_MAC, DUMP_SEQUENCE, DUMP_LATITUDE, DUMP_LONGITUDE = 8, slice(16
 
 
 def read_flourish(file: pathlib.Path, level: str) -> list[Route]:
-    """NAME_RxCAM_HP.log with NAME_tcpDump_HP.log beside it: where the receiver was, and how strong it heard whom, joined by
-    the sender's address and the number of the message. A route per sender."""
+    """NAME_RxCAM_HP.log with NAME_tcpDump_HP.log beside it: places of the receiver, and levels with their senders,
+    joined by the sender's address and the number of the message. A route per sender."""
     del level
     if "RxCAM" not in file.name:
         raise InputError(f"{file}: give the log of the received messages, NAME_RxCAM_HP.log or NAME_RxCAM_LP.log")
@@ -152,7 +152,7 @@ def labelled(text: str) -> str:
 
 
 def read_dump(file: pathlib.Path) -> dict[tuple[str, float], tuple[float, Place]]:
-    """(address, number of the message): its level in dBm, and the place that its sender says."""
+    """Returns {(address, number of the message): (its level in dBm, and the place that its sender reports)}."""
     out = {}
     for number, line in lines_of(file):
         cells = line.replace(";", " ").replace(":", " ").split(" ")
@@ -167,6 +167,6 @@ def read_dump(file: pathlib.Path) -> dict[tuple[str, float], tuple[float, Place]
     return out
 
 
-# How a campaign is read: the reader, and the column of the level where there are several.
+# For each campaign: the reader, and the column of the level if there are several.
 CAMPAIGNS: dict[str, tuple[Callable[[pathlib.Path, str], list[Route]], str]] = {
     "cost231": (read_cost231, ""), "berlin": (read_berlin, "RSRP"), "flourish": (read_flourish, "")}

@@ -18,7 +18,7 @@ Array = NDArray[Any]
 
 
 def zeros(shape: tuple[int, ...], what: str) -> Array:
-    """Complex zeros, unless that is more than the machine has: then there is a way to ask for less."""
+    """An array of complex zeros; if it exceeds the machine's memory, an error says how to ask for less."""
     size, memory = 16 * int(np.prod(shape, dtype=object)), os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     if size > memory // 2:
         raise MemoryError(f"{what} of shape {shape} takes {size / 1e9:.1f} GB: take some links alone, with "
@@ -27,7 +27,7 @@ def zeros(shape: tuple[int, ...], what: str) -> Array:
 
 
 class dense:
-    """Where each path is in arrays with an axis for receivers, transmitters, and the paths of a link."""
+    """The place of each path in arrays with an axis for receivers, transmitters, and the paths of a link."""
 
     def __init__(self, paths: Paths):
         place = [np.zeros(len(all_ends), np.intp) for all_ends in (paths._ends.transmitters, paths._ends.receivers)]
@@ -41,16 +41,17 @@ class dense:
         self.shape = (len(paths._rx), len(paths._tx), int(counts.max(initial=0)))
 
     def of_links(self, column: Array, fill: float) -> Array:
-        """(rx, tx, path), `fill` where a link has fewer paths."""
+        """An array (rx, tx, path), with `fill` where a link has fewer paths."""
         out = np.full(self.shape, fill, np.float64)
         out[self.rx, self.tx, self.path] = column
         return out
 
     def of_ports(self, column: Array, extra: tuple[int, ...] = ()) -> Array:
-        """(rx, rx port, tx, tx port, path, ...) of a column (path, rx port, tx port, ...); 0 where there are fewer."""
+        """An array (rx, rx port, tx, tx port, path, ...) from a column (path, rx port, tx port, ...); 0 where there are
+        fewer."""
         rx, tx, path = self.shape
         out = zeros((rx, column.shape[1], tx, column.shape[2], path, *extra), "the impulse response")
-        # Indices that are not side by side come first: (row, rx port, tx port, ...).
+        # Indices that are not adjacent come first: (row, rx port, tx port, ...).
         out[self.rx, :, self.tx, :, self.path] = column
         return out
 
@@ -85,7 +86,7 @@ class Antennas:
         later = delay - paths.delay_s[:, None, None]
         moved = amplitude * turns(-paths.frequency_hz * later)
         rx, tx = self.a.shape[1:]
-        # Antenna port * elements + element, as Sionna RT counts.
+        # The antenna number is port * elements + element, as in Sionna RT.
         self.a = np.einsum("npq,nrt->nprqt", self.a, moved).reshape(len(moved), rx * moved.shape[1], tx * moved.shape[2])
         self.later = np.tile(later, (1, rx, tx))
 

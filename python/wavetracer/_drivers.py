@@ -1,8 +1,8 @@
-"""OpenCL drivers for machines on which nobody can install one: PoCL from PyPI, and NVIDIA's where it is not listed.
+"""OpenCL drivers for machines on which users cannot install one: PoCL from PyPI, and NVIDIA's where it is not listed.
 
-The OpenCL loader takes its drivers from the files *.icd of one folder, /etc/OpenCL/vendors. Where a driver is there
-that this folder does not list, a folder of our own lists all of them, and OCL_ICD_VENDORS names it. A folder that the
-user has named himself stays as it is.
+The OpenCL loader takes its drivers from the files *.icd of one folder, /etc/OpenCL/vendors. If there is a driver that
+this folder does not list, a folder of our own lists all of them, and OCL_ICD_VENDORS names that folder. If the user has
+set OCL_ICD_VENDORS, it is left unchanged.
 
 PoCL calls a linker, `ld`. Where there is none, as on a machine without compilers, that of the package ziglang (LLVM's
 lld) is offered under this name. The extra `pocl` of this package brings both.
@@ -22,7 +22,8 @@ _NVIDIA = "libnvidia-opencl.so.1"
 _LIBRARY_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib/wsl/lib", "/usr/local/nvidia/lib64")
 
 
-# A machine without a compiler lacks the files that -lc and -lgcc name; the process that loads a kernel has them loaded.
+# A machine without a compiler lacks the files that -lc and -lgcc name; the process that loads a kernel has the
+# libraries loaded already.
 _LINKER = """#!/bin/sh
 for word do
   shift
@@ -68,7 +69,8 @@ def unlisted(listed: str) -> list[str]:
 
 
 def _own_folder(key: str) -> pathlib.Path:
-    """A folder that only this user can write to, the same for the same key: what lies in it is loaded and run."""
+    """A folder that only this user can write to, the same for the same key. This matters because files in it are loaded
+    and run."""
     name = hashlib.sha256(key.encode()).hexdigest()[:16]
     caches = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache")
     folder = caches / "wavetracer" / name
@@ -83,7 +85,7 @@ def _own_folder(key: str) -> pathlib.Path:
 
 
 def _write(file: pathlib.Path, content: str, mode: int) -> None:
-    """Whole, under its name, although several processes may do so at once."""
+    """Writes a file so that only the complete file appears under its name, even if several processes do so at once."""
     if file.exists() and file.read_text() == content:
         return
     part = file.with_name(f"{file.name}.{os.getpid()}")
@@ -116,7 +118,7 @@ def linker() -> str | None:
 
 
 def environment() -> dict[str, str]:
-    """What the environment of the library and of the program lacks so that they find their drivers."""
+    """The variables to add to the environment so that the library and the program find their drivers."""
     out = {}
     if not os.environ.get("OCL_ICD_VENDORS") and sys.platform == "linux" and (vendors := _vendors()):
         out["OCL_ICD_VENDORS"] = vendors

@@ -63,8 +63,8 @@ def _grouped(paths: Paths, row: Array, fields: Array, count: int) -> Array:
 
 
 def of_links(paths: Paths, tx: Array, rx: Array) -> dict[str, Array]:
-    """The figures of the links (tx[i], rx[i]), sorted and each once, from these paths alone, each of which is of one of
-    them. What rays have missed is not known of a part."""
+    """The figures of the links (tx[i], rx[i]), sorted and each once, from these paths alone, each of which belongs to
+    one of these links. There is no estimate of missed paths for a part of the paths."""
     row = np.searchsorted(tx.astype(np.int64) << 32 | rx, paths.tx.astype(np.int64) << 32 | paths.rx)
     count = len(tx)
     power = (np.abs(paths.a) ** 2).sum(axis=(1, 2))

@@ -1,4 +1,5 @@
-"""libwavetracer.so through ctypes: where it is, what its functions take, and how its errors become exceptions.
+"""libwavetracer.so through ctypes: finds it, declares the arguments of its functions, and turns its errors into
+exceptions.
 
 It needs no compiled module of Python, so one wheel serves every version of Python."""
 from __future__ import annotations
@@ -18,9 +19,10 @@ Observer = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctyp
 
 
 class Counts(ctypes.Structure):
-    """What was done for a frame. rays: launched; segments: rays traced or answered by the cache, of all depths; hits:
-    rays that met a surface; sequences: distinct ones of surfaces; candidates: pairs of a sequence and a receiver that
-    may be a path; solved: those with all points in their surfaces; paths: those that are visible, each once."""
+    """Counts of the work for a frame. rays: rays launched; segments: rays traced or answered by the cache, at all
+    depths; hits: rays that met a surface; sequences: distinct sequences of surfaces; candidates: pairs of a sequence
+    and a receiver that may be a path; solved: those with all points in their surfaces; paths: those that are visible,
+    each once."""
 
     _fields_ = [(name, ctypes.c_uint64)
                 for name in ("rays", "segments", "hits", "sequences", "candidates", "solved", "paths")]
@@ -65,8 +67,8 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
 
 
 def _candidates() -> list[str]:
-    """Where the library may be, the best place first: what the user says, the wheel's own, an installation that this
-    file is part of (PREFIX/lib/python3/dist-packages/wavetracer), the system's."""
+    """The places where the library may be, the first to be tried first: the one that the user names, the wheel's own,
+    an installation that this file is part of (PREFIX/lib/python3/dist-packages/wavetracer), the system's."""
     here = pathlib.Path(__file__).resolve().parent
     files = [here / "lib/libwavetracer.so"]
     if len(here.parents) > 2:

@@ -1,4 +1,4 @@
-"""The page of a run in a notebook: what `wavetracer view` makes, shown where the cell is."""
+"""The page of a run in a notebook: the page that `wavetracer view` makes, shown below the cell."""
 from __future__ import annotations
 
 import html

@@ -1,4 +1,4 @@
-"""The command `wavetracer` of this package: where the program is, and how it is started with the same drivers."""
+"""The command `wavetracer` of this package: finds the program and starts it with the same drivers."""
 from __future__ import annotations
 
 import os
@@ -15,8 +15,8 @@ _HERE = pathlib.Path(__file__).resolve().parent
 
 
 def environment() -> dict[str, str]:
-    """What the program's environment lacks: drivers, and the data of its own PROJ, which are not for the PROJ of other
-    packages in this process."""
+    """The variables to add to the program's environment: those for drivers, and for the data of its own PROJ, which the
+    PROJ of other packages in this process must not use."""
     out = _drivers.environment()
     if (_HERE / "share/proj/proj.db").exists():
         out["PROJ_DATA"] = str(_HERE / "share/proj")
@@ -24,7 +24,8 @@ def environment() -> dict[str, str]:
 
 
 def find() -> str:
-    """The program: what WAVETRACER_PROGRAM names, the one of this package, else the one in the PATH."""
+    """Returns the program: the one that WAVETRACER_PROGRAM names, else the one of this package, else the one in the
+    PATH."""
     own = _HERE / "bin/wavetracer"
     found = os.environ.get("WAVETRACER_PROGRAM") or (str(own) if own.exists() else shutil.which("wavetracer"))
     if not found:
@@ -34,7 +35,8 @@ def find() -> str:
 
 
 def call(*arguments: str | os.PathLike[str]) -> str:
-    """Runs a command of the program, and returns what it prints. Raises what it fails with, in its own words."""
+    """Runs a command of the program and returns its output. If it fails, raises an exception with the program's own
+    message."""
     command = [find(), *(os.fspath(each) for each in arguments)]
     done = subprocess.run(command, env=os.environ | environment(), check=False, capture_output=True, text=True)
     if done.returncode != 0:

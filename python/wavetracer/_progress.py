@@ -12,7 +12,7 @@ from typing import Any, Union
 
 from .errors import ConfigError
 
-# None: a bar where somebody looks on and tqdm is there; or a class with tqdm's interface.
+# None: a bar if the output is interactive and tqdm is installed; or a class with tqdm's interface.
 Wanted = Union[bool, None, Callable[..., Any]]
 
 
@@ -26,7 +26,7 @@ def _has_widgets() -> bool:
 
 
 def bar(wanted: Wanted, total: int) -> Any | None:
-    """An object of tqdm's interface that counts frames; None where none is wanted."""
+    """An object of tqdm's interface that counts frames; None if no bar is wanted."""
     if wanted is not None and not callable(wanted) and not isinstance(wanted, bool):
         raise TypeError(f"progress is True, False, None or a class with tqdm's interface, not {wanted!r}")
     make: Any = wanted if callable(wanted) else None
@@ -40,7 +40,7 @@ def bar(wanted: Wanted, total: int) -> Any | None:
 
 
 def watcher(progress: Any | None, stopped: Callable[[], bool]) -> Callable[[str, int, int], bool]:
-    """What the library calls between its steps: tells the bar, and says whether to go on."""
+    """The function that the library calls between its steps: it updates the bar and returns whether to go on."""
     def watch(stage: str, done: int, total: int) -> bool:
         if progress is not None:
             progress.set_postfix_str(f"{stage} {done / max(total, 1):.0%}", refresh=False)

@@ -1,4 +1,4 @@
-"""A simulation of the library, as long as it is open, and whose turn it is to use it."""
+"""A simulation of the library while it is open; threads use it in turns."""
 from __future__ import annotations
 
 import os
@@ -21,8 +21,9 @@ class Session:
 
     @contextmanager
     def use(self, why: str) -> Iterator[int]:
-        """Waits for the other threads, and gives the handle. why: what cannot be done without it, for messages."""
-        # Asked before the lock, which a thread that was not forked with this process may have.
+        """Waits for the other threads and returns the handle. why: what needs it, for messages."""
+        # This is checked before the lock is taken, since the lock may belong to a thread that was not forked with this
+        # process.
         if os.getpid() != self._process:
             raise RunError(f"{why}: this process was forked from the one that has opened the simulation, and the threads "
                            "of OpenCL are not in it: start processes with multiprocessing.get_context(\"spawn\"), and "

@@ -1,4 +1,5 @@
-"""Configurations as TOML text: a dict becomes a file that the program reads, and a value what stands behind a key."""
+"""Configurations as TOML text: a dict becomes a file that the program reads, and a value becomes the text after "key
+="."""
 from __future__ import annotations
 
 import math
@@ -29,7 +30,7 @@ def _float(value: float) -> str:
 def text_of(value: Any, where: str) -> str:
     """One value in TOML. `where` is the key that it belongs to, for messages."""
     if type(value).__module__ == "numpy" and hasattr(value, "tolist"):
-        value = value.tolist()  # of an array a list, of a number one of Python's; NumPy itself is not needed here
+        value = value.tolist()  # an array becomes a list, a number one of Python's; NumPy itself is not needed here
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -56,7 +57,7 @@ def _rows(table: Mapping[str, Any], where: str) -> str:
 
 
 def document(config: Mapping[str, Any]) -> str:
-    """A configuration as TOML text; a value of None is a key that is not given."""
+    """A configuration as TOML text; a key whose value is None is left out."""
     plain = {key: value for key, value in config.items() if not isinstance(value, Mapping) and not _is_tables(value)
              and not (isinstance(value, list) and not value)}
     out = _rows(plain, "") if plain else ""

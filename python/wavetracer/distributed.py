@@ -41,7 +41,7 @@ __all__ = ["DriveError", "Job", "cancel", "merge", "run", "submit", "submit_slur
 
 log = logging.getLogger("wavetracer.distributed")
 
-# Exit codes of the program: usage or configuration, input, parts missing. Trying again would end the same way.
+# Exit codes of the program: usage or configuration, input, parts missing. A retry would end the same way.
 _FINAL_CODES = {2, 3, 5}
 _MISSING = ("dask.distributed is not installed: install it with `pip install distributed`, or use submit_slurm, which "
             "needs no Python package")
@@ -59,7 +59,7 @@ class DriveError(RuntimeError):
 
 
 def _texts(sets: Any) -> tuple[str, ...]:
-    """The texts KEY=VALUE of what is set over a configuration, in TOML."""
+    """The texts KEY=VALUE of keys that are set over a configuration, with values in TOML."""
     if isinstance(sets, Mapping):
         from . import _toml
         return tuple(_toml.sets(sets))
@@ -111,11 +111,11 @@ class Job:
 
     @property
     def folder(self) -> pathlib.Path:
-        """Where the parts lie until they are merged."""
+        """The folder of the parts until they are merged."""
         return pathlib.Path(self.output) / "parts"
 
     def part_folder(self, index: int) -> pathlib.Path:
-        """The folder of a part, which appears when the part is whole."""
+        """The folder of a part, which appears when the part is complete."""
         return self.folder / f"{index:05d}_of_{self.parts:05d}"
 
     def part_command(self, index: int, folder: str | pathlib.Path) -> list[str]:
@@ -138,7 +138,7 @@ _running: dict[str, set[Any]] = collections.defaultdict(set)  # processes of thi
 _stopped: set[str] = set()                   # tokens of what was given up
 _lock = threading.Lock()
 
-# The program ends with its worker, even if that is killed: a part that is tried again elsewhere should not be computed
+# The program ends with its worker, even if that is killed: a part that is retried elsewhere should not be computed
 # twice. The kernel sends the signal to children of a thread that has ended, and workers keep their threads.
 _WITH_PARENT = ("import ctypes, os, sys\n"
                 "ctypes.CDLL(None).prctl(1, 9)\n"  # PR_SET_PDEATHSIG, SIGKILL
@@ -158,8 +158,8 @@ def _start(command: list[str], environment: tuple[tuple[str, str], ...]) -> Any:
 
 
 def _call(job: Job, token: str, command: list[str], what: str) -> dict[str, Any] | None:
-    """Runs a command of a job; its messages go to the log of the worker. Returns None where it went well, or
-    {"error": text, "code": exit code} where trying again would change nothing; else raises DriveError."""
+    """Runs a command of a job; its messages go to the log of the worker. Returns None if it succeeds, or {"error":
+    text, "code": exit code} if another attempt would fail in the same way; else raises DriveError."""
     last: collections.deque[str] = collections.deque(maxlen=20)
     try:
         process = _start(command, job.environment)
@@ -191,8 +191,8 @@ def _call(job: Job, token: str, command: list[str], what: str) -> dict[str, Any]
 
 
 def compute_part(job: Job, index: int, token: str = "") -> dict[str, Any]:
-    """Computes a part and returns {"folder": its folder}, or {"error": text, "code": exit code} where trying again would
-    change nothing. Other failures raise DriveError. A part that is there already is not computed again.
+    """Computes a part and returns {"folder": its folder}, or {"error": text, "code": exit code} if another attempt
+    would fail in the same way. Other failures raise DriveError. A part that is there already is not computed again.
 
     Every attempt writes to a folder of its own, which gets the name of the part when it is whole. So an attempt that was
     given up, and may still be running somewhere, disturbs no other one."""
@@ -230,7 +230,8 @@ def merge(job: Job, parts: Any = (), keep_parts: bool = False, token: str = "") 
 
 
 def _stop(token: str) -> None:
-    """Ends what this worker computes of what was submitted under the token, now and from now on."""
+    """Ends this worker's processes of jobs submitted under the token, and lets it start no more of them.
+    """
     with _lock:
         _stopped.add(token)
         for process in _running[token]:
@@ -275,7 +276,8 @@ def submit(job: Job, *, client: Any, retries: int = 2, keep_parts: bool = False,
 
 
 def cancel(futures: Any, *, client: Any) -> None:
-    """Gives up what submit() has returned: takes the tasks from the cluster and ends the processes that compute them."""
+    """Cancels the futures that submit() has returned: takes the tasks from the cluster and ends the processes that
+    compute them."""
     futures = list(futures)
     client.cancel(futures, force=True)
     for token in {str(future.key).split("-")[2] for future in futures}:
@@ -434,6 +436,6 @@ def main(words: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    # As the module of this name, not as __main__, so that workers find what they are sent.
+    # The module is called by this name, not as __main__, so that workers find the functions that they are sent.
     from wavetracer.distributed import main as named_main
     sys.exit(named_main())

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """The base of all errors. `code` is what the program `wavetracer` would exit with."""
+    """The base of all errors. `code` is the exit code that the program `wavetracer` would have."""
 
     code: int = 1
 
@@ -38,7 +38,7 @@ class DeviceError(Error, RuntimeError):
 
 
 class FrameStopped(Error):
-    """Whoever watched the progress of a frame gave it up (code 130)."""
+    """The caller's progress function has stopped the frame (code 130)."""
 
     code = 130
 

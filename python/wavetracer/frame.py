@@ -106,8 +106,9 @@ class Frame(Unique):
 
     @property
     def missed(self) -> dict[str, dict[str, float]] | None:
-        """What the rays of the frame may have missed: missed["paths"] and missed["power_share"], each with "estimate",
-        and "low" to "high", where the truth is in 95 cases of 100. None where that is not known."""
+        """Estimates of the paths that the rays of the frame have missed: missed["paths"] and missed["power_share"],
+        each with "estimate", and "low" to "high", the interval that contains the true value in 95 cases of 100. None if
+        it is not known."""
         of = library.wavetracer_frame_missed(self._handle)
         if np.isnan(of.paths):
             return None

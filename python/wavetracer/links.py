@@ -1,4 +1,4 @@
-"""The ends of links, and what the paths of each link amount to."""
+"""The ends of links, and the figures of each link: gain, delay, spreads."""
 from __future__ import annotations
 
 import fnmatch
@@ -21,12 +21,12 @@ Chosen = Union[str, int, Iterable[Union[str, int]], None]
 
 @dataclass(frozen=True)
 class Ends:
-    """The radio ends that a frame speaks of, and its carrier. Rows of `tx` and `rx` are places in these lists."""
+    """The radio ends of a frame, and its carrier. Rows of `tx` and `rx` are places in these lists."""
 
     transmitters: tuple[str, ...]
     receivers: tuple[str, ...]
     frequency_hz: float
-    tx_elements: tuple[int, ...] = ()  # of the array of each; empty: one each
+    tx_elements: tuple[int, ...] = ()  # elements of each array; empty: one each
     rx_elements: tuple[int, ...] = ()
     carriers_hz: tuple[float, ...] = ()
 
@@ -51,7 +51,8 @@ def places_of(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
 
 
 class Links:
-    """What the paths of each link amount to: one row per pair of a transmitter and a receiver that was asked for.
+    """Figures of each link, computed from its paths: one row per pair of a transmitter and a receiver that was asked
+    for.
 
     links["path_gain_db"] is a column, shape (links,). Columns: `tx`, `rx` (places in `transmitters` and `receivers`),
     `paths` (how many), `los` (True where one of them has no interaction), `path_gain_db` (fields of one wave added, then

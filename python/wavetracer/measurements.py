@@ -1,7 +1,9 @@
-"""Measurement campaigns beside what is computed for the same places: `python3 -m wavetracer.measurements`.
+"""Compares measurement campaigns with gains that are computed for the same places: `python3 -m
+wavetracer.measurements`.
 
-The configuration says what was there: the map, the carrier, antennas and their heights. The files say where receivers were
-and what they heard. Levels are compared up to a constant, the offset, because powers, cables and antennas are not known.
+The configuration describes the place: the map, the carrier, antennas and their heights. The files have the positions of
+receivers and the levels that they measured. Levels are compared up to a constant, the offset, because powers, cables
+and antennas are not known.
 """
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass
 class Agreement:
-    """What a route amounts to. Measured less computed gain: offset_db is its mean, sigma_db its deviation."""
+    """The agreement on one route. Measured minus computed gain: offset_db is its mean, sigma_db its deviation."""
 
     points: int
     with_a_path: int

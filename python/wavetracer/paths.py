@@ -1,4 +1,4 @@
-"""Paths of one frame as NumPy columns, what a link's paths amount to, and the channels that they make."""
+"""Paths of one frame as NumPy columns, the figures of links, and the channels that paths make."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -21,7 +21,8 @@ Array = NDArray[Any]
 # Delays and amplitudes of rows of a frame between all pairs of elements, for (rx elements, tx elements).
 Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 
-# What a path is called, the most special of its interactions deciding, and the bits of its interactions that say so.
+# The word for a path, which depends on the most special of its interactions, and the bits of its interactions that
+# decide it.
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
 _SPECIAL = (2, 8, 4, 1)
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
@@ -31,7 +32,7 @@ _AT_CARRIERS = ("carrier_a", "carrier_gain_db", "carrier_doppler_hz")
 
 
 class _Kept:
-    """Columns, and what paths are between elements, as arrays."""
+    """Columns, and delays and amplitudes between elements, as arrays."""
 
     def __init__(self, columns: dict[str, Array], between: tuple[Array, Array] | str | None):
         self.columns, self.between = columns, between  # a text: why it is not known
@@ -144,7 +145,7 @@ class Paths:
 
     @property
     def vertex_position_m(self) -> Array:
-        """Where interactions are, shape (interactions, 3), metres in the coordinates of the scene file."""
+        """Positions of interactions, shape (interactions, 3), metres in the coordinates of the scene file."""
         return self._column("vertex_position_m")
 
     @property
@@ -165,22 +166,22 @@ class Paths:
 
     @property
     def kind(self) -> Array:
-        """What each path is called: "line_of_sight", "reflected", "transmitted", "diffracted" or "scattered", by the
-        most special of its interactions, the last word here being the most special. Shape (paths,), texts."""
+        """The kind of each path: "line_of_sight", "reflected", "transmitted", "diffracted" or "scattered", by its
+        interactions: of the words that apply, the last in this list. Shape (paths,), texts."""
         bits = _figures.joined_bits(self.vertex_interaction, self.vertex_offset)
         words = {bit: word for word, bit in KINDS.items()}
         return np.select([(bits & bit) != 0 for bit in _SPECIAL], [words[bit] for bit in _SPECIAL], words[0])
 
-    # --- what the columns are of ---
+    # --- shapes and names of the columns ---
 
     @property
     def transmitters(self) -> list[str]:
-        """The names on the axis `tx` of channels: those that select() has left, else all."""
+        """The names on the axis `tx` of channels: those that select() has kept, or all."""
         return [self._ends.transmitters[i] for i in self._tx]
 
     @property
     def receivers(self) -> list[str]:
-        """The names on the axis `rx` of channels: those that select() has left, else all."""
+        """The names on the axis `rx` of channels: those that select() has kept, or all."""
         return [self._ends.receivers[i] for i in self._rx]
 
     @property
@@ -227,8 +228,8 @@ class Paths:
         """The paths of some transmitters, receivers and kinds, as Paths (a copy). None takes all.
 
         tx, rx: a name, a pattern with * and ?, a place in the list of all, or several of these. kind: one or several of
-        "line_of_sight", "reflected", "transmitted", "diffracted", "scattered". What is not selected has no place on the
-        axes of channels.
+        "line_of_sight", "reflected", "transmitted", "diffracted", "scattered". Ends that are not selected are not on
+        the axes of channels.
         """
         places = (places_of(self._ends.transmitters, tx, "transmitter"), places_of(self._ends.receivers, rx, "receiver"))
         places = (sorted(set(places[0]) & set(self._tx)), sorted(set(places[1]) & set(self._rx)))
@@ -253,7 +254,8 @@ class Paths:
 
     def at_carrier(self, index: int) -> Paths:
         """The same paths at another of the run's carriers: 0 is radio.frequency_hz, others are those of
-        radio.frequencies_hz in their order. Coefficients, gains, Doppler shifts, links and channels are those there."""
+        radio.frequencies_hz in their order. Coefficients, gains, Doppler shifts, links and channels are those at that
+        carrier."""
         index = integer(index, "the number of a carrier")
         if not 0 <= index < max(1, len(self._ends.carriers_hz)):
             raise ConfigError(f"there is no carrier {index}; there are {len(self._ends.carriers_hz)}: "
@@ -279,9 +281,9 @@ class Paths:
     # --- channels ---
 
     def elements(self) -> tuple[Array, Array]:
-        """Each path between all pairs of elements of the arrays of its ends: delays, in seconds, and the amplitudes by
-        which it spreads there over those between the centres. Each of shape (paths, rx elements, tx elements); where an
-        end has fewer elements than others, amplitudes are 0."""
+        """Each path between all pairs of elements of the arrays of its ends: delays, in seconds, and amplitudes
+        relative to those between the centres. Each has shape (paths, rx elements, tx elements); where an end has fewer
+        elements than others, amplitudes are 0."""
         shape = tuple(max((counts[i] for i in chosen), default=1) if counts else 1
                       for counts, chosen in ((self._ends.rx_elements, self._rx), (self._ends.tx_elements, self._tx)))
         if self._elements is None:

@@ -53,6 +53,6 @@ class Responses:
         (rx_elements, rx_ports), (tx_elements, tx_ports) = self._shapes
         shape = (len(self.times_s), rx_elements[rx], rx_ports[rx], tx_elements[tx], tx_ports[tx],
                  len(self.frequencies_hz))
-        # In the file an antenna is element * ports + port.
+        # In the file the antenna number is element * ports + port.
         turned = h.reshape(shape).transpose(2, 1, 4, 3, 0, 5)
         return np.asarray(turned.reshape(shape[1] * shape[2], shape[3] * shape[4], shape[0], shape[5]))

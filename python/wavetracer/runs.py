@@ -225,6 +225,6 @@ class Run:
 
     def _links_of(self, frame: int) -> Links:
         rows = self.links["frame"] == frame
-        unknown = np.full(int(rows.sum()), np.nan)  # of a version that did not have the column
+        unknown = np.full(int(rows.sum()), np.nan)  # values of a version that did not have the column
         return Links({name: self.links[name][rows] if name in self.links else unknown for name in Links.columns},
                      self._ends)

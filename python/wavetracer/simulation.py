@@ -139,10 +139,11 @@ class Simulation(Unique):
                 library.wavetracer_observe(handle, _NOBODY, None)
 
     def frames(self, numbers: Iterable[int] | None = None, *, progress: _progress.Wanted = None) -> Iterator[Frame]:
-        """Frames in their order, each computed when it is asked for. numbers: some of them, such as range(0, 10).
+        """Yields frames in their order; each is computed when it is asked for. numbers: some of them, such as range(0,
+        10).
 
-        progress: True shows a bar of tqdm; a class of tqdm's interface shows that; None shows one where somebody looks
-        on (a notebook, a terminal) and tqdm is installed.
+        progress: True shows a bar of tqdm; a class of tqdm's interface shows that; None shows one in a notebook or a
+        terminal if tqdm is installed.
         """
         chosen = each(range(len(self)) if numbers is None else numbers,
                       "numbers are those of frames, such as [0, 2] or range(0, 10)")
@@ -165,8 +166,8 @@ class Simulation(Unique):
         return self.write(where, list(self.frames(numbers, progress=progress)))
 
     def element_positions_m(self, name: str) -> Array:
-        """Where the elements of a transmitter's or receiver's [[array]] are: metres from its position in the axes of its
-        antenna (boresight +x), shape (elements, 3)."""
+        """Positions of the elements of a transmitter's or receiver's [[array]]: metres from its position in the axes of
+        its antenna (boresight +x), shape (elements, 3)."""
         for side, names, counts in (("transmitter", self.transmitters, self._ends.tx_elements),
                                     ("receiver", self.receivers, self._ends.rx_elements)):
             if name in names:

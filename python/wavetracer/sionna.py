@@ -34,7 +34,7 @@ def _warn(message: str) -> None:
 
 
 def _slants_deg(patterns: list[Any], directions: tuple[tuple[float, float], ...]) -> set[tuple[int, ...]]:
-    """By how much each pattern's field is turned from theta to phi, in each of these directions (theta, phi)."""
+    """The angle by which each pattern's field is turned from theta to phi, in each of these directions (theta, phi)."""
     import mitsuba as mi
 
     out = set()
@@ -51,7 +51,7 @@ def _antenna(array: Any, side: str) -> dict[str, Any]:
     named = {"array": side + "_array"} if array.array_size > 1 else {}
     pattern = array.antenna_pattern
     try:
-        # The model of polarisation "tr38901_1" turns by other angles in other directions; ours and "tr38901_2" do not.
+        # The polarisation model "tr38901_1" turns by other angles in other directions; ours and "tr38901_2" do not.
         (slants,) = _slants_deg(pattern.patterns, ((1.5, 0.1), (1.0, 0.7)))
         return {"antenna": _PATTERNS[pattern.v_pattern.__name__], "polarization": _POLARIZATIONS[slants], **named}
     except (KeyError, ValueError, AttributeError):

@@ -58,7 +58,7 @@ TEST_CASE("depth stays within the bound that stacks rely on") {
   BuildOptions options;
   options.max_leaf = 1;
   CHECK(faults(build_binary(soup, options), soup, options) == std::vector<std::string>{});
-  CHECK(build_binary(soup, options).max_depth > 20);  // uneven by nature
+  CHECK(build_binary(soup, options).max_depth > 20);  // the tree is uneven here
   options.max_depth = 8;                              // and 2^8 >= 220
   const BinaryTree tree = build_binary(soup, options);
   CHECK(tree.max_depth == 8);
@@ -152,7 +152,7 @@ TEST_CASE("a cut triangle is covered by its pieces, tightly") {
         }
         if (in_part) CHECK((in_left || in_right));
       }
-      part = random() < 0.5 ? halves.left : halves.right;  // cut the cut piece next
+      part = random() < 0.5 ? halves.left : halves.right;  // the next cut is made in the cut piece
       if (part.empty()) break;
     }
   }

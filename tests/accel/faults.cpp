@@ -22,7 +22,8 @@ class Faults {
   void check(bool right, const std::string& what) {
     if (!right && found.size() < 10) found.push_back(what);
   }
-  // Uncut triangles lie inside their leaf's box; of cut ones, the leaves' boxes together hold the bounds.
+  // Uncut triangles must lie inside their leaf's box; the leaves' boxes of a cut triangle must together contain its
+  // bounds.
   void meet(uint32_t primitive, std::span<const AccelTriangle> triangles, const Box& leaf, bool exact) {
     check(primitive < triangles.size(), "no such triangle: " + std::to_string(primitive));
     if (primitive >= triangles.size()) return;

@@ -29,8 +29,8 @@ struct Both {
   }
 };
 
-// From points in and around the soup, half towards points of a triangle (among them its corners and edges), half
-// anywhere.
+// Rays start from points in and around the soup, half towards points of a triangle (among them its corners and edges),
+// half anywhere.
 std::vector<OracleRay> rays_for(const Soup& soup, size_t count, uint32_t seed) {
   Box box;
   for (const AccelTriangle& triangle : soup)
@@ -65,7 +65,8 @@ std::vector<OracleRay> rays_for(const Soup& soup, size_t count, uint32_t seed) {
   return rays;
 }
 
-// Half areas of a BVH8's children times what entering them costs, with all below them, and the root's own cost.
+// Returns the half areas of a BVH8's children times the cost of entering them, with all nodes below them, and the
+// root's own cost.
 double cost_of(const Bvh8& bvh, int32_t index, float node_cost) {
   const wt_bvh8_node& n = bvh.nodes.at(static_cast<size_t>(index));
   Box all;
@@ -81,7 +82,7 @@ double cost_of(const Bvh8& bvh, int32_t index, float node_cost) {
   return cost + static_cast<double>(node_cost) * all.half_area();
 }
 
-// The same cost of the simple collapse: replace the child of largest area by its two children until there are eight
+// Returns the cost of the simple collapse: replace the child of largest area by its two children until there are eight
 // (I. Wald, C. Benthin, S. Boulos: Getting Rid of Packets, RT 2008). Leaves are the largest subtrees of max_leaf
 // triangles.
 double greedy_cost(const BinaryTree& tree, uint32_t index, const CollapseOptions& options) {

@@ -1,5 +1,5 @@
 // The slow, obvious tracer of these tests: watertight intersection in double, brute force, and plain recursion through
-// layouts. Assumes nothing about how trees were built; it reads the layouts as wavetracer/device/bvh.h defines them.
+// layouts. It does not depend on how trees were built; it reads the layouts as wavetracer/device/bvh.h defines them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@ struct OracleRay {
 
 struct OracleHit {
   double t = std::numeric_limits<double>::infinity();
-  uint32_t primitive = ~0u;  // the lowest of those at the same distance
+  uint32_t primitive = ~0u;  // the lowest of several at the same distance
   bool operator==(const OracleHit&) const = default;
 };
 
@@ -26,7 +26,7 @@ OracleHit trace_brute_force(std::span<const AccelTriangle> triangles, const Orac
 OracleHit trace(const Bvh2& bvh, const OracleRay& ray);
 OracleHit trace(const Bvh8& bvh, const OracleRay& ray);
 
-// Walks a structure and returns what is wrong with it, or nothing: boxes that do not hold what is below them, nodes and
+// Walks a structure and returns its faults, if any: boxes that do not contain everything below them, nodes and
 // triangles met more or less often than once, leaves that are too large, wrong depths. exact: no triangle may be cut.
 std::vector<std::string> faults(const BinaryTree& tree, std::span<const AccelTriangle> triangles,
                                 const BuildOptions& options);

@@ -1,5 +1,5 @@
-// Triangle soups for the tests of the acceleration structures: ordinary ones and those that break builders.
-// Assumes nothing; every function is deterministic, with the standard's own fixed generator.
+// Triangle soups for the tests of the acceleration structures: ordinary ones and those that break builders. Every
+// function is deterministic, with the generator of the standard.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -13,7 +13,7 @@ namespace wavetracer::test {
 
 using Soup = std::vector<AccelTriangle>;
 
-// A uniform number in [0, 1) that is the same with every standard library.
+// Returns a uniform number in [0, 1) that is the same with every standard library.
 class Random {
  public:
   explicit Random(uint32_t seed) : engine_(seed) {}
@@ -62,7 +62,7 @@ inline Soup sliver_soup(size_t count, uint32_t seed) {
   return soup;
 }
 
-// Needles through one point: whatever plane is chosen, many of them cross it.
+// Makes needles through one point: many of them cross any plane.
 inline Soup star_soup(size_t count, uint32_t seed) {
   Random random(seed);
   Soup soup;
@@ -73,8 +73,8 @@ inline Soup star_soup(size_t count, uint32_t seed) {
   return soup;
 }
 
-// Each triangle half as large and half as far as the one before it, from 2^exponent m down: every binned split parts
-// few from many.
+// Makes triangles, each half as large and half as far as the one before it, from 2^exponent m down: every binned split
+// separates few from many.
 inline Soup geometric_soup(size_t count, int exponent) {
   Soup soup;
   for (size_t i = 0; i < count; i++) {

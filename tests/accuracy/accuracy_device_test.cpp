@@ -1,5 +1,5 @@
-// Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program.
-// What needs a device is skipped, saying so, where there is none.
+// Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program. Cases
+// that need a device are skipped with a message if there is none.
 #include <signal.h>
 
 #include "accuracy/advice.hpp"
@@ -30,7 +30,7 @@ std::string config_text(const SceneFile& scene, const std::string& trace, const 
   return text;
 }
 
-// A screen between the transmitter and the first receiver, and a wall aside by which both have a path.
+// Makes a screen between the transmitter and the first receiver, and a wall at the side that gives both a path.
 SceneFile screen() {
   return SceneFile({Quad{{4, 0, 0}, {0, 4.5, 0}, {0, 0, 4}}, Quad{{-5, 9, -2}, {20, 0, 0}, {0, 0, 8}}});
 }
@@ -48,7 +48,8 @@ const accuracy::Row& row(const accuracy::Study& study, const std::string& axis, 
   return study.rows.front();
 }
 
-// Number and power of the paths of a box with walls of perfect conductors, by order: spread by distance alone.
+// Returns number and power of the paths of a box with walls of perfect conductors, by order: only distance reduces the
+// power.
 std::vector<std::pair<int, double>> lattice(int orders) {
   std::vector<std::pair<int, double>> out(orders + 1, {0, 0.0});
   for (int i = -orders; i <= orders; ++i)
@@ -90,7 +91,7 @@ TEST_CASE("a box: a million rays lose nothing, and a depth loses what its images
     CHECK(shallow.error.lost_share == doctest::Approx(lost / 25.0));
     CHECK(shallow.error.lost_power == doctest::Approx(1 - found / whole).epsilon(0.01));
   }
-  // A closed room of metal needs nothing else: its edges are convex outside only.
+  // A closed room of metal needs no other feature: its edges are convex on the outside only.
   CHECK(row(box, "diffraction", "off").error.lost == 0);
   CHECK(row(box, "transmission", "on").refusal ==
         "all materials are metals or half spaces, and no wave passes through them");
@@ -114,7 +115,7 @@ TEST_CASE("what a mechanism adds is the difference of two runs, and a recommenda
   CHECK(without.error.power_median_db == error.power_median_db);
   CHECK(without.error.power_max_db == error.power_max_db);
   CHECK(without.error.power_max_db > 0.01);
-  // The promise of every recommendation, by runs of its own.
+  // The promise of every recommendation is checked by separate runs.
   const Paths reference = frame({"trace.rays=300000"});
   for (const double limit : accuracy::allowed_losses) {
     const accuracy::Row* best = accuracy::cheapest(edges, {"rays", "auto"}, limit);

@@ -1,4 +1,4 @@
-// What is varied, which row is recommended, and the table: rows made by hand, no device.
+// The varied settings, the recommended row, and the table, with rows made by hand and without a device.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include "accuracy/advice.hpp"
@@ -76,7 +76,7 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
   CHECK(names == std::vector<std::string>{"10,000", "30,000", "100,000", "200,000", "300,000", "1,000,000",
                                           "recall 0.9", "recall 0.99", "recall 0.999"});
   CHECK(still[0].reference.keys == std::vector<std::string>{"trace.rays=10000000"});
-  CHECK(drive[0].reference.keys == std::vector<std::string>{"trace.rays=2000000"});  // the user's are the most
+  CHECK(drive[0].reference.keys == std::vector<std::string>{"trace.rays=2000000"});  // the largest number is the user's
   CHECK(drive[0].settings.back().keys == std::vector<std::string>{"trace.reuse=false"});
   CHECK(still[1].reference.keys == std::vector<std::string>{"trace.max_depth=3"});
   CHECK(still[1].settings.size() == 3);
@@ -143,8 +143,8 @@ TEST_CASE("a mechanism is described by what is missing without it") {
   study.rows.back().reference = true;
   const auto words = recommendations(study);
   CHECK(has(words,
-            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; path gains change by 1.2 dB "
-            "at the median link, 31 dB at the worst; 3 links have no path without it; a frame takes 500 ms with "
-            "it, 100 ms without. Yours is off"));
+            "Diffraction (trace.diffraction=true): 10 more paths, 25% of all power; "
+            "path gains change by 1.2 dB at the median link, 31 dB at the worst; 3 links have no path without it; "
+            "a frame takes 500 ms with it, 100 ms without. Yours is off"));
   CHECK(has(words, "Scattering off rough surfaces: not measured, because no material scatters"));
 }

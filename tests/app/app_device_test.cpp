@@ -1,5 +1,5 @@
 // The program on an OpenCL device: devices, a whole run, a wrong --device, an interrupt.
-// It is skipped, saying so, where there is no device.
+// The cases are skipped with a message if there is no device.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <chrono>
@@ -30,7 +30,7 @@ TEST_CASE("devices --check says what each device computes, and refuses no sound 
   CHECK(contains(checked.out, "  All that was checked is right.\n"));
   CHECK(!contains(checked.out, "WRONG"));
   CHECK(run_program({"devices", "--check", "--device", "no such device"}).code == 4);
-  CHECK(run_program({"devices", "--device", "0"}).code == 2);  // a list is of all
+  CHECK(run_program({"devices", "--device", "0"}).code == 2);  // a list contains all devices
 }
 
 TEST_CASE("devices marks the device that a run takes") {
@@ -44,7 +44,7 @@ TEST_CASE("devices marks the device that a run takes") {
 TEST_CASE("a device is there where caches cannot be written, and if not, the message names PoCL's cache") {
   if (!device_present()) return;
   const Folder folder;
-  const std::string file = folder.file("a file", "");  // so nothing can be made below it, whoever runs this
+  const std::string file = folder.file("a file", "");  // so that no file can be made below it, even by root
   std::filesystem::create_directory(folder.path("tmp"));
   const std::vector<std::string> unwritable = {"HOME=" + file, "XDG_CACHE_HOME=" + file + "/cache",
                                                "TMPDIR=" + folder.path("tmp")};
@@ -58,7 +58,7 @@ TEST_CASE("a device is there where caches cannot be written, and if not, the mes
   CHECK(elsewhere.code == 0);
   if (!elsewhere.err.empty()) CHECK(contains(elsewhere.err, "set POCL_CACHE_DIR to choose a folder"));
   const Outcome chosen = run_program({"devices"}, with("POCL_CACHE_DIR=" + file + "/pocl"));
-  if (chosen.code == 0) return;  // devices that are not PoCL's
+  if (chosen.code == 0) return;  // PoCL's device was not chosen
   CHECK(chosen.code == 4);
   CHECK(contains(chosen.err, "set POCL_CACHE_DIR to a folder that can be written to"));
   CHECK(contains(chosen.err, file + ": not a folder"));
@@ -75,7 +75,7 @@ TEST_CASE("the first frame on a machine is not one of compiling") {
   CHECK_FALSE(contains(run.err, "warning"));
   const auto seconds = nlohmann::json::parse(std::ifstream(folder.path("out/summary.json")))["seconds"];
   const double compiling_s = seconds["compile"].get<double>() + seconds["device check"].get<double>();
-  if (compiling_s < 1) return;  // a device that compiles at once
+  if (compiling_s < 1) return;  // the device compiles too fast for this test
   CHECK(seconds["frame"].get<double>() < 0.1 * compiling_s);
 }
 
@@ -116,8 +116,8 @@ TEST_CASE("a run warns before it traces, and explains links without a path, on t
   const std::string deep = "receiver \"deep\" is 1.5 m below the ground there, \"ground\"";
   CHECK(warnings({}) == std::vector<std::string>{deep,
                                                  "mast -> deep has no path: its direct line meets \"ground\" "
-                                                 "(concrete) after 9.372 m; trace.transmission = true lets it "
-                                                 "through 1 wall"});
+                                                 "(concrete) after 9.372 m; "
+                                                 "trace.transmission = true lets it through 1 wall"});
   const auto none = warnings({"--set", "links.receivers=[\"deep\"]"});
   REQUIRE(none.size() == 3);
   CHECK(none[1] == "no path was found, of 1 links in 1 frame");
@@ -225,7 +225,7 @@ TEST_CASE("an interrupt ends the run after the repeat in progress, with whole fi
 TEST_CASE("while the scene is loaded Ctrl-C and SIGTERM end a run at once, and leave nothing") {
   if (!device_present()) return;
   const Folder folder;
-  // Some 10^7 tiles, which take a while.
+  // The scattering makes some 10^7 tiles, which take a while.
   const std::string tiles = "trace.scattering = true\ntrace.tile_m = 0.1\n";
   const std::string file =
       folder.file("a.toml", tiles + street + "[[material]]\nname = \"concrete\"\nscattering = 0.3\n");
@@ -250,8 +250,9 @@ TEST_CASE("a run of one frame acknowledges Ctrl-C at once and stops between batc
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
   Gate gate;
-  Program run({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.rays=1000000000"},  // minutes
-              gate.at_launches());
+  Program run(
+      {"run", "-c", file, "-o", folder.path("out"), "--set", "trace.rays=1000000000"},  // the run would take minutes
+      gate.at_launches());
   while (!contains(run.messages(), "ready after") && !run.ended()) gate.let_launch(10, run);
   gate.let_launch(10, run);  // some batches
   run.signal(SIGINT);

@@ -1,5 +1,5 @@
 // The program without a device: usage, config and input errors, init, validate, scene.
-// Each error must have its exit code, say where and what, and leave nothing behind.
+// Each error must have its exit code, name the place and the fault, and leave no file behind.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -181,7 +181,8 @@ TEST_CASE("pipes and devices are no input files, and are not waited for") {
       check(run_program({"validate", "-c", file, "--set", std::string(key) + "=" + path}), 3, path + ": " + said);
   }
   const std::string materials = folder.file("a.obj", "mtllib pipe\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-  check(run_program({"scene", "info", materials}), 3, "has no material");  // what an OBJ names is not waited for either
+  // Files named by an OBJ file do not block it either.
+  check(run_program({"scene", "info", materials}), 3, "has no material");
   CHECK(folder.entries() == 3);
 }
 
@@ -214,7 +215,7 @@ TEST_CASE("traffic in the streets of another city exits 2 and says what differs"
         folder.path("a.toml") + ": " + differs + "20, scene.generate those of --blocks 4x4 --block-m 80 --street-m 20");
   check(validate("--seed 1", "--vehicles 3 --street-m 16"), 2, differs + "16, scene.generate those of --blocks 6x6");
   check(validate("--block-m 100", "--block-m 90"), 2, "vehicles would drive through houses; give both the same");
-  // Defaults count as given, and houses do not matter.
+  // Defaults count as if they were given, and houses do not matter.
   CHECK(validate("--blocks 6 --floors 2:3", "--seed 5 --blocks=6x6 --street-m 20").code == 0);
 }
 
@@ -246,7 +247,7 @@ TEST_CASE("an output folder that cannot be written to exits 1 before anything is
   check(run_program({"run", "-c", file, "-o", file + "/out"}), 1, file + "/out: cannot write there");
   check(run_program({"run", "-c", file, "-o", std::string(300, 'x')}), 1, "name too long");
   check(run_program({"run", "-c", std::string(300, 'x')}), 2, "cannot be read as a config file");
-  if (geteuid() == 0) return;  // permissions do not bind root
+  if (geteuid() == 0) return;  // permissions do not apply to root
   chmod(folder.path().c_str(), 0500);
   check(run_program({"run", "-c", file, "-o", folder.path("out")}), 1, "Permission denied");
   chmod(folder.path().c_str(), 0700);
@@ -365,7 +366,7 @@ TEST_CASE("scene info --edges of a room: its edges diffract nowhere but outside,
   const std::string box = wavetracer::test::source_folder() + "/tests/reference/scenes/box/box.xml";
   const Outcome room = run_program({"scene", "info", box, "--edges"});
   CHECK(room.code == 0);
-  CHECK(std::ranges::count(room.out, '\n') == 1 + 12);  // of the outside: twelve, of 270 degrees
+  CHECK(std::ranges::count(room.out, '\n') == 1 + 12);  // the twelve outer edges, of 270 degrees
   check(run_program({"scene", "info", folder.path("absent.xml"), "--edges"}), 3, "absent.xml");
   check(run_program({"scene", "info", folder.file("a.ply", "no mesh"), "--edges"}), 3, "a.ply");
   check(run_program({"scene", "info", "--edges"}), 2, "file is required");

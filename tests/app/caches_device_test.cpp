@@ -1,5 +1,5 @@
-// Caches of compiled kernels that cannot be written to: PoCL's own, without which it offers no device, and ours.
-// /proc takes no files, not even root's. Skipped, saying so, where there is no OpenCL device.
+// Caches of compiled kernels that cannot be written to: PoCL's own, without which it offers no device, and ours. /proc
+// takes no files, not even root's. The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>
 #include "program.hpp"
 
@@ -10,7 +10,7 @@ const std::string two_ends =
     "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n"
     "[[receiver]]\nname = \"r\"\nposition_m = [50, 0, 2]\n";
 
-// That the list of devices is PoCL's alone.
+// Tells that the list of devices has PoCL's alone.
 bool only_pocl(const std::string& devices) {
   size_t rows = 0, pocl = 0;
   for (size_t at = 0, end; (end = devices.find('\n', at)) != std::string::npos; at = end + 1, ++rows)

@@ -1,6 +1,6 @@
-// What lies on the disk between and after runs: files equal byte by byte however the work was shared, inputs that
-// change or move, two runs that want one folder, folders where files should be. Skipped, saying so, where there is no
-// OpenCL device.
+// Files on the disk between and after runs: files equal byte by byte however the work was shared, inputs that change or
+// move, two runs that want one folder, folders where files should be. The cases are skipped with a message if there is
+// no OpenCL device.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <ctime>
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using wavetracer::test::slurp;
 
-// 8 frames in 4 shards.
+// The drive has 8 frames in 4 shards.
 template <class... Scene>
 std::string drive(const Scene&... scene) {
   return wavetracer::test::room_drive(0.7, 2, scene...);
@@ -37,7 +37,7 @@ void check_same_bytes(const fs::path& found, const fs::path& expected) {
   }
 }
 
-// A copy of the room in a folder of its own; returns the path of its scene file.
+// Copies the room into another folder; returns the path of its scene file.
 std::string room_in(const Folder& folder, const std::string& name) {
   fs::copy(wavetracer::test::source_folder() + "/configs/scenes/room", folder.path(name), fs::copy_options::recursive);
   return folder.path(name + "/room.xml");
@@ -45,7 +45,7 @@ std::string room_in(const Folder& folder, const std::string& name) {
 
 void change(const fs::path& file) { std::ofstream(file, std::ios::app) << "\n"; }
 
-// Files that hold the time of their making, in seconds, differ from here on.
+// Waits until files that contain the time of their making, in seconds, would differ.
 void wait_for_next_second() {
   const std::time_t now = std::time(nullptr);
   wait_until("the next second", [now] { return std::time(nullptr) > now; });
@@ -115,7 +115,7 @@ TEST_CASE("inputs that changed are named by --resume and merge, and may have mov
   CHECK(contains(mixed.err, "other/room.xml (scene.file) has changed"));
   CHECK_FALSE(fs::exists(folder.path("all")));
 
-  // The same contents elsewhere are the same inputs.
+  // The same contents in another place count as the same inputs.
   REQUIRE(run(folder.file("moved.toml", drive(moved)), folder.path("rest"), {"--shard", "1/2"}).code == 0);
   const Outcome merged = run_program({"merge", "-o", folder.path("all"), out, folder.path("rest")});
   CAPTURE(merged.err);

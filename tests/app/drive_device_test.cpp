@@ -1,5 +1,5 @@
 // Drives through the program: a vehicle crosses the room, and the run is interrupted, killed and resumed on its way.
-// Skipped, saying so, where there is no OpenCL device.
+// The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <chrono>
@@ -25,7 +25,7 @@ using wavetracer::test::slurp;
 // 60 frames in 12 shards.
 const std::string room = wavetracer::test::room_drive(5.9, 5);
 
-// All h5 files under a final name, in shards or merged, can be read; returns how many there are.
+// Checks that all h5 files under a final name, in shards or merged, can be read; returns their number.
 size_t readable_files(const fs::path& folder) {
   size_t count = 0;
   std::error_code none;
@@ -55,8 +55,8 @@ void check_same(const fs::path& found, const fs::path& expected) {
   check_same_data(found, expected, 1000);
 }
 
-// Ten samples of the lamp a frame, from the lamp on; each goes from wall to wall of the closed room, or to the vehicle,
-// whose positions in the frames are the poses of paths.h5.
+// The lamp sends ten samples per frame. Each goes from wall to wall of the closed room, or to the vehicle, whose
+// positions in the frames are the poses of paths.h5.
 void check_waypoints(const Reader& h5, const Reader& paths) {
   const auto frame = h5.numbers("/waypoints/frame"), depth = h5.numbers("/waypoints/depth"),
              kind = h5.numbers("/waypoints/kind"), at = h5.numbers("/waypoints/position_m"),
@@ -97,7 +97,7 @@ TEST_CASE("a drive: every frame, every end, and ranges of frames that cut at the
   CHECK(h5.shape("/frames/receiver_position_m") == std::vector<hsize_t>{60, 2, 3});
   const std::vector<double> pose = h5.numbers("/poses/position_m");
   REQUIRE(pose.size() == 180);
-  // Waypoints are of the centre of the footprint, as the model's origin is.
+  // Waypoints give the centre of the footprint, as the model's origin does.
   CHECK(pose[0] == doctest::Approx(3));
   CHECK(pose[3 * 30] == doctest::Approx(3 + 2 * 30 / 59.0));
   CHECK(pose[3 * 30 + 1] == doctest::Approx(2 + 2 * 30 / 59.0));
@@ -206,7 +206,7 @@ TEST_CASE("repeats change the times that are noted, and nothing else that is wri
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", room);
-  // Few new rays a frame, so that what a frame finds depends on those before it.
+  // Each frame launches few new rays, so that its result depends on the frames before.
   const std::vector<std::string> words{"run", "-c", file, "--set", keep, "--frames", "0:14", "--set", "trace.rays=200"};
   const auto run = [&](const char* out, const char* repeats) {
     std::vector<std::string> all = words;
@@ -237,14 +237,14 @@ TEST_CASE("a drive that is killed fifty times ends as one that was left alone") 
   REQUIRE(alone.wait().code == 0);
   const double drive_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  std::mt19937 random(20240501);  // the moments differ from machine to machine, their spread does not
+  std::mt19937 random(20240501);  // the times of the kills depend on the machine, but their spread does not
   std::uniform_real_distribution<double> moment_s(-0.05 * drive_s, 0.6 * drive_s);
   const std::string out = folder.path("out");
   size_t kills = 0, drives = 0, files = 0;
   while (kills < 50) {
     Program run({"run", "-c", file, "-o", out, "--resume"});
     const double delay_s = moment_s(random);
-    if (delay_s > 0) {  // otherwise while it starts
+    if (delay_s > 0) {  // otherwise it is killed while it starts
       wait_for(run, "ready after");
       std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
     }
@@ -256,7 +256,7 @@ TEST_CASE("a drive that is killed fifty times ends as one that was left alone") 
       continue;
     }
     CAPTURE(outcome.err);
-    REQUIRE(outcome.code == 0);  // it was faster
+    REQUIRE(outcome.code == 0);  // it finished before the signal
     check_same(out, folder.path("expected"));
     fs::remove_all(out);
     ++drives;
@@ -266,6 +266,6 @@ TEST_CASE("a drive that is killed fifty times ends as one that was left alone") 
   REQUIRE(last.code == 0);
   check_same(out, folder.path("expected"));
   for (const auto& entry : fs::recursive_directory_iterator(out)) CHECK(entry.path().extension() != ".tmp");
-  CHECK(files > 50);  // the kills met drives on their way
+  CHECK(files > 50);  // the kills hit drives in progress
   MESSAGE(kills << " kills, " << drives << " drives finished between them, " << files << " files read");
 }

@@ -1,8 +1,8 @@
 // A library to load before the program (LD_PRELOAD): its processes wait where a test wants them, until the test lets
 // them go on. So no test depends on how fast a machine is. app/gate.hpp drives it. GATE=FOLDER turns it on. A process
-// that waits has a file FOLDER/waits.PID, and all go on once FOLDER/open is there. GATE_AT=TEXT: who gives a file a
-// name that contains TEXT waits before it has that name, but where the name contains GATE_NOT. GATE_SYNC=1: who waits
-// for a file system (syncfs) waits. GATE_LAUNCHES=1: launches of kernels beyond the number that FOLDER/launches holds
+// that waits has a file FOLDER/waits.PID, and all go on once FOLDER/open is there. GATE_AT=TEXT: a process that gives a
+// file a name with TEXT in it waits before it does so, unless the name contains GATE_NOT. GATE_SYNC=1: a process that
+// syncs a file system (syncfs) waits. GATE_LAUNCHES=1: launches of kernels beyond the number that FOLDER/launches holds
 // wait. GATE_LARGEST=BYTES: the device has no memory for larger buffers.
 #include <CL/cl.h>
 #include <dlfcn.h>

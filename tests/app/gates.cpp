@@ -1,4 +1,4 @@
-// Files in a folder are what both sides see of each other.
+// Both sides communicate through files in a folder.
 #include <doctest/doctest.h>
 #include <charconv>
 #include <chrono>
@@ -17,7 +17,7 @@ void wait_until(const char* what, const std::function<bool()>& holds) {
   bool held = holds();
   for (; !held && Clock::now() < end; held = holds()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   CAPTURE(std::string(what));
-  REQUIRE(held);  // asked once: LLVM, where it compiled a kernel, puts our handler back and sends the signal again
+  REQUIRE(held);  // it asks once: if LLVM compiled a kernel, it restores our handler and sends the signal again
 }
 
 void wait_until_interrupted(pid_t process) {

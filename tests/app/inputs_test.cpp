@@ -1,5 +1,5 @@
-// `validate` opens every file that a configuration names, whatever the key, and refuses what is not of its kind.
-// A key of a file that this test does not know fails it.
+// `validate` opens every file that a configuration names, by any key, and refuses files of another kind. A key with a
+// file that this test does not know makes it fail.
 #include <doctest/doctest.h>
 #include <map>
 #include "config/field_table.hpp"
@@ -14,7 +14,7 @@ const std::string generated = "scene.generate = \"--blocks 2\"\n",
                   track = "[[track]]\nid = \"a\"\ntype = \"passenger\"\nwaypoints = [[0, 3, -40, 0], [1, 3, -39, 0]]\n",
                   times = "[time]\nend_s = 0.5\nstep_s = 0.1\n";
 
-// A configuration whose key names the file: "FILE" stands for its name.
+// Returns a configuration whose key names the file: "FILE" stands for its name.
 const std::map<std::string, std::string> with_file{
     {"scene.file", "scene.file = \"FILE.obj\"\n" + pair},
     {"scene.streets",

@@ -22,7 +22,7 @@ TEST_CASE("without memory for the lists of all receivers the frame comes in batc
   REQUIRE(all.code == 0);
   CHECK_FALSE(contains(all.err, "did not fit into"));
   const std::string links = contents(folder.path("out/links.csv"));
-  for (const size_t largest : {size_t{1} << 22, size_t{1} << 21}) {  // less than the points of all paths take
+  for (const size_t largest : {size_t{1} << 22, size_t{1} << 21}) {  // less than the points of all paths need
     CAPTURE(largest);
     const Outcome batches = run(largest);
     CAPTURE(batches.err);
@@ -30,7 +30,7 @@ TEST_CASE("without memory for the lists of all receivers the frame comes in batc
     CHECK(contains(batches.err, "did not fit into"));
     CHECK(contents(folder.path("out/links.csv")) == links);
   }
-  const Outcome none = run(size_t{1} << 20);  // less than the set of sequences begins with
+  const Outcome none = run(size_t{1} << 20);  // less than the set of sequences needs at first
   CHECK(none.code == 4);
   CHECK(contains(none.err, "CL_MEM_OBJECT_ALLOCATION_FAILURE"));
 }

@@ -76,8 +76,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert run.stdout.count("written    ") == 1, run.stdout
     check_same(many, one)
 
-    # A rank dies in the middle; mpirun ends the others. Both wait with a part each, so that no rank can end the run: the
-    # other one would take over what the dead one has left.
+    # A rank dies midway; mpirun ends the others. Both wait with a part each, so that no rank can end the run: otherwise
+    # the other one would take over the part of the dead one.
     gate = f"{folder}/gate"
     os.mkdir(gate)
     waits = lambda: [int(name.split(".")[1]) for name in os.listdir(gate) if name.startswith("waits.")]

@@ -1,5 +1,5 @@
-// Output of the program arrives, or the exit code says that it did not; what is written by the name of a pipe or a
-// device goes there. The shell leads standard output to /dev/full, which no write reaches.
+// Output of the program arrives, or the exit code says that it did not; an output with the name of a pipe or a device
+// is written there. The shell connects standard output to /dev/full, where every write fails.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Runs the built program as a user does, and keeps what it said.
-// A Folder is a TemporaryFolder whose paths are texts, as command lines want them.
+// Runs the built program as a user does, and keeps its output.
+// A Folder is a TemporaryFolder whose paths are texts, for command lines.
 #pragma once
 #include <sys/types.h>
 #include <string>
@@ -8,7 +8,7 @@
 #include "temporary_folder.hpp"
 
 struct Outcome {
-  int code = -1;  // exit code; 128 + signal where a signal ended it
+  int code = -1;  // exit code; 128 + signal if a signal ended it
   std::string out, err;
 };
 
@@ -25,22 +25,22 @@ class Folder {
   wavetracer::test::TemporaryFolder folder_;
 };
 
-// Empty where the file cannot be read.
+// Returns an empty text if the file cannot be read.
 std::string contents(const std::string& file);
 
-// 0 where the file cannot be read.
+// Returns 0 if the file cannot be read.
 size_t lines_of(const std::string& file);
 
 // A program that is running; wait() collects it.
 class Program {
  public:
-  // environment: NAME=VALUE texts over those of this process.
+  // environment: NAME=VALUE texts that override those of this process.
   explicit Program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
   Outcome wait();
   void signal(int number) const;
   bool ended() const;
   pid_t id() const { return process_; }
-  // What it has written to stderr so far.
+  // Returns what it has written to stderr so far.
   std::string messages() const;
 
  private:
@@ -50,5 +50,5 @@ class Program {
 
 Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
-// Whether the program finds an OpenCL device; says in the test's output that what needs one is skipped.
+// Tells whether the program finds an OpenCL device; if not, the test's output says that cases are skipped.
 bool device_present();

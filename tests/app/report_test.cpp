@@ -1,4 +1,4 @@
-// The closing words of a run, from made-up results.
+// The closing report of a run, from invented results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>
 #include "output/run_advice.hpp"
@@ -36,7 +36,7 @@ TEST_CASE("the report says how much a ray cache answered and how full it is; wit
 TEST_CASE("the report names what was computed, and why not what was asked for beyond it") {
   SampleRun sample;
   const Results results{totals_of(sample.frames()), {}, {}};
-  Run run = sample.run();  // diffraction is off, and by default nobody asks for it
+  Run run = sample.run();  // diffraction is off, which is not reported by default
   const auto report = [&] { return app::report(run, results, true); };
   CHECK(contains(report(), "\nfeatures   reflection\n"));
   sample.config.trace.diffraction = true;
@@ -104,8 +104,8 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   results.totals.missed = {
       .frames = 1, .paths = {6, 3, 2, 9}, .powers = {8e-6, 1e-6, 0, 0.4}, .amplitude = 0.02, .power = 1};
   CHECK(contains(report(),
-                 "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): a higher number "
-                 "of trace.rays finds more of them\n"));
+                 "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): "
+                 "a higher number of trace.rays finds more of them\n"));
   results.totals.missed = {.frames = 1, .paths = {0, 0, 0, 9}, .powers = {0, 0, 0, 0.4}, .amplitude = 0.9, .power = 1};
   sample.config.trace.rays = {};
   CHECK(contains(report(), "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03)\n"));
@@ -121,8 +121,8 @@ TEST_CASE("the report says what frames without rays may lack") {
   CHECK_FALSE(contains(report(), "\nlate "));
   results.totals.late = {.discoveries = 9, .paths = 1200, .power = 2e-6, .all = 1e-2, .largest_share = 0.003};
   CHECK(contains(report(),
-                 "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) were new when rays were launched "
-                 "again, every 0.1 s: frames before that may lack them\n"));
+                 "\nlate       1,200 paths with 0.0002 of the power (at most 0.003) "
+                 "were new when rays were launched again, every 0.1 s: frames before that may lack them\n"));
   results.totals.late = {.discoveries = 9, .all = 1e-2};
   CHECK(contains(report(), "\nlate       no path was new when rays were launched again, every 0.1 s\n"));
 }

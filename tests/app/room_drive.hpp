@@ -8,7 +8,7 @@
 
 namespace wavetracer::test {
 
-// From 0 to end_s, 10 * end_s + 1 frames; a lamp sends, a desk and the vehicle's roof receive.
+// Makes 10 * end_s + 1 frames from 0 to end_s; a lamp sends, a desk and the vehicle's roof receive.
 inline std::string room_drive(double end_s, int shard_frames,
                               const std::string& scene = wavetracer::test::source_folder() +
                                                          "/configs/scenes/room/room.xml") {

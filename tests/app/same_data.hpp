@@ -1,5 +1,5 @@
-// That two runs have written the same data, whoever computed what of it.
-// For programs of doctest; the HDF5 files are those of the expected run.
+// Checks that two runs have written the same data, whichever processes computed them.
+// It is for programs of doctest; the HDF5 files are those of the expected run.
 #pragma once
 #include <doctest/doctest.h>
 #include <filesystem>

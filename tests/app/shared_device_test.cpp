@@ -1,5 +1,5 @@
-// Runs that several processes share give the data of one process, bit for bit, whatever the split and whoever dies.
-// Skipped, saying so, where there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
+// Runs that several processes share give the data of one process, bit for bit, for every split and for every process
+// that dies. The cases are skipped with a message if there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <cstdlib>
@@ -20,8 +20,8 @@ using wavetracer::test::slurp;
 // 20 frames in 7 shards.
 const std::string room = wavetracer::test::room_drive(1.9, 3);
 
-// One frame of a city: ends that stand, some of which send and receive at one place, with one port and two, and
-// antennas of both roles on vehicles.
+// One frame of a city: fixed ends, some of which send and receive at one place, with one port and two, and antennas of
+// both roles on vehicles.
 const std::string city = R"(scene.generate = "--seed 1 --blocks 2x2"
 trace.rays = 20000
 trace.max_depth = 3
@@ -66,7 +66,7 @@ Outcome run(const std::string& file, const std::string& out, std::vector<std::st
   return run_program(more);
 }
 
-// All that is written but times, and names of commands.
+// Compares all outputs except times and names of commands.
 void check_same(const fs::path& found, const fs::path& expected, bool work_too) {
   check_same_data(found, expected, 200);
   const auto a = nlohmann::json::parse(slurp(found / "summary.json")),
@@ -81,7 +81,7 @@ void check_same(const fs::path& found, const fs::path& expected, bool work_too) 
   if (work_too) CHECK(a["segments_per_depth"] == b["segments_per_depth"]);
 }
 
-// What processes need among themselves is gone when they are done.
+// Files of processes that shared a folder are gone when they are done.
 void check_tidy(const fs::path& out) {
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const std::string name = entry.path().filename().string();
@@ -115,7 +115,7 @@ TEST_CASE("two processes, or parts in two folders, write what one process writes
     CHECK(contains(outcome.err, "wavetracer merge"));
     CHECK_FALSE(fs::exists(folder.path("part" + part.substr(0, 1)) + "/paths.h5"));
   }
-  // More parts than shards: the last is empty, and a part like the others.
+  // There are more parts than shards: the last part is empty, and treated like the others.
   const std::vector<std::string> whole = {"--set", "output.shard_frames=100", "--shard"};
   std::vector<std::string> first = whole, second = whole;
   first.push_back("0/2");
@@ -144,7 +144,7 @@ TEST_CASE("two processes, or parts in two folders, write what one process writes
   CHECK(partial.code == 5);
   CHECK(wavetracer::test::Reader(folder.path("some/paths.h5")).shape("/frames/frame") == std::vector<hsize_t>{14});
 
-  // A single process goes on where a part has left the folder, and another configuration is refused.
+  // A single process continues where a part has left the folder, and another configuration is refused.
   const Outcome rest = run(file, folder.path("part1"), {"--resume"});
   CHECK(rest.code == 0);
   check_same(folder.path("part1"), folder.path("one"), true);
@@ -182,7 +182,7 @@ TEST_CASE("blocks of transmitters of one frame: every link as in the whole frame
     REQUIRE(merged.code == 0);
     check_same(many, one, false);
     const auto summary = nlohmann::json::parse(slurp(fs::path(many) / "summary.json"));
-    CHECK(summary["shards"] == 5);  // transmitters: three stand, two are on vehicles
+    CHECK(summary["shards"] == 5);  // transmitters: three are fixed, two are on vehicles
     CHECK(summary["counts"]["paths"] > 20);
   }
   const Outcome shared = run(file, folder.path("shared"), {"--processes", "2"});
@@ -202,7 +202,7 @@ TEST_CASE("a process that is killed loses its part, which another takes over; --
   const std::string out = folder.path("out");
   const Gate middle;
   Program parent({"run", "-c", file, "-o", out, "--processes", "2"}, middle.at_name("frames_", "frames_000000_"));
-  const pid_t victim = middle.wait_for(2).front();  // with its part computed, and not written
+  const pid_t victim = middle.wait_for(2).front();  // its part is computed, but not written
   REQUIRE(kill(victim, SIGKILL) == 0);
   middle.open();
   const Outcome outcome = parent.wait();

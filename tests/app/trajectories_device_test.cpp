@@ -1,5 +1,5 @@
 // Trajectories through the program: files that are wrong, a generated city with its drive, and every configuration that
-// comes with the program. Skipped, saying so, where there is no OpenCL device.
+// comes with the program. The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>
 #include <fstream>
 #include <sstream>
@@ -20,7 +20,7 @@ const std::string good =
     "  </timestep>\n"
     "</fcd-export>\n";
 
-// `good` with one text in it replaced.
+// Returns `good` with one text in it replaced.
 std::string with(const std::string& text, const std::string& replacement) {
   std::string out = good;
   REQUIRE(contains(out, text));
@@ -57,7 +57,7 @@ TEST_CASE("a trajectory file that is wrong exits 3 with its line, and writes not
   check("time,id,x,y\n0,a,1,2\n0.1,a,1,2\n0.05,a,1,2\n", 4, "time goes backwards, from 0.1 s in line 3 to 0.05 s");
   check("time;id;x;y\n0;a;1;2\n", 1, "separated by commas, not by semicolons");
 
-  // Nothing but the fault makes the run fail.
+  // Only the fault makes the run fail.
   folder.file("drive.xml", good);
   const Outcome run = run_program({"run", "-c", file, "-o", folder.path("out")});
   CAPTURE(run.err);
@@ -101,7 +101,8 @@ TEST_CASE("scene city --vehicles writes a drive that validates and runs") {
   CHECK(run.code == 0);
   CHECK(contains(run.out, "vehicles   5 of "));
   CHECK(contains(run.out, "frames     4 from 0 to 0.3 s in steps of 0.1 s"));
-  // Streets of 200 m: all are within 300 m, five vehicles of each other and of the road-side unit, in four frames.
+  // Streets are 200 m long: all are within 300 m, five vehicles of each other and of the road-side unit, in four
+  // frames.
   CHECK(lines_of(folder.path("out/links.csv")) == 1 + 4 * (5 * 4 + 2 * 5));
 }
 

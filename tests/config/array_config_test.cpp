@@ -1,4 +1,4 @@
-// [[array]], [response] and several carriers: what is read, what is refused and where, and that it reads back the same.
+// [[array]], [response] and several carriers: accepted and refused values, the places of errors, and reading back.
 #include <doctest/doctest.h>
 
 #include "config/texts.hpp"

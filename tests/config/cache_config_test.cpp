@@ -1,5 +1,5 @@
-// The ray cache, reception spheres and waypoints in config files: what is read, what is refused and where.
-// Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
+// The ray cache, reception spheres and waypoints in config files: accepted and refused values, and the places of
+// errors. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 #include "config/texts.hpp"
 
@@ -70,7 +70,7 @@ TEST_CASE("every kind, key, lock, purge, scope and hit point is available") {
         "purge = \"position\"", "purge = \"precision\"", "scope = \"static\"", "scope = \"all\"", "hit_point = \"own\"",
         "hit_point = \"cached\"", "statistics = true", "buffer_size = 1000003"})
     CHECK(of(open + "cache." + line) == "no error");
-  // Without effect, and said so by the doc: no error.
+  // These keys have no effect, as their doc says, but are no error.
   CHECK(of(open + "cache.key = \"exact\"\ncache.purge = \"precision\"\ncache.division = 7\n"
                   "cache.hit_point = \"cached\"") == "no error");
   CHECK(of(open + "cache.scope = \"all\"\ncache.hit_point = \"cached\"") == "no error");
@@ -121,8 +121,8 @@ TEST_CASE("misspelt keys and words of the cache are hinted") {
   check_contains(of("cache.reader_number = 1"), "did you mean \"cache.readers_number\"?");
   check_contains(of("output.waypoint = 1"), "did you mean \"output.waypoints\"?");
   CHECK(of("cache.key = \"quantized\"") ==
-        "a.toml:2:13: cache.key = \"quantized\" is not a known value: it must be one of \"quantised\", \"exact\"; did "
-        "you mean \"quantised\"?");
+        "a.toml:2:13: cache.key = \"quantized\" is not a known value: it must be one of \"quantised\", \"exact\"; "
+        "did you mean \"quantised\"?");
   check_contains(of("cache.kind = \"concurent\""), "did you mean \"concurrent\"?");
   check_contains(of("cache.locking = \"reader\""), "did you mean \"readers\"?");
   check_contains(of("cache.purge = \"presicion\""), "did you mean \"precision\"?");
@@ -134,8 +134,9 @@ TEST_CASE("misspelt keys and words of the cache are hinted") {
 TEST_CASE("an exact key does not go with a cache that decides for what moves") {
   const std::string exact = "cache.key = \"exact\"\n", all = "cache.scope = \"all\"\n";
   CHECK(of("cache.kind = \"open\"\n" + exact + all) ==
-        "a.toml:4:15: cache.key = \"exact\" gives the same paths as no cache, but with cache.scope = \"all\" moving "
-        "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\"");
+        "a.toml:4:15: cache.key = \"exact\" gives the same paths as no cache, "
+        "but with cache.scope = \"all\" moving vehicles would change them: remove cache.scope, "
+        "or use cache.key = \"quantised\"");
   check_contains(of(all + "cache.kind = \"open\"\n" + exact),
                  "a.toml:4:13: cache.key = \"exact\" gives the same paths as no cache");
   CHECK(of(exact + all) == "no error");  // no cache
@@ -166,27 +167,29 @@ TEST_CASE("reception spheres take whole rays that are spread evenly") {
   CHECK(c.trace.sphere_radius_m == 0.5);
   CHECK(of(sphere + "trace.reuse = true") == "no error");
   CHECK(of("trace.rays = \"auto\"\ntrace.reception = \"exact\"") == "no error");
-  CHECK(
-      of(sphere + "trace.rays = \"auto\"") ==
-      "a.toml:3:14: trace.reception = \"sphere\" needs rays that are spread evenly, but trace.rays = \"auto\" launches "
-      "more rays where few sequences were found: give trace.rays a number, or use trace.reception = \"exact\"");
+  CHECK(of(sphere + "trace.rays = \"auto\"") ==
+        "a.toml:3:14: trace.reception = \"sphere\" needs rays that are spread evenly, "
+        "but trace.rays = \"auto\" launches more rays where few sequences were found: give trace.rays a number, "
+        "or use trace.reception = \"exact\"");
   check_contains(of("trace.sphere_radius_m = 0"), "it must be a number above 0 up to 10000 (m)");
 }
 
 TEST_CASE("entries of a cache are those of a cache that counts") {
   CHECK(of("output.cache_entries = true\ncache.kind = \"open\"\ncache.statistics = true") == "no error");
   CHECK(of("output.cache_entries = true") ==
-        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, but cache.kind = "
-        "\"none\": choose a kind of cache with cache.statistics = true, or remove output.cache_entries");
+        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, "
+        "but cache.kind = \"none\": choose a kind of cache with cache.statistics = true, "
+        "or remove output.cache_entries");
   CHECK(of("output.cache_entries = true\ncache.kind = \"open\"") ==
-        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, but "
-        "cache.statistics = false: set it to true, or remove output.cache_entries");
+        "a.toml:2:24: output.cache_entries = true writes what the ray cache counted for each entry, "
+        "but cache.statistics = false: set it to true, or remove output.cache_entries");
 }
 
 TEST_CASE("waypoints are those of a known number of rays") {
   CHECK(of("output.waypoints = 100") == "no error");
   CHECK(of("output.waypoints = 100\ntrace.rays = \"auto\"") ==
-        "a.toml:3:14: output.waypoints = 100 selects rays evenly from a known number of rays, but with trace.rays = "
-        "\"auto\" that number is not known: give trace.rays a number, or remove output.waypoints");
+        "a.toml:3:14: output.waypoints = 100 selects rays evenly from a known number of rays, "
+        "but with trace.rays = \"auto\" that number is not known: give trace.rays a number, "
+        "or remove output.waypoints");
   CHECK(of("output.waypoints = 0\ntrace.rays = \"auto\"") == "no error");
 }

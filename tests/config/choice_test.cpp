@@ -1,5 +1,5 @@
-// Keys with choices, and those where 0 or a word says that nothing is given: every word of every key is read, kept and
-// written again as it was.
+// Keys with choices, and keys for which 0 or a word means "not set": every word of every key is read, kept and written
+// back unchanged.
 #include <doctest/doctest.h>
 
 #include <string>

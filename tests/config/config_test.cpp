@@ -1,5 +1,5 @@
-// Config files: what is accepted, what each kind of mistake answers, and that --set behaves as the file does.
-// The texts are written here by hand; positions are counted in them, not computed by the parser.
+// Config files: accepted values, the message of each kind of mistake, and that --set behaves as the file does. The
+// texts are written here by hand; positions are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,8 @@ TEST_CASE("a minimal config keeps every default") {
   CHECK(c.radio.frequency_hz == d.radio.frequency_hz);
   CHECK(c.trace.rays == d.trace.rays);
   CHECK(c.trace.max_depth == d.trace.max_depth);
-  CHECK(c.output.directory == (std::filesystem::current_path() / "out").string());  // as -o is, not beside the file
+  // Relative to the current folder, like -o, and not to the file.
+  CHECK(c.output.directory == (std::filesystem::current_path() / "out").string());
   REQUIRE(c.transmitters.size() == 1);
   REQUIRE(c.receivers.size() == 1);
   CHECK(c.receivers[0].name == "r");
@@ -73,8 +74,7 @@ TEST_CASE("an unknown key names its place and the nearest known key") {
   CHECK(error_of("scene.file = \"s.xml\"\n\n[trace]\n  ray = 5\n" + ends) ==
         "a.toml:4:3: unknown key \"trace.ray\"; did you mean \"trace.rays\"?");
   check_contains(error_of(scene + "trace.max_dpeth = 5\n" + ends),
-                 "a.toml:2:7: unknown key \"trace.max_dpeth\"; did "
-                 "you mean \"trace.max_depth\"?");
+                 "a.toml:2:7: unknown key \"trace.max_dpeth\"; did you mean \"trace.max_depth\"?");
   check_contains(error_of("rays = 5\n" + scene + ends),
                  "a.toml:1:1: unknown key \"rays\"; did you mean \"trace.rays\"?");
   check_contains(error_of("[trcae]\n" + ends), "unknown key \"trcae\"; did you mean \"trace\"?");
@@ -173,9 +173,9 @@ TEST_CASE("a key that was taken away says what to do instead; false, which every
     return error_of(scene + keys + ends, sets);
   };
   const std::string said =
-      "trace.join no longer exists, because rays towards the horizon find more paths in the same time: remove the key, "
-      "and "
-      "keep trace.directions = \"horizon\"";
+      "trace.join no longer exists, because rays towards the horizon find more paths in the same time: "
+      "remove the key, "
+      "and keep trace.directions = \"horizon\"";
   CHECK(with("trace.join = true\n") == "a.toml:2:7: " + said);
   CHECK(with("trace.join = \"yes\"\n") == "a.toml:2:7: " + said);
   CHECK(with("", {"trace.join=true"}) == "--set trace.join=true: " + said);
@@ -200,15 +200,15 @@ TEST_CASE("diffraction, transmission and scattering are refused beside what foll
     CHECK(with(key + " = false\ntrace.reception = \"sphere\"\n") == "no error");
   }
   CHECK(with("trace.transmission = true\noutput.waypoints = 5\n") ==
-        "a.toml:3:20: output.waypoints = 5 needs rays that do not split, but with trace.transmission = true they split "
-        "at every surface: remove output.waypoints, or set trace.transmission to false");
+        "a.toml:3:20: output.waypoints = 5 needs rays that do not split, but with trace.transmission = true they "
+        "split at every surface: remove output.waypoints, or set trace.transmission to false");
   CHECK(with("trace.diffraction = true\ntrace.scattering = true\noutput.waypoints = 5\n") == "no error");
   // The place is that of the later of the two keys, or of --set.
   const std::string sphere = "trace.reception = \"sphere\"\n";
   check_contains(with(sphere + "trace.diffraction = true\n"), "a.toml:3:21: trace.reception = \"sphere\" receives");
   check_contains(error_of(scene + sphere + ends, {"trace.diffraction=true"}),
                  "--set trace.diffraction=true: trace.reception = \"sphere\" receives");
-  // Each contradiction is told.
+  // Every contradiction is reported.
   const std::string both = with("trace.reception = \"sphere\"\n" + all);
   for (const std::string key : {"trace.diffraction", "trace.transmission", "trace.scattering"})
     check_contains(both, key + " = true: set it to false");

@@ -1,5 +1,5 @@
-// The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints.
-// It assumes nothing of the parser's insides: texts go in, Configs and texts come out.
+// The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints. It does
+// not use the parser's internals: texts go in, Configs and texts come out.
 #include "config/field_table.hpp"
 #include <doctest/doctest.h>
 #include <random>
@@ -174,8 +174,8 @@ TEST_CASE("help names every key with its default") {
 
 TEST_CASE("the resolved config reads back the same, odd characters included") {
   const Config c = parse_config(
-      "scene.file = \"a \\\"b\\\"\\\\ \\u0001\\u00e4.xml\"\nradio.frequency_hz = 5912345678.125\ntrace.rays = "
-      "1234567890\n"
+      "scene.file = \"a \\\"b\\\"\\\\ \\u0001\\u00e4.xml\"\nradio.frequency_hz = 5912345678.125\n"
+      "trace.rays = 1234567890\n"
       "scene.material_alias.\"x.y\" = \"wood\"\n[[material]]\nname = \"m\"\nthickness_m = inf\nb = -0.1\n"
       "[[transmitter]]\nname = \"t\"\nposition_m = [691234.123456789, 5334567.1, -0.0]\n"
       "[[receiver]]\nname = \"r 1\"\nposition_m = [1e-300, 0, 0.1]\n",

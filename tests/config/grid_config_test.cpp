@@ -1,4 +1,4 @@
-// [[receiver_grid]]: what is read, what is refused and where, and that a resolved config reads back the same.
+// [[receiver_grid]]: accepted and refused values, the places of errors, and that a resolved config reads back the same.
 // Texts are written here by hand; lines and columns are counted in them.
 #include <doctest/doctest.h>
 

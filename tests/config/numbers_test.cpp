@@ -1,4 +1,4 @@
-// Numbers that make no sense are refused where they stand: every key that takes numbers has bounds.
+// Meaningless numbers are refused where they appear: every key that takes numbers has bounds.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +21,8 @@ TEST_CASE("every key that takes numbers takes finite ones alone, within bounds")
       CAPTURE(table.name);
       CAPTURE(field.name);
       CHECK(field.range.lower > -1e13);
-      CHECK((field.range.upper < 1e13 || std::isinf(field.range.upper)));  // inf: as much as one likes, which is said
+      // Inf: there is no upper limit, as the doc says.
+      CHECK((field.range.upper < 1e13 || std::isinf(field.range.upper)));
     }
 }
 

@@ -11,8 +11,9 @@ namespace {
 
 const std::string air = "[air]\nrain_mm_h = 12.5\nfog_g_m3 = 0.1\ngases = true\ntemperature_c = -3\n";
 const std::string tree =
-    "[[vegetation]]\nshape = \"cylinder\"\ncentre_m = [1, 2, 3]\nsize_m = [4, 5, 6]\nyaw_deg = 30\nmaterial = "
-    "\"hedge\"\n[[material]]\nname = \"hedge\"\nvegetation = \"deciduous\"\nin_leaf = false\nattenuation_db_m = 0.5\n"
+    "[[vegetation]]\nshape = \"cylinder\"\ncentre_m = [1, 2, 3]\nsize_m = [4, 5, 6]\nyaw_deg = 30\n"
+    "material = \"hedge\"\n[[material]]\nname = \"hedge\"\nvegetation = \"deciduous\"\nin_leaf = false\n"
+    "attenuation_db_m = 0.5\n"
     "max_attenuation_db = inf\n";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the tests of config files share: the shortest texts that parse, and the message that a text is refused with.
+// Helpers of the tests of config files: the shortest texts that parse, and the message that refuses a text.
 #pragma once
 #include <doctest/doctest.h>
 #include <string>

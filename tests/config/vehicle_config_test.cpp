@@ -1,5 +1,5 @@
-// The tables of moving worlds: what is read, what is refused and where, and that a resolved config reads back.
-// Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
+// The tables of moving worlds: accepted and refused values, the places of errors, and that a resolved config reads
+// back. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -210,7 +210,7 @@ TEST_CASE("a refined launch goes along the hilbert curve and nothing else") {
     check_contains(error_of(automatic + "order.method = \"" + method + "\"\n" + ends),
                    "a.toml:3:16: trace.rays = \"auto\" launches rays in its own order, but order.method = \"" + method +
                        "\" asks for another one: remove order.method");
-  // What stands last is to blame, and --set comes after the file.
+  // The last key is reported, and --set comes after the file.
   check_contains(error_of(scene + "order.method = \"Z\"\n" + ends, {"trace.rays=auto"}), "--set trace.rays=auto: ");
   CHECK(error_of(automatic + "order.method = \"Z\"\n" + ends, {"trace.rays=1000"}) == "no error");
 }
@@ -249,7 +249,7 @@ TEST_CASE("mounts take the place of transmitters and receivers by their role") {
   };
   CHECK(with("both") == "no error");
   CHECK(with("transmitter") ==
-        "a.toml:1:1: no [[receiver]]: add one with name and position_m, a [[station]], which sends and "
-        "receives, or a [[mount]] with name and role = \"receiver\" or \"both\" for vehicles");
+        "a.toml:1:1: no [[receiver]]: add one with name and position_m, a [[station]], which sends and receives, "
+        "or a [[mount]] with name and role = \"receiver\" or \"both\" for vehicles");
   check_contains(with("receiver"), "no [[transmitter]]: add one with name and position_m, a [[station]]");
 }

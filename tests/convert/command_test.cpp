@@ -1,5 +1,5 @@
-// `wavetracer convert` as it is typed: formats by name and by suffix, frames by number, and its words where they are
-// not.
+// `wavetracer convert` on the command line: formats by name and by suffix, frames by number, and its messages for
+// unknown ones.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <string>
@@ -20,7 +20,7 @@ std::string sample_folder(const Folder& folder) {
   return folder.path("run");
 }
 
-// A frame with so many receivers, each in a place of its own.
+// Makes a frame with this many receivers at different places.
 std::string crowded_folder(const Folder& folder, size_t receivers) {
   SampleRun sample;
   std::vector<FrameResult> frames = sample.drive(0, 1);

@@ -42,7 +42,7 @@ subprocess.run([PROGRAM, "convert", os.path.join(OUTPUT, "run"), "-o", npz], che
 with np.load(npz) as file:
     ours = dict(file)
 
-# Shapes, but for how many paths there are and how deep the deepest is.
+# Shapes must agree, except for the number of paths and the largest depth.
 a = [part.numpy() for part in theirs.a]
 assert a[0].shape[:4] == ours["a_real"].shape[:4] == (2, 2, 1, 2)
 for name in "tau theta_t phi_t theta_r phi_r doppler valid".split():
@@ -60,7 +60,7 @@ for rx in range(2):
     yours = np.flatnonzero(valid[rx, 0])
     assert len(mine) == len(yours) > 5, (len(mine), len(yours))
     for k in mine:
-        # The path through the same points of the same kinds; two may have one length in a box.
+        # The path has the same points of the same kinds; two may have one length in a box.
         kinds = ours["interactions"][:, rx, 0, k]
         depth = np.count_nonzero(kinds)
         points = ours["vertices"][:depth, rx, 0, k]
@@ -79,7 +79,7 @@ for rx in range(2):
         assert np.max(np.abs(z - own)) < 2e-3 * np.max(np.abs(own)), (rx, k, z, own)
         pairs += 1
 
-# And their channel is the sum that ours is, port by port.
+# Their channel must equal the sum that is ours, port by port.
 f = np.array([0.0, 1.7e6])
 h = theirs.cfr(frequencies=f, normalize_delays=False, out_type="numpy")[:, :, :, :, 0]
 t = np.where(ours["tau"] < 0, 0, ours["tau"])[:, None, :, None]

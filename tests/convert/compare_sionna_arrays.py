@@ -83,4 +83,4 @@ for polarization in ("V", "VH"):
     plane, spherical = error(found, expected), error(ours(polarization, "spherical"), expected)
     print(f"{polarization}: rms error of plane waves {plane:.2e}, of spherical ones {spherical:.2e}")
     assert plane < 1e-2, plane  # single precision there: some milliradians of carrier phase
-    assert 2 * plane < spherical < 0.2, spherical  # what plane waves leave out in a room of 10 m
+    assert 2 * plane < spherical < 0.2, spherical  # the error of plane waves in a room of 10 m

@@ -1,5 +1,5 @@
-// The exporters called from C++: what they answer, what they warn of, what they refuse; and their small helpers.
-// Leaves the made-up runs in the build folder, for the scripts that read the formats.
+// The exporters called from C++: their results, warnings and errors; and their small helpers. It leaves the invented
+// runs in the build folder, for the scripts that read the formats.
 #include "convert/convert.hpp"
 #include <doctest/doctest.h>
 #include <filesystem>

@@ -160,7 +160,7 @@ def check(folder, name, rows):
     assert colour[legs[0, 1], 1] > colour[legs[1, 1], 1]  # the first segment is the brighter
 
 
-# What can be looked through: vegetation alone.
+# Vegetation alone is transparent.
 root, _ = chunks(os.path.join(sys.argv[1], "one.glb"))
 green = {material["name"]: material["extras"] for material in root["materials"] if material.get("alphaMode") == "BLEND"}
 assert green == {"vegetation": {"vegetation": "mixed", "in_leaf": True},

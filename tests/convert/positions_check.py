@@ -25,7 +25,7 @@ GPS = [(48.1369, 11.5740), (48.1370, 11.5742), (48.1371, 11.5744)]
 to_utm = pyproj.Transformer.from_crs("EPSG:4326", "EPSG:32632", always_xy=True)
 geodesic = pyproj.Geod(ellps="WGS84")
 offset = [-691500.25, -5334700.5]
-SLOPE, LEVEL = 0.05, 510.0  # of the ground: z = LEVEL + SLOPE x
+SLOPE, LEVEL = 0.05, 510.0  # the ground is z = LEVEL + SLOPE x
 
 with open("ground.obj", "w") as obj:
     for x, y in ((-900, -900), (900, -900), (900, 900), (-900, 900)):

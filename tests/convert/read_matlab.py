@@ -27,7 +27,7 @@ with h5py.File(target, "r") as file:
             assert item.dtype.kind in expected, (name, kind, item.dtype)
 
     file.visititems(check)
-    # Each text is there once, however many ends have it.
+    # Each text is stored once, however many ends have it.
     kept = ["".join(map(chr, np.ravel(item))) if "MATLAB_empty" not in item.attrs else "" for item in file["#refs#"].values()]
     assert len(kept) == len(set(kept)), "a text is there twice"
     n = len(truth.a)

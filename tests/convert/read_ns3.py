@@ -102,6 +102,6 @@ for frame, tx, rx in truth.used_links():
     compared += 1
 assert ("by reciprocity" in said) == (reversed_links > 0)
 assert compared > 0 and worst < 1e-9, (compared, worst)
-# Steps without a path are there, and empty.
+# Steps without a path exist, and are empty.
 empty = sum(step.size == 0 for steps_of in channels.values() for step in steps_of)
 print(f"ns3: {len(nodes)} nodes, {len(channels)} files, {compared} channels within {worst:.1e} of h(f), {empty} steps empty")

@@ -1,5 +1,5 @@
-"""What the tests of exports share: paths.h5 by h5py, and a run of the program.
-Assumes that the script is called with the program, the folder of a run, and a folder to write to."""
+"""Helpers that the tests of exports share: paths.h5 by h5py, and a run of the program. Assumes that the script is
+called with the program, the folder of a run, and a folder to write to."""
 import os
 import shutil
 import subprocess

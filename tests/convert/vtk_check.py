@@ -54,7 +54,7 @@ assert "brick" in names and np.all(area(scene) > 0)
 low, high = points(scene).min(axis=0), points(scene).max(axis=0)
 assert np.allclose(low[:2], -high[:2]), (low, high)  # the built-in city stands about its origin
 
-# Every triangle of a surface lies in one plane.
+# Every triangle of a surface must lie in one plane.
 surface = array(scene.GetCellData(), "surface")
 corner = points(scene)[vtk_to_numpy(scene.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
 for s in range(surface.max() + 1):
@@ -140,7 +140,7 @@ with h5py.File(os.path.join(sys.argv[1], "run/paths.h5"), "r") as file:
             names = file[f"{kind}s/name"].asstr()[...][there]
             assert list(np.array(texts(radio.GetPointData(), "name"))[rows]) == list(names)
 
-# Rays: every waypoint but receivers that rays pass, a line from each launch to the point before the next.
+# Rays have every waypoint except receivers that rays pass, and a line from each launch to the point before the next.
 none = 2**32 - 1
 with h5py.File(os.path.join(sys.argv[1], "run/waypoints.h5"), "r") as file:
     column = {name: file["waypoints"][name][...] for name in file["waypoints"]}

@@ -38,7 +38,7 @@ const SavedRun& run() {
 
 ExportOptions options(const std::string& name) { return {folder / name, 0, run().frame_count() - 1, {}}; }
 
-// Triangles, area and bounding box of what has one material.
+// Triangles, area and bounding box of the parts with one material.
 struct Amount {
   size_t triangles = 0;
   double area_m2 = 0;
@@ -63,7 +63,7 @@ void add(std::map<std::string, Amount>& amounts, const Scene& scene, const auto&
 
 TEST_CASE("our own loader reads a .glb back: triangles, areas, extents and materials of scene and vehicles") {
   Warnings warnings;
-  const size_t row = 2;  // the lorry is there since the row before
+  const size_t row = 2;  // the lorry has been present since the row before
   ExportOptions one = options("one.glb");
   one.first_row = one.last_row = row;
   CHECK(export_glb(run(), one, warnings) == Written{one.output});
@@ -92,7 +92,7 @@ TEST_CASE("our own loader reads a .glb back: triangles, areas, extents and mater
   }
   for (const std::string& object : world.scene.objects) CHECK(std::ranges::count(read.objects, object) == 1);
 
-  // Vegetation comes back as volumes, of its materials and sizes.
+  // Vegetation is read back as volumes, with its materials and sizes.
   REQUIRE(world.scene.volumes.size() == 3);
   REQUIRE(read.volumes.size() == 3);
   for (const Volume& volume : world.scene.volumes) {
@@ -147,7 +147,7 @@ TEST_CASE("files for the scripts: a drive as .glb, a folder for ParaView, a .kml
   const Written vtk = export_vtk(run(), options("vtk"), warnings);
   CHECK(vtk.size() == 1 + 3 + 4 * test::frame_count);
   for (const fs::path& file : vtk) CHECK(fs::exists(file));
-  CHECK_THROWS_AS(export_vtk(run(), options("vtk"), warnings), InputError);  // the folder is there already
+  CHECK_THROWS_AS(export_vtk(run(), options("vtk"), warnings), InputError);  // the folder exists already
   CHECK(warnings.empty());
 
   ExportOptions kml = options("drive.kml");

@@ -15,7 +15,7 @@ import pages
 
 
 def faults(root):
-    """What is wrong with the links of a tree, in words."""
+    """Returns the faults of the links of a tree, in words."""
     found, linked = [], {root / "README.md"}
     shown = pages.pages(root)
     texts = {(root / page).resolve(): (root / page).read_text(encoding="utf-8") for page in shown}

@@ -61,7 +61,7 @@ def prepare(options):
     shutil.rmtree(work, ignore_errors=True)
     (work / "bin").mkdir(parents=True)
     (work / "bin/wavetracer").symlink_to(options.program)
-    # `python3` is the one that has the packages, whichever comes first elsewhere.
+    # `python3` must be the one that has the packages, even if another one comes first in the PATH.
     (work / "bin/python3").write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
     (work / "bin/python3").chmod(0o755)
     shutil.copytree(options.configs, work / "configs", symlinks=True)
@@ -77,7 +77,7 @@ def prepare(options):
     environment["WAVETRACER_PROGRAM"] = options.program
     environment["WAVETRACER_LIBRARY"] = options.shared_object
     environment["SUMO_HOME"] = environment.get("SUMO_HOME", "/usr/share/sumo")
-    # The drive of his own that a reader has.
+    # This is the drive that a reader has.
     subprocess.run(["wavetracer", "scene", "city", "-o", ".", "--blocks", "2x2", "--vehicles", "4", "--seconds", "0.3"],
                    cwd=work, env=environment, check=True, stdout=subprocess.DEVNULL)
     return work, environment

@@ -1,4 +1,4 @@
-// What every fuzz target needs: the input as a file in memory, and the errors that are right answers.
+// Every fuzz target includes this: the input as a file in memory, and the errors that are valid answers.
 // A target ends with a crash for anything else: another exception, a fault, a leak, too much memory or time.
 #pragma once
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 
 namespace wavetracer::fuzz {
 
-// A file in memory, rewritten for each input, alone in a folder that goes with it.
+// A file in memory, rewritten for each input, alone in a folder that is removed with it.
 class MemoryFile {
  public:
   // name: for readers that look at it, such as "input.obj".
@@ -49,7 +49,7 @@ inline std::string_view text_of(const uint8_t* data, size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// Runs the reader; a refusal by an Error of ours is as good as a result.
+// Runs the reader; a refusal by one of our Errors is as good as a result.
 template <typename Reader>
 int accept_or_refuse(const Reader& reader) {
   try {

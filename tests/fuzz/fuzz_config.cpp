@@ -1,5 +1,5 @@
 // Fuzz target: configurations, from TOML text to checked values and back to text.
-// What is accepted must be accepted again as it is written out.
+// An accepted configuration must be accepted again after it was written out.
 #include "fuzz/fuzz.hpp"
 #include "wavetracer/config_file.hpp"
 

@@ -1,4 +1,4 @@
-// Fuzz target: columns of a CSV file. What it reads must not depend on where pieces end.
+// Fuzz target: columns of a CSV file. The result must not depend on where pieces end.
 #include <cstdlib>
 #include <cstring>
 #include "fuzz/fuzz.hpp"

@@ -1,4 +1,4 @@
-// Fuzz target: what esmini writes: the text decides between log and recording.
+// Fuzz target: files of esmini; the text decides between log and recording.
 #include "fuzz/fuzz.hpp"
 #include "motion/esmini.hpp"
 

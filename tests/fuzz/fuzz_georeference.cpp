@@ -1,4 +1,4 @@
-// Fuzz target: georeference.json beside a scene, and the projection that it names there and back.
+// Fuzz target: georeference.json beside a scene, and its projection in both directions.
 #include <glm/vec2.hpp>
 #include "fuzz/fuzz.hpp"
 #include "scene/georeference.hpp"

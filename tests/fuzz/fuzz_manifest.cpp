@@ -1,4 +1,4 @@
-// Fuzz target: manifests of the parts of a run. What is accepted must be accepted again as it is written out.
+// Fuzz target: manifests of the parts of a run. An accepted manifest must be accepted again after it was written out.
 #include "fuzz/fuzz.hpp"
 #include "jobs/manifest.hpp"
 

@@ -1,5 +1,5 @@
-// Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library faults in a process of
-// its own, and may there: see LimitedChild.
+// Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library may crash in a separate
+// process: see LimitedChild.
 #include <fstream>
 #include "base/hash.hpp"
 #include "fuzz/children.hpp"

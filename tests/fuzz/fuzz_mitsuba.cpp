@@ -1,4 +1,4 @@
-// Fuzz target: Mitsuba XML scenes. Meshes that they name are not there but where they name the file itself.
+// Fuzz target: Mitsuba XML scenes. Meshes that they name do not exist, except the file itself.
 #include "fuzz/fuzz.hpp"
 #include "scene/mitsuba.hpp"
 

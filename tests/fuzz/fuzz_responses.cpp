@@ -1,5 +1,4 @@
-// Fuzz target: responses.h5 as exports read it. The HDF5 library faults in a process of its own, and may there: see
-// LimitedChild.
+// Fuzz target: responses.h5 as exports read it. The HDF5 library may crash in a separate process: see LimitedChild.
 #include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
 #include "results/saved_responses.hpp"

@@ -1,5 +1,5 @@
-// Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library faults in a process of its own, and
-// may there: see LimitedChild.
+// Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library may crash in a separate process: see
+// LimitedChild.
 #include "fuzz/children.hpp"
 #include "fuzz/fuzz.hpp"
 #include "results/saved_run.hpp"

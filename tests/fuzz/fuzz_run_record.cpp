@@ -1,4 +1,4 @@
-// Fuzz target: run.json, what `wavetracer merge` knows of a run.
+// Fuzz target: run.json, the facts about a run for `wavetracer merge`.
 #include "fuzz/fuzz.hpp"
 #include "jobs/run_record.hpp"
 

@@ -1,7 +1,7 @@
 // Fuzz target: well-formed containers whose numbers and lengths come from the input, as view, plot and convert read
 // them. An input is a row of patches, 11 bytes each: the dataset, the element (16 bits), its value; of datasets from
-// 128 on the value's first byte is the number of rows instead. In place of output/foreign_file.cpp stands a reader of
-// datasets in memory: the library would take a hundred times as long.
+// 128 on the value's first byte is the number of rows instead. A reader of datasets in memory replaces
+// output/foreign_file.cpp: the library would take a hundred times as long.
 #include <algorithm>
 #include <cstring>
 #include <unordered_map>
@@ -66,7 +66,7 @@ herr_t add_dataset(hid_t root, const char* name, const H5O_info_t* info, void* o
   return 0;
 }
 
-// paths.h5 of the sample, which stays: SavedRun is told of it, though nothing is read from it.
+// paths.h5 of the sample, which is never changed: SavedRun gets its path, though nothing is read from it.
 class Sample {
  public:
   Sample() : folder_("/dev/shm/wavetracer-fuzz-sample-" + std::to_string(getpid())) {

@@ -1,6 +1,6 @@
 // Fuzz target: maps of the formats that GDAL opens, up to the meshes of their buildings. No file is written. GDAL
-// itself is not instrumented: what is looked for is what this program makes of its answers. The fuzzer keeps to formats
-// of the corpus; the test of the corpus has GDAL as it is.
+// itself is not instrumented: the target searches faults in how this program handles its answers. The fuzzer only uses
+// formats of the corpus; the test of the corpus has all of GDAL.
 #include <cstdlib>
 
 #include "fuzz/fuzz.hpp"

@@ -1,4 +1,4 @@
-// GDAL with the drivers of a target's corpus alone. It asks all two hundred of them what an input is, which takes most
+// Keeps only the GDAL drivers of a target's corpus. GDAL asks all two hundred of them about an input, which takes most
 // of the time, and none of that is code of this program.
 #pragma once
 #include <dlfcn.h>
@@ -17,7 +17,7 @@ Function* gdal_function(const char* name) {
   return out;
 }
 
-// Takes all other drivers away. Assumes that the module for maps has been opened, and has read a file, before.
+// Removes all other drivers. The module for maps must have been opened, and must have read a file, before.
 inline void keep_gdal_drivers(std::initializer_list<std::string_view> kept) {
   const auto count = gdal_function<int()>("GDALGetDriverCount");
   const auto driver = gdal_function<void*(int)>("GDALGetDriver");

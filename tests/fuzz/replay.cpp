@@ -1,5 +1,5 @@
 // Feeds files to a fuzz target, each once, without a fuzzer: replay_NAME FILE|FOLDER...
-// Assumes that a fault ends the process: coming to the end is the test.
+// A fault ends the process: reaching the end is the test.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@ size_t feed(const std::filesystem::path& path) {
     for (const auto& entry : std::filesystem::directory_iterator(path)) count += feed(entry.path());
     return count;
   }
-  std::cout << path.string() << std::endl;  // before it may end here
+  std::cout << path.string() << std::endl;  // printed before the input, which may end the process
   std::ifstream in(path, std::ios::binary);
   if (!in) return 0;
   const std::string content(std::istreambuf_iterator<char>(in), {});
@@ -31,5 +31,5 @@ int main(int count, char** arguments) {
   size_t fed = 0;
   for (int i = 1; i < count; ++i) fed += feed(arguments[i]);
   std::cout << fed << " inputs\n";
-  return fed > 0 ? 0 : 1;  // a corpus that is not where it should be is no test
+  return fed > 0 ? 0 : 1;  // a missing corpus must fail
 }

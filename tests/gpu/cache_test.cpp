@@ -19,7 +19,7 @@ const std::string compiled("binary\0with\nzeros", 17);
 }  // namespace
 
 TEST_CASE("FNV-1a of 128 bits agrees with the published vectors") {
-  // RFC 9923 gives the offset basis; the others follow from its definition in exact integer arithmetic.
+  // RFC 9923 gives the offset basis; the other values follow from its definition in exact integer arithmetic.
   CHECK(fnv1a_128("") == "6c62272e07bb014262b821756295c58d");
   CHECK(fnv1a_128("a") == "d228cb696f1a8caf78912b704e4a8964");
   CHECK(fnv1a_128("foobar") == "343e1662793c64bf6f0d3597ba446f18");

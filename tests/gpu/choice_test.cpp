@@ -41,7 +41,7 @@ TEST_CASE("a text matches part of a platform or name in any case, a number an in
   CHECK(choose_device(machine, "rtx 4090") == 2);
   CHECK(choose_device(machine, "e") == 0);  // no GPU has the letter e
   CHECK(choose_device(machine, "p") == 0);
-  CHECK(choose_device(machine, "a") == 1);  // all do: a GPU goes first
+  CHECK(choose_device(machine, "a") == 1);  // all names have it: a GPU is preferred
   CHECK(choose_device(machine, "2") == 2);
 }
 

@@ -134,7 +134,8 @@ TEST_CASE_FIXTURE(Fixture, "a fill of more elements than drivers can count is wh
     wrong += read.size() - static_cast<size_t>(std::count(read.begin(), read.end(), 0xa5));
   }
   CHECK(wrong == 0);
-  const uint64_t pattern = 0x0807060504030201ull;  // only an end, at an offset that is no multiple of the seed's size
+  // Only an end is filled, at an offset that is no multiple of the seed's size.
+  const uint64_t pattern = 0x0807060504030201ull;
   context.fill(bytes, &pattern, 1, count - 5, 5, "transfer");
   CHECK(bytes.read(count - 6, 6) == std::vector<uint8_t>{0xa5, 1, 1, 1, 1, 1});
 }
@@ -190,7 +191,7 @@ TEST_CASE_FIXTURE(Fixture, "wrong arguments are named") {
   CHECK(contains(not_a_buffer, "argument 0"));
   const std::string not_a_value = message_of<std::logic_error>([&] { add(one, "test", out, out, float4{}, 1.0); });
   CHECK(contains(not_a_value, "argument 1"));
-  const gpu::Buffer<uint32_t>* const absent = nullptr;  // fits where memory does
+  const gpu::Buffer<uint32_t>* const absent = nullptr;  // fits if there is memory
   const std::string no_buffer = message_of<std::logic_error>([&] { add(one, "test", out, absent, float4{}, 1.0); });
   CHECK(contains(no_buffer, "argument 1"));
   const std::string unallocated =

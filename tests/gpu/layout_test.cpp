@@ -1,5 +1,5 @@
 // Every record of the headers that host and device share has the same size and the same offsets on both.
-// The headers' own text says which records and fields there are, so that none is left out of the table
+// The records and fields are read from the text of the headers, so that none is missing in the table
 // (device_records.hpp).
 #include <doctest/doctest.h>
 #include <fmt/format.h>

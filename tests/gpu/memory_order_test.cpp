@@ -39,7 +39,7 @@ TEST_CASE("fetch-add hands out every place once") {
 
 TEST_CASE("a set claimed by 64-bit compare-and-swap inserts each word once") {
   gpu::Context context;
-  // Few words at any time, so that work-items fight for the same slots.
+  // There are few words at any time, so that work-items compete for the same slots.
   const uint32_t count = scaled(context, 1u << 21), distinct = count / 4, slots = count / 2, window = 64;
   std::mt19937_64 random(1);
   std::vector<uint64_t> universe(distinct), words(count);

@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// What a compiler makes of the expansion: (file, line) -> text.
+// Returns the lines of the expansion as a compiler locates them: (file, line) -> text.
 std::map<std::pair<std::string, size_t>, std::string> located_lines(const std::string& source) {
   static const std::regex line_directive("#line ([0-9]+) \"(.*)\"");
   std::map<std::pair<std::string, size_t>, std::string> located;
@@ -119,7 +119,7 @@ TEST_CASE("a guarded file is there once, where nothing in between depends on a c
   };
   CHECK(count("text of a") == 1);
   CHECK(count("text of b") == 1);
-  CHECK(count("text of c") == 2);  // the first may not be seen
+  CHECK(count("text of c") == 2);  // the first one may not be visible
 }
 
 TEST_CASE("a source with one of its kernels keeps its lines, and what is no kernel") {
@@ -127,8 +127,8 @@ TEST_CASE("a source with one of its kernels keeps its lines, and what is no kern
       "#define HELP(x) { x\ninline int f(int a) { return a; }  // kernel void no(\n/* kernel void { */\n"
       "__attribute__((reqd_work_group_size(4, 1, 1))) kernel void first(\n    global int* a) {\n#if A\n  if (a) "
       "{\n#endif\n"
-      "#if A\n  }\n#endif\n  a[0] = '1' + f(1);\n}\n\nkernel void second(global int* a) { a[1] = 2; }\nkernel "
-      "__attribute__((vec_type_hint(float4))) void third(global int* a) {\n  printf(\"}\");\n}\n";
+      "#if A\n  }\n#endif\n  a[0] = '1' + f(1);\n}\n\nkernel void second(global int* a) { a[1] = 2; }\n"
+      "kernel __attribute__((vec_type_hint(float4))) void third(global int* a) {\n  printf(\"}\");\n}\n";
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
   const std::string first = gpu::with_one_kernel(source, "first"), third = gpu::with_one_kernel(source, "third");
   for (const std::string* one : {&first, &third}) {
@@ -142,7 +142,7 @@ TEST_CASE("a source with one of its kernels keeps its lines, and what is no kern
   CHECK_FALSE(contains(third, "first"));
   CHECK_FALSE(contains(third, "reqd_work_group_size"));
   CHECK(third.ends_with("void third(global int* a) {\n  printf(\"}\");\n}\n"));
-  // Where each branch of a condition opens a brace, nothing is known.
+  // If each branch of a condition opens a brace, kernels cannot be told apart.
   const std::string unmatched =
       "#if A\nkernel void a(int x) {\n#else\nkernel void a(int y) {\n#endif\n}\nkernel void b() {}\n";
   CHECK(gpu::with_one_kernel(unmatched, "b") == unmatched);

@@ -1,5 +1,5 @@
-// Things that tests set up and that vanish with them: a folder, an environment variable, a folder of kernels.
-// Not thread-safe, as the environment is not.
+// Temporary objects of tests: a folder, an environment variable, a folder of kernels. They are not thread-safe, as the
+// environment is not.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace wavetracer::test {
 
-// Sets a variable, or unsets it where value is null, and restores what was there.
+// Sets a variable, or unsets it if value is null, and restores the former value.
 class Environment {
  public:
   Environment(std::string name, const char* value) : name_(std::move(name)) {
@@ -46,8 +46,8 @@ inline void write_file(const std::filesystem::path& path, const std::string& tex
   std::ofstream(path, std::ios::binary) << text;
 }
 
-// PoCL's own cache of kernels: read once a process, from XDG_CACHE_HOME unless POCL_CACHE_DIR is set, and then expected
-// to stay. Call before the first use of OpenCL.
+// PoCL reads the place of its own cache of kernels once per process, from XDG_CACHE_HOME unless POCL_CACHE_DIR is set,
+// and expects it to stay. This must be called before the first use of OpenCL.
 inline void give_pocl_a_lasting_cache() {
   static const TemporaryFolder folder;
   ::setenv("POCL_CACHE_DIR", folder.path().c_str(), 0);
@@ -74,7 +74,7 @@ class TemporaryKernels {
   Environment use_cache_{"WAVETRACER_NO_CACHE", nullptr};
 };
 
-// The message of an exception of type E; empty where none was thrown.
+// Returns the message of an exception of type E; empty if none was thrown.
 template <class E, class F>
 std::string message_of(F&& action) {
   try {

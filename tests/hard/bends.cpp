@@ -1,5 +1,5 @@
-// Surfaces that are bent, by microradians or by half a turn, inwards and outwards: the total field must not jump where
-// the reflection of one face ends and that of the other begins, nor where a corner reflects once more.
+// Bent surfaces, by microradians or by half a turn, inwards and outwards: the total field must not jump where the
+// reflection of one face ends and that of the other begins, nor where a corner reflects once more.
 #include <glm/trigonometric.hpp>
 
 #include "hard/responses.hpp"
@@ -8,10 +8,10 @@ namespace wavetracer::test {
 namespace {
 
 struct Bend {
-  double exterior_deg;  // of the free space between the faces
+  double exterior_deg;  // angle of the free space between the faces
   std::string material = "metal";
   double hz = frequency_hz;
-  double scale = 1;    // of all lengths; 1: the source stands 8 m from the edge, receivers 5 m
+  double scale = 1;    // factor of all lengths; 1: the source stands 8 m from the edge, receivers 5 m
   bool lying = false;  // a horizontal edge
 };
 
@@ -39,8 +39,8 @@ Config traced(const Bend& bend, const SceneFile& file, const Points& transmitter
   return config;
 }
 
-// Returns where waves of up to five reflections end, for a source at this azimuth: reflection unfolds, so a wave is a
-// straight line past the edge, and receivers are at its end if their azimuths, unfolded, are pi from the source's.
+// Returns where waves of up to five reflections end, for a source at this azimuth: unfolded, a wave is a straight line
+// past the edge, and receivers are at its end if their azimuths, unfolded, are pi from the source's.
 std::vector<double> boundaries_of(double in_rad, double exterior_rad) {
   std::vector<double> out;
   for (int turns = 0; turns <= 2; ++turns)
@@ -73,7 +73,7 @@ HardCase across_boundaries(const std::string& device, const Bend& bend, double i
   for (size_t b = 0; b < boundaries.size(); ++b) {
     const size_t first = b * at_m.size(), last = first + at_m.size() - 1;
     for (const size_t port : {0, 1}) out.measured = std::max(out.measured, boundary_jump(at_m, h, first, port));
-    // A wave ends there, or this is no boundary; of a slight bend the other face's begins there.
+    // A wave must end there, or this is no boundary; for a slight bend, the other face's wave begins there.
     const bool slight = std::abs(exterior_rad - pi) < 0.01;
     if (!slight && bend.exterior_deg != 90 &&
         geometrical_paths(paths, 0, static_cast<uint32_t>(first)) ==
@@ -107,14 +107,14 @@ HardCase along_a_line(const std::string& device, double bent_rad, bool lying) {
   return out;
 }
 
-// A diffracted wave of a corner that is left out is faint.
+// The diffracted wave of a corner that is left out must be weak.
 HardCase left_out(const std::string& device, const Bend& bend) {
   const double exterior_rad = glm::radians(bend.exterior_deg);
   Points receivers;
   for (int i = 1; i < 400; ++i) receivers.push_back(about_edge(bend, 5, exterior_rad * i / 400, -1));
   const SceneFile file({Part{faces_of(bend), bend.material}});
   const Paths paths = run(traced(bend, file, {about_edge(bend, 8, 0.23 * exterior_rad, 3)}, receivers), device).paths;
-  const double shortest_m = 14 * bend.scale;  // over the edge; over the rims 30 m away it is more
+  const double shortest_m = 14 * bend.scale;  // over the edge; paths over the rims 30 m away are longer
   std::vector<double> diffracted(receivers.size(), 0);
   for (size_t i = 0; i < paths.size(); ++i) {
     const double length_m = paths.delay_s[i] * speed_of_light;

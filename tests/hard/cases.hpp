@@ -1,5 +1,6 @@
-// The hard suite: geometry and numbers at their limits, each case with the answer that it must have.
-// A case measures how far the program, run through Simulation, is from that answer; the test and bench_hard share them.
+// The hard suite: geometry and numbers at their limits, each case with its known answer.
+// A case measures the difference between the program, run through Simulation, and that answer; the test and bench_hard
+// share them.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@ struct HardCase {
   std::string name, expectation;
   double measured = 0, tolerance = 0;
   std::string unit;
-  bool holds() const { return measured <= tolerance; }  // not if it is NaN
+  bool holds() const { return measured <= tolerance; }  // false for NaN
 };
 using HardCases = std::vector<HardCase>;
 

@@ -1,5 +1,5 @@
-// A drive in steps of 1 mm out of the light: the direct path ends at the edge of a screen, others go on, and each
-// changes its delay from frame to frame as its Doppler shift says.
+// A drive in steps of 1 mm into the shadow: the direct path ends at the edge of a screen, others continue, and each
+// changes its delay from frame to frame by its Doppler shift.
 #include <map>
 
 #include "hard/responses.hpp"
@@ -21,7 +21,7 @@ Config drive(const SceneFile& file) {
   return config;
 }
 
-// Rows by the kinds and surfaces of their interactions, which tell paths of one link apart.
+// Rows by the kinds and surfaces of their interactions, which distinguish the paths of one link.
 using Rows = std::map<std::vector<uint32_t>, size_t>;
 Rows rows_of(const Paths& paths) {
   Rows rows;
@@ -34,7 +34,8 @@ Rows rows_of(const Paths& paths) {
   return rows;
 }
 
-// The direct wave and what the edge at x = 0 diffracts of it, seen with the phase of the latter: no fast phase is left.
+// Returns the direct wave and its diffraction at the edge x = 0, with the phase of the latter removed, so that no fast
+// phase is left.
 Response past_the_edge(const Paths& paths) {
   const auto at_edge = [&](size_t i) {
     return kinds_of(paths, i) == "D" && std::abs(paths.vertex_position_m[paths.vertex_offset[i]].x) < 1e-9;
@@ -61,7 +62,7 @@ HardCases drives(const std::string& device) {
   for (uint32_t frame = 0; frame < frames; ++frame) drive.push_back(simulation.run_frame(frame).paths);
 
   double worst_cycles = 0, worst_jump = 0;
-  size_t ends = 0, other_changes = 0;  // of the direct path, and of all others, coming or going
+  size_t ends = 0, other_changes = 0;  // changes of the direct path, and of all others, coming or going
   std::vector<Response> h{past_the_edge(drive[0])};
   for (uint32_t frame = 1; frame < frames; ++frame) {
     const Paths &before = drive[frame - 1], &after = drive[frame];

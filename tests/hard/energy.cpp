@@ -1,5 +1,5 @@
-// Energy: what a slab reflects and lets through, what a rough plate scatters into all directions and mirrors.
-// Coefficients are taken from the gains of paths, divided by those of free space.
+// Energy: the reflection and transmission of a slab, the scattering of a rough plate into all directions, and its
+// mirrored wave. Coefficients are the gains of paths, divided by those of free space.
 #include "hard/responses.hpp"
 #include "simulation/drive.hpp"
 
@@ -55,8 +55,8 @@ void add_slabs(const std::string& device, HardCases& cases) {
 }
 
 // A plate of one triangle, which is one tile with its centre at the origin, under a hemisphere of receivers. Midpoints
-// in the cosine and the azimuth are exact for Lambert's law. scattered: the power that comes back over that which
-// arrives; mirrored: that of the mirrored wave over that of a mirror.
+// in the cosine and the azimuth are exact for Lambert's law. scattered: the power that comes back divided by the
+// arriving power; mirrored: the power of the mirrored wave divided by that of a mirror.
 struct Shares {
   double scattered, mirrored;
 };
@@ -87,12 +87,13 @@ Shares shares(const std::string& device, double angle_rad, double lobe, double c
   Shares out{0, 0};
   for (size_t i = 0; i < paths.size(); ++i) {
     const std::string kinds = kinds_of(paths, i);
-    // Sent from port V; both ports receive.
+    // Port V sends; both ports receive.
     const double power = std::norm(paths.a[i][0]) + std::norm(paths.a[i][2]);
     if (kinds == "S" && paths.rx[i] > 0) out.scattered += power / (friis(1) * friis(1));
     if (kinds == "R" && paths.rx[i] == 0) out.mirrored = power / std::pow(friis(2 * far_m), 2);
   }
-  // Power densities over the hemisphere, over that of the wave at the plate times its area across the wave.
+  // The sum of power densities over the hemisphere is divided by that of the wave at the plate times its area across
+  // the wave.
   out.scattered *= radius_m * radius_m * (2 * pi / (rings * round)) * far_m * far_m / (area_m2 * std::cos(angle_rad));
   return out;
 }

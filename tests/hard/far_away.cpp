@@ -1,11 +1,11 @@
-// Large coordinates and long ways: a scene where UTM has it, paths of 14 km.
-// Coordinates are multiples of 1/64 m, so that moving a scene by whole metres rounds nothing.
+// Large coordinates and long ways: a scene at UTM coordinates, paths of 14 km.
+// Coordinates are multiples of 1/64 m, so that moving a scene by whole metres causes no rounding.
 #include "hard/responses.hpp"
 
 namespace wavetracer::test {
 namespace {
 
-// A street corner: ground, three walls and a block, with every feature on.
+// Makes a street corner: ground, three walls and a block, with every feature on.
 Paths at(const std::string& device, const glm::dvec3& offset) {
   std::vector<Quad> walls{{{-40, -30, 0}, {80, 0, 0}, {0, 60, 0}},
                           {{-40, 12.25, 0}, {80, 0, 0}, {0, 0, 9.5}},

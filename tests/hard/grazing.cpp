@@ -1,5 +1,5 @@
-// Two-ray ground: figures that are computed elsewhere, grazing at 1e-6 rad, and grounds of 10 km, of slivers too.
-// Grounds are half spaces; "conductor" has 1e18 S/m and reflects with -1.
+// Two-ray ground: figures that were computed elsewhere, grazing at 1e-6 rad, and grounds of 10 km, also made of
+// slivers. Grounds are half spaces; "conductor" has 1e18 S/m and reflects with -1.
 #include "hard/responses.hpp"
 #include "simulation/drive.hpp"
 
@@ -16,7 +16,7 @@ MaterialConfig material(const std::string& name) {
   return out;
 }
 
-// A ground of 10 km by 10 km around the origin: strips along x, narrow ones in the middle where the way runs.
+// Makes a ground of 10 km by 10 km around the origin: strips along x, narrow ones in the middle where the way runs.
 Mesh ground(const std::string& material, uint32_t narrow, double narrow_m) {
   Mesh mesh{{}, {}, material};
   std::vector<double> lines{-side_m / 2};
@@ -35,7 +35,7 @@ Paths over(const std::string& device, const Mesh& mesh, const Points& receivers,
   return run(config, device).paths;
 }
 
-// Isotropic antennas 1.5 m above the ground; from the reference figures of two-ray models.
+// Isotropic antennas are 1.5 m above the ground; the values are reference figures of two-ray models.
 void add_figures(const std::string& device, HardCases& cases) {
   struct Figure {
     const char* material;
@@ -55,7 +55,7 @@ void add_figures(const std::string& device, HardCases& cases) {
 }
 
 // Antennas 5 mm above the ground, 10 km apart: the ground is met at 1e-6 rad, and the wave reflected there all but
-// cancels the direct one. What is left is -j k (L1 - L0), whose digits are those of the two delays.
+// cancels the direct one. The difference is -j k (L1 - L0), whose digits are those of the two delays.
 void add_millionth(const std::string& device, HardCases& cases) {
   const double height_m = 0.005, distance_m = side_m - 2;
   for (const auto& [name, strips, width_m] :
@@ -91,7 +91,7 @@ void add_bands(const std::string& device, HardCases& cases) {
   }
 }
 
-// The same ground, cut otherwise, along the way of a receiver: paths and gains must not change.
+// The same ground, cut in another way along the way of a receiver: paths and gains must not change.
 HardCase slivers(const std::string& device) {
   Points receivers;
   for (int i = 0; i < 100; ++i) receivers.push_back({-4000 + 90.0 * i, -0.47 + 0.0093 * i, 1.5});

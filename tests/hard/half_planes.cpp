@@ -1,5 +1,5 @@
-// Half planes: knife edges against the exact Fresnel integral, and needle wedges, which become one as their angle does.
-// Assumes that other edges of the screen are so far away that what they diffract is below the tolerance.
+// Half planes: knife edges against the exact Fresnel integral, and needle wedges, which become one as their angle goes
+// to zero. Other edges of the screen are so far away that their diffraction is below the tolerance.
 #include <glm/trigonometric.hpp>
 
 #include "hard/responses.hpp"
@@ -58,7 +58,7 @@ std::vector<Response> around_needle(const std::string& device, double interior_d
     receivers.push_back({6 * std::cos(glm::radians(azimuth_deg)), 6 * std::sin(glm::radians(azimuth_deg)), 1});
   const Paths paths =
       run(diffracting(SceneFile(faces), {{8 * std::cos(1.0), 8 * std::sin(1.0), -0.5}}, receivers), device).paths;
-  return responses(paths, 0, receivers.size(), 100);  // without what the far rims diffract
+  return responses(paths, 0, receivers.size(), 100);  // without the diffraction of the far rims
 }
 
 // The largest difference of two fields, over that of free space at 14 m.

@@ -1,5 +1,5 @@
 // Every case of the hard suite must hold.
-// A topic is a subcase of its own; bench_hard prints what all of them measure.
+// Each topic is a subcase; bench_hard prints all measurements.
 #include <doctest/doctest.h>
 
 #include "hard/cases.hpp"

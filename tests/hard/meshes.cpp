@@ -21,7 +21,7 @@ double worst_length(const Paths& paths, uint32_t rx, const std::vector<Length>& 
 }
 
 // A wall of 10 m by 4 m in the plane y = 0, cut along z = 2 m by a band of slivers, 0.5 m wide and 10 um high. Thinner
-// columns would be no test: vertices within 1 mm are welded.
+// columns would test nothing, since vertices within 1 mm are welded.
 Mesh wall_of_slivers() {
   Mesh mesh{{}, {}, "metal"};
   constexpr uint32_t columns = 40;
@@ -73,7 +73,7 @@ Paths through(const std::string& device, const SceneFile& file, uint32_t max_dep
   return run(config, device).paths;
 }
 
-// Lengths between (-3, y, z) and an image at x, across y and z of through's links.
+// Returns the length between (-3, y, z) and an image at x, for the y and z of the links of through.
 double across(double x_m) { return std::hypot(x_m, 0.7, 0.5); }
 
 HardCase coincident_walls(const std::string& device) {
@@ -86,7 +86,7 @@ HardCase coincident_walls(const std::string& device) {
       1e-9, "m"};
 }
 
-// Between the walls waves go to and fro: TRT from the second wall, TRRT behind it.
+// Between the walls waves go back and forth: TRT from the second wall, TRRT behind it.
 HardCase near_walls(const std::string& device, double apart_m, bool equal) {
   const double more = equal ? 0 : 3;
   const SceneFile file(
@@ -116,7 +116,7 @@ void add_t_junction(const std::string& device, HardCases& cases) {
     return run(config, device).paths;
   };
   const Paths joined = paths_of(file.path()), one = paths_of(whole.path());
-  // Rims may be one wedge or several: what they diffract must sum up to the same.
+  // Rims may be one wedge or several: the sum of their diffraction must be the same.
   const std::vector<Response> a = responses(joined, 0, front.size()), b = responses(one, 0, front.size());
   double worst = 0;
   for (size_t i = 0; i < front.size(); ++i)

@@ -1,5 +1,5 @@
-// What cases of the hard suite share: fields of links summed over their paths, kinds of paths, errors in decibels.
-// Assumes ends with two ports each, V and H, as config_of makes them.
+// Helpers of the hard suite: fields of links summed over their paths, kinds of paths, errors in decibels. Ends have two
+// ports each, V and H, as config_of makes them.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ constexpr double other_bands_hz[] = {0.7e9, 28e9, 60e9};
 // h(f) between ports, element 2 r + t from tx port t to rx port r.
 using Response = std::array<Complex, 4>;
 
-// The sum of a exp(-j 2 pi f tau) of the paths from tx to each receiver, of those up to this length.
+// Returns the sum of a exp(-j 2 pi f tau) of the paths from tx to each receiver, for paths up to this length.
 inline std::vector<Response> responses(const Paths& paths, uint32_t tx, size_t receivers,
                                        double longest_m = std::numeric_limits<double>::infinity(),
                                        double hz = frequency_hz) {
@@ -76,7 +76,7 @@ inline std::string kinds_between(const Paths& paths, uint32_t tx, uint32_t rx) {
   return out;
 }
 
-// The largest difference of the paths of two runs, row by row; infinite where their number or kinds differ.
+// The largest difference of the paths of two runs, row by row; infinite if their number or kinds differ.
 struct Difference {
   double gain_db = 0, delay_s = 0;
 };
@@ -91,7 +91,7 @@ inline Difference difference(const Paths& a, const Paths& b) {
   return worst;
 }
 
-// Values of the result that are not finite; none should be.
+// Counts values of the result that are not finite; there should be none.
 inline double not_finite(const Paths& paths) {
   size_t count = 0;
   const auto look = [&](double x) { count += !std::isfinite(x); };
@@ -113,8 +113,8 @@ inline size_t geometrical_paths(const Paths& paths, uint32_t tx, uint32_t rx) {
 }
 
 // The distances of receivers from a shadow boundary, along the circle about the edge: exactly on it, 1 nm beside it,
-// then twice as far each time, but by no more than a phase of 2 milliradians at once, to 0.03 mm. The first and the
-// last, at 1 mm, are clear of it on either side.
+// then doubling up to 0.03 mm, with steps of at most 2 milliradians of phase. The first and the last, at 1 mm, are
+// clearly on one side.
 inline std::vector<double> boundary_steps(double hz = frequency_hz) {
   std::vector<double> out{0};
   for (double d = 1e-9; d < 4e-5; d += std::min(d, 2e-3 * speed_of_light / (2 * pi * hz)))
@@ -124,9 +124,9 @@ inline std::vector<double> boundary_steps(double hz = frequency_hz) {
   return out;
 }
 
-// The field of tx port t at the receivers of a boundary, seen in steps: its largest deviation from the straight line
-// through the fields of the two receivers before, over its size. A jump is there in full; a smooth field leaves its
-// curvature, of which standing waves have most: (2 * 2e-3)^2 / 2, that is 8e-6.
+// The field of tx port t at the receivers of a boundary: its largest deviation from the straight line through the
+// fields of the two receivers before, divided by its size. It contains a jump completely; a smooth field only leaves
+// its curvature, which is largest for standing waves: (2 * 2e-3)^2 / 2, that is 8e-6.
 inline double boundary_jump(const std::vector<double>& at_m, const std::vector<Response>& h, size_t first, size_t t) {
   double worst = 0, size = 0;
   for (size_t i = 3; i + 1 < at_m.size(); ++i) {

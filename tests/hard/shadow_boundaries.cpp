@@ -1,5 +1,5 @@
 // The total field across the shadow boundaries of free-standing wedges and screens: it must not jump.
-// Geometry in float32 decides within 0.03 mm whether a ray passes an edge, so receivers stand closer than that as well.
+// Geometry in float32 decides within 0.03 mm whether a ray passes an edge, so some receivers are closer than that.
 #include <glm/trigonometric.hpp>
 
 #include "hard/responses.hpp"
@@ -7,8 +7,9 @@
 namespace wavetracer::test {
 namespace {
 
-constexpr double radius_m = 5, skew_m = -1;  // of receivers, from the edge and along it
-constexpr double turned_rad = 0.37;          // of the whole scene about the edge: nothing is round in float32
+constexpr double radius_m = 5, skew_m = -1;  // place of receivers, from the edge and along it
+// Rotation of the whole scene about the edge, so that no coordinate is exact in float32.
+constexpr double turned_rad = 0.37;
 
 glm::dvec3 at_azimuth(double rho_m, double azimuth_rad, double z_m) {
   return {rho_m * std::cos(azimuth_rad + turned_rad), rho_m * std::sin(azimuth_rad + turned_rad), z_m};
@@ -57,8 +58,8 @@ HardCase case_of(const std::string& device, double interior_rad, const std::stri
     const uint32_t tx = boundaries[b].tx;
     const std::vector<Response> h = responses_at(hz, paths, tx, receivers.size());
     for (const size_t port : {0, 1}) out.measured = std::max(out.measured, boundary_jump(at_m, h, first, port));
-    // What passes the edge or is reflected beside it must be there on one side alone, or this is no boundary. Where
-    // walls transmit, the direct path goes on as another.
+    // A path that passes the edge, or is reflected beside it, must exist on one side alone, or this is no boundary.
+    // If walls transmit, the direct path continues as another one.
     const bool ends = geometrical_paths(paths, tx, first) != geometrical_paths(paths, tx, last);
     if (!ends && !(transmits && b == 0)) out.measured = std::numeric_limits<double>::infinity();
   }

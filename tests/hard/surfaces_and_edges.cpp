@@ -1,5 +1,5 @@
-// Antennas where geometry is singular: on a face, an edge, a corner, on each other, and on both ends of a link.
-// The rule: an antenna on a surface is not hidden by it and not reflected there, so the wave counts once.
+// Antennas at singular places: on a face, an edge, a corner, on each other, and on both ends of a link. The rule: an
+// antenna on a surface is not hidden by it and not reflected there, so the wave counts once.
 #include "hard/responses.hpp"
 #include "wavetracer/error.hpp"
 
@@ -29,7 +29,7 @@ Points all_places() {
   return out;
 }
 
-// Whether a run warns that the line of sight is left out, and says what to do.
+// Tells whether a run warns that the line of sight is left out, and says what to do.
 bool tells_to_move(const Config& config, const std::string& device) {
   const FrameResult frame = run(config, device);
   return std::ranges::count(frame.paths.depth, 0u) == 0 && frame.warnings.size() == 1 &&
@@ -57,7 +57,7 @@ void add_sets(const std::string& device, HardCases& cases) {
   }
 }
 
-// Everything at once: whatever is found there, it is finite, and the same from the other end.
+// All features are on: every path must be finite, and the same from the other end.
 void add_all_features(const std::string& device, HardCases& cases) {
   const SceneFile file(cube_over_ground());
   Config config = config_of(file.path(), {above}, all_places(), 50000, 3);

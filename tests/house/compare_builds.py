@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether two builds of wavetracer write the same files: for changes of structure, which change no result.
+"""Checks that two builds of wavetracer write the same files: for changes of structure, which change no result.
 
 usage: compare_builds.py BEFORE AFTER [--only TEXT] [--exports-of-all]
 
@@ -61,7 +61,7 @@ def compare(before, after, config, sets, work, exports):
     options = [word for each in sets for word in ("--set", each)]
     codes, folders = [], []
     for side, program in (("before", before), ("after", after)):
-        # A name that both share: a few exports write the name of their run.
+        # Both use one name, since a few exports write the name of their run.
         folder = work / side / "run"
         codes.append(run(program, "run", "-c", f"configs/{config}.toml", "-o", folder, *options))
         folders.append(folder)

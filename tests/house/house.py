@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """The rules of the house that a program can check.
 
-usage: house.py SOURCE format|names|sizes|types|kernels|project|licence
+usage: house.py SOURCE format|names|sizes|types|kernels|english|project|licence
 
-format  every source is what clang-format makes of it with .clang-format
-names   tests are called NAME_test.cpp, and stand in a folder that is named as what they test
+format  every source is formatted by clang-format with .clang-format
+names   tests are called NAME_test.cpp, in a folder with the name of the folder of host/ that they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
-types   no two types of one namespace have one name: their functions would be one to the linker, and which is chance
-kernels every kernel has a row in bench/kernel_costs.cpp, which says the least that it has to do; sorts have bench_sort
+types   no two types of one namespace have the same name: the linker would merge their functions and keep either
+kernels every kernel has a row in bench/kernel_costs.cpp, which gives its minimal work; sorts have bench_sort
+english no comment or docstring begins with a bare "Of", "What", "Who", "Whether" and the like: it has a subject and a verb
 project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
 licence every source file begins with the line of its licence, after an interpreter's line or a document type
 """
+import ast
 import json
 import pathlib
 import re
@@ -21,14 +23,14 @@ import sys
 SKIPPED = 77
 FOLDERS = ("bench", "host", "include", "kernels", "tests")
 SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
-# Folders of tests that are about more than one folder of host/.
+# These folders of tests are about more than one folder of host/.
 OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "kernels", "python", "reference", "robustness",
                 "validation"}
 MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
 
 
 SPDX = "SPDX-License-Identifier: Apache-2.0"
-# How a comment of one line is written, by the end of a file's name; other files carry no such line.
+# A comment of one line is written so, by the end of a file's name; other files carry no such line.
 COMMENTS = {"// {}": (".cpp", ".hpp", ".h", ".c", ".cl", ".clh", ".cu", ".js", ".hpp.in"), "/* {} */": (".css",), "<!-- {} -->": (".html",),
             "# {}": (".py", ".sh", ".cmake", ".cmake.in", ".pc.in", ".yml", "CMakeLists.txt", "pyproject.toml", "dev", ".ci/run")}
 # Inputs of the program and of tests.
@@ -46,7 +48,7 @@ def misformatted(root):
     program = shutil.which("clang-format-14") or shutil.which("clang-format")
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout if program else ""
     if "version 14." not in version:
-        print("clang-format 14 is not there: other versions format otherwise")
+        print("clang-format 14 is not installed: other versions format differently")
         sys.exit(SKIPPED)
     files = [str(path) for path in sources(root)]
     done = subprocess.run([program, "--dry-run", "--ferror-limit=1", *files], capture_output=True, text=True)
@@ -191,8 +193,60 @@ def unlicensed(root):
     return faults
 
 
+# Words that begin a relative clause or a genitive without a main clause.
+BARE = r"(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Which|Where|How|Likewise)\b"
+BARE_SENTENCE = r"(?<=[.?!] )(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Likewise)\b"
+ENGLISH_FOLDERS = (*FOLDERS, "cmake", "python")
+ENGLISH_FILES = ("CMakeLists.txt", "dev", ".ci/run")
+ENGLISH_SUFFIXES = SUFFIXES | {".py", ".cmake", ".sh", ".js", ".txt", ".map", ".supp"}
+# Folders whose comments are not rewritten yet; the list is to become empty.
+NOT_YET_ENGLISH = ("host/simulation/", "host/radio/", "host/passes/", "kernels/", "include/wavetracer/device/")
+
+
+def comments(lines, mark):
+    """(number of the first line, text) of every comment: lines of comments that follow each other are one."""
+    block, begin = [], 0
+    for number, line in enumerate([*lines, ""], 1):
+        alone = re.match(rf"\s*(?:{mark}+|/\*)\s?(.*)", line)
+        if alone and not (mark == "#" and line.startswith("#!")):
+            begin = begin if block else number
+            block.append(alone[1].strip())
+            continue
+        if block:
+            yield begin, " ".join(block)
+            block = []
+        behind = re.match(rf"[^\"']*\S\s+(?:{mark}|/\*) (.*)", line)
+        if behind:
+            yield number, behind[1][:1].upper() + behind[1][1:]
+
+
+def docstrings(text):
+    """(number of the first line, text) of every docstring of a Python source."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            yield node.body[0].lineno, " ".join(ast.get_docstring(node).split())
+
+
+def bare_comments(root):
+    paths = [path for folder in ENGLISH_FOLDERS for path in sorted((root / folder).rglob("*"))
+             if path.suffix in ENGLISH_SUFFIXES and path.is_file()]
+    faults = []
+    for path in [*paths, *(root / name for name in ENGLISH_FILES)]:
+        name = str(path.relative_to(root))
+        if name.startswith(NOT_YET_ENGLISH) or "/corpus/" in name:
+            continue
+        mark = "//" if path.suffix in SUFFIXES | {".js"} else "#"
+        text = path.read_text(errors="replace")
+        found = [*comments(text.splitlines(), mark), *(docstrings(text) if path.suffix == ".py" else [])]
+        for number, text in found:
+            bare = re.match(BARE, text) or re.search(BARE_SENTENCE, text)
+            if bare:
+                faults.append(f"{name}:{number}: the comment has a bare \"{bare[0]}\": say who does what: {text[:60]}")
+    return faults
+
+
 CHECKS = {"format": misformatted, "names": misnamed, "sizes": wrong_sizes, "types": types_twice,
-          "kernels": unmeasured, "project": project_faults, "licence": unlicensed}
+          "kernels": unmeasured, "english": bare_comments, "project": project_faults, "licence": unlicensed}
 
 
 def main():

@@ -174,7 +174,8 @@ def check_place(meshes, reference):
 
 
 def in_degrees(source, latitude_first):
-    """Of EPSG:4979, whose order is latitude first; there are files of either order. cjio rounds away their scale."""
+    """Writes the model in degrees of EPSG:4979, whose order is latitude first; there are files of either order. Not
+    done with cjio, which rounds away their scale."""
     city = json.loads(source.read_text())
     to_degrees = pyproj.Transformer.from_crs("EPSG:25832", "EPSG:4326", always_xy=True)
     scale, translate = (np.array(city["transform"][key]) for key in ("scale", "translate"))
@@ -229,7 +230,7 @@ def main():
         files.append(FOLDER / f"town_{code}.city.json")
         cj(second, "crs_reproject", code, "save", files[-1])
     files += [in_degrees(second, True), in_degrees(second, False)]
-    scale = 1.0  # of areas: the scene's projection is true to scale in its middle, UTM's is not
+    scale = 1.0  # factor of areas: the scene's projection is true to scale in its middle, UTM's is not
     x = pyproj.Proj("EPSG:25832").get_factors(*pyproj.Proj("EPSG:25832")(EAST, NORTH, inverse=True))
     scale /= x.areal_scale
     for file in files:

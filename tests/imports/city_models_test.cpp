@@ -1,4 +1,5 @@
-// What city models of both formats share: triangles of faces, coordinate systems, and what is said of broken files.
+// Properties that city models of both formats share: triangles of faces, coordinate systems, and messages about broken
+// files.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -78,8 +79,8 @@ TEST_CASE("coordinate systems: codes in all spellings, swapped axes, units, and 
   CHECK(imports::system_code("EPSG").empty());
   CHECK(imports::system_code("my own system").empty());
 
-  // The longitude and latitude of a place in Munich, whichever way it is written. Roofs that look up, or that would
-  // look down if the axes were not swapped.
+  // The longitude and latitude of a place in Munich, written in several ways. Roofs look up, or would look down if the
+  // axes were not swapped.
   struct Row {
     const char* system;
     double x, y, up;

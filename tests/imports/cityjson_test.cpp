@@ -50,7 +50,7 @@ TEST_CASE("a CityJSON house with a gable roof is closed, and has the volume, roo
     CHECK(one->summary.left_out.empty());
     CHECK(one->summary.warnings.size() == 1);  // no coordinate system
   }
-  CHECK(plain.scene.report.free_edges == 4);  // of the ground
+  CHECK(plain.scene.report.free_edges == 4);  // the edges of the ground
   CHECK(plain.scene.surfaces.size() == 8);
   CHECK(material(painted.scene, "building_1 house roof") == "brick");
   CHECK(material(painted.scene, "building_1 house") != "");

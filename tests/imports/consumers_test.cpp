@@ -1,5 +1,5 @@
-// The programs that users have: osmium turns .osm into .pbf, netconvert and polyconvert make SUMO's network and
-// polygons of the same map. All must give the same city. A program that is missing skips its case.
+// The programs of users: osmium turns .osm into .pbf, netconvert and polyconvert make SUMO's network and polygons of
+// the same map. All must give the same city. If a program is missing, its case is skipped.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST_CASE("osmium's PBF gives the same city as the XML that it was made of") {
   CHECK(a.scene.objects == b.scene.objects);
   CHECK(a.scene.vertices == b.scene.vertices);
   CHECK(a.scene.triangles == b.scene.triangles);
-  // A blob that is damaged is refused, or the city is still one.
+  // A damaged blob is refused, or the result is still a city.
   for (size_t i = 0; i < packed.size(); i += 7) {
     std::string damaged = packed;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x5A);

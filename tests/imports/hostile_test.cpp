@@ -1,4 +1,4 @@
-// Damaged files of every kind end in an InputError or in a scene, never in anything else.
+// Damaged files of every kind end in an InputError or in a scene, and in nothing else.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// True where an import was refused or went well.
+// Returns true if an import was refused or succeeded.
 bool survives(const std::string& text, const TemporaryFolder& folder) {
   ImportOptions options;
   options.output = folder.path() / "out";
@@ -25,14 +25,14 @@ bool survives(const std::string& text, const TemporaryFolder& folder) {
   return true;
 }
 
-// What the import of a map leaves out, of maps that it may refuse, in seconds of the processor.
+// Returns the summary of an import that may also refuse the map, within seconds of processor time.
 ImportSummary summary_of(const std::string& text) {
   const TemporaryFolder folder;
   ImportOptions options;
   options.output = folder.path() / "out";
   const std::clock_t start = std::clock();
   const ImportSummary summary = import_city(text, "map", options);
-  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 20);  // before there were limits: minutes to days
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 20);  // without limits this took minutes to days
   return summary;
 }
 

@@ -1,4 +1,4 @@
-// Degrees of nodes come from a spherical formula that knows nothing of PROJ: right to 1e-5 over a hundred metres.
+// Degrees of nodes come from a spherical formula that is independent of PROJ: exact to 1e-5 over a hundred metres.
 #include "imported.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace wavetracer::test {
 namespace {
 
-// The middle of the maps. Radii of curvature of WGS84 there, so that metres are metres.
+// The middle of the maps, with the radii of curvature of WGS84 there, so that metres are true.
 constexpr double latitude = 48.137, longitude = 11.575, degree = 0.017453292519943295;
 constexpr double a = 6378137, e2 = 0.00669437999014;
 const double sine = std::sin(latitude * degree), w = std::sqrt(1 - e2 * sine * sine);

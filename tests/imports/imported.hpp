@@ -1,4 +1,4 @@
-// Small maps written for the tests, imported into a temporary folder and loaded as any scene is.
+// Small maps written for the tests, imported into a temporary folder and loaded like any scene.
 // Maps are in metres about MAP_ORIGIN; nodes of OSM are rounded to 1e-7 degrees, which is 11 mm.
 #pragma once
 #include <filesystem>
@@ -36,8 +36,8 @@ struct Imported {
 };
 Imported import_text(const std::string& text, const TemporaryFolder& folder, ImportOptions options = {});
 
-// Of all triangles whose object's name starts with `object`: the volume that they enclose (outward normals: positive),
-// the area of those that look up, and the greatest and least height.
+// Return, for all triangles whose object's name starts with `object`: the volume that they enclose (outward normals:
+// positive), the area of those that look up, and the greatest and least height.
 double volume_m3(const Scene& scene, const std::string& object);
 double roof_area_m2(const Scene& scene, const std::string& object);
 double top_m(const Scene& scene, const std::string& object);

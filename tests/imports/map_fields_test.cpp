@@ -1,4 +1,4 @@
-// Fields of vector maps by their names, and what they mean.
+// Fields of vector maps by their names, and their meaning.
 #include "map_files.hpp"
 
 using namespace wavetracer;
@@ -22,10 +22,9 @@ TEST_CASE("a field is the one that is called exactly so; one that differs by cas
   CHECK(height(both, "") == 12);
   CHECK(height(R"("Height": 30)", "height") == 30);
   CHECK(height(R"("Levels": 3, "levels": 5)", "", "levels") == 15);
-  check_contains(
-      refusal(house(R"("Height": 30, "HEIGHT": 7)"), fields("height", "")),
-      "several fields are called 'height', or differ from that by case alone; fields are Height, HEIGHT; name "
-      "one of them");
+  check_contains(refusal(house(R"("Height": 30, "HEIGHT": 7)"), fields("height", "")),
+                 "several fields are called 'height', or differ from that by case alone; fields are Height, HEIGHT; "
+                 "name one of them");
   const Imported first = import_file(house(R"("Height": 30, "HEIGHT": 7)"), {});
   CHECK(top_m(first.scene, "feature_") == 30);
   check_contains(first.summary.warnings.at(0), "the first of them is used");

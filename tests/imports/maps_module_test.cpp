@@ -1,4 +1,4 @@
-// The program where the module for maps is not there, is another one, or must not be opened: in a wheel.
+// The program without the maps module, with another version of it, or in a wheel, where it must not be opened.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -16,7 +16,8 @@ TEST_CASE("without the module the message says what to do, the exit code is 1, a
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.geojson", R"({"type":"FeatureCollection","features":[]})");
   const std::string program = wavetracer::test::program(), log = (folder.path() / "log").string();
-  // Returns what the program says, with what the loader opens (LD_DEBUG=files); variables: of its environment.
+  // Returns the program's messages, with the files that the loader opens (LD_DEBUG=files); variables: for its
+  // environment.
   const auto said = [&](const std::string& variables) {
     const int status = std::system(fmt::format("{} LD_DEBUG=files '{}' convert '{}' -o '{}' > '{}' 2>&1", variables,
                                                program, file.string(), (folder.path() / "out").string(), log)

@@ -1,5 +1,5 @@
-// Maps and terrain by GDAL: files that ogr2ogr and gdal_translate wrote, against what was put into them. Without the
-// module or the programs (Debian: gdal-bin) the cases say so and are skipped.
+// Maps and terrain by GDAL: files that ogr2ogr and gdal_translate wrote, compared with the data that were put into
+// them. Without the module or the programs (Debian: gdal-bin) the cases say so and are skipped.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -114,7 +114,7 @@ TEST_CASE("fields, layers and coordinate systems: what is missing is said with w
   check_contains(guessed.summary.warnings[0], "--height (metres) or --levels (storeys): h_m, floors, name");
   CHECK(guessed.summary.guessed.at("neither height nor levels given: default height used") == 4);
   check_contains(refusal(folder.write("no.map", "nothing"), none), "no.map: cannot be read as a map:");
-  // A drawing in metres of nowhere, and degrees that nobody calls so.
+  // One is a drawing in metres without a place, the other has degrees that are not declared.
   const auto csv = [&](const char* name, const char* wkt) {
     const fs::path file = folder.write(name, fmt::format("WKT,h_m\n\"{}\",8\n", wkt));
     const fs::path packed = file.string() + ".gpkg";
@@ -140,7 +140,7 @@ double hills_m(double x, double y) {
 // A raster of hills about the middle in UTM, written as text and made a GeoTIFF by gdal_translate.
 struct HillRaster {
   fs::path file;
-  glm::dvec2 corner;  // of the first pixel, lower left
+  glm::dvec2 corner;  // corner of the first pixel, lower left
   Projection utm{{"+proj=utm +zone=32 +ellps=WGS84 +units=m", {0, 0}, {}, {}}};
 
   explicit HillRaster(const TemporaryFolder& folder) {
@@ -157,7 +157,7 @@ struct HillRaster {
     REQUIRE(
         run(fmt::format("{} -a_srs EPSG:32632 '{}' '{}'", WAVETRACER_GDAL_TRANSLATE, ascii.string(), file.string())));
   }
-  // Of a post, from the corner.
+  // Returns the coordinate of a post, from the corner.
   static double at(double index) { return (index + 0.5) * cell_m; }
 };
 
@@ -194,7 +194,7 @@ TEST_CASE("a GeoTIFF of hills: the ground misses no post by more than its error,
     }
   CHECK(inside > 200000);
   CHECK(worst_post_m <= 0.3 + 0.01);  // and vertices on the grid of 1/1024 m, on slopes
-  CHECK(worst_between_m <= 0.5);      // between posts, where the raster says nothing
+  CHECK(worst_between_m <= 0.5);      // between posts, where the raster has no value
   // The house of 12.5 m: its floor is 1 m below the lowest ground along its outline.
   double lowest_m = 1e9;
   const Projection there(middle);

@@ -1,4 +1,5 @@
-// Outlines and their parts: parts that fill an outline replace it, parts that hardly do stand on it. Heights by tags.
+// Outlines and their parts: parts that fill an outline replace it, parts that hardly fill it stand on it. Heights come
+// from tags.
 #include <doctest/doctest.h>
 
 #include <cmath>

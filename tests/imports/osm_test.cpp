@@ -1,4 +1,4 @@
-// OpenStreetMap texts against areas, volumes and heights that one can write down. Nodes are rounded to 11 mm.
+// OpenStreetMap texts compared with areas, volumes and heights that are known. Nodes are rounded to 11 mm.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Of a shape with this border: every corner may be off by half of 11 mm.
+// Returns the area error of a shape with this border: every corner may be off by half of 11 mm.
 double area_error(double perimeter_m) { return perimeter_m * 0.0085; }
 
 }  // namespace
@@ -172,7 +172,7 @@ TEST_CASE("the ground reaches below the network of --net and the traffic, with a
   options.traffic.add({-2000, 0});
   options.traffic.add({0, 1500});
   CHECK(ground_of(options) == std::array{-2010.0, -30.0, 310.0, 1510.0});
-  // A network without edges, as SUMO writes it; none; and what cannot be.
+  // The network has no edges, as SUMO writes it; none; or an impossible extent.
   options = {};
   for (const char* nothing : {"10000000000.00,10000000000.00,-10000000000.00,-10000000000.00", ""}) {
     options.net = net(nothing);
@@ -263,7 +263,8 @@ TEST_CASE("trees, rows and woods are volumes of leaves where they are asked for,
   CHECK(summary.guessed.at("wood without a height: 15 m used") == 1);
   REQUIRE(scene.volumes.size() == 6);
   CHECK(scene.triangles.size() == without.scene.triangles.size());
-  std::map<std::string, std::pair<size_t, double>> found;  // of each material: volumes, and their cubic metres
+  // For each material the number of volumes, and their cubic metres.
+  std::map<std::string, std::pair<size_t, double>> found;
   double top = 0;
   for (const Volume& volume : scene.volumes) {
     double six = 0;

@@ -1,4 +1,4 @@
-// Objects that are there no more: deleted in an editor, or in the last of several versions that a file holds.
+// Objects that no longer exist: deleted in an editor, or in the last of several versions that a file contains.
 #include <doctest/doctest.h>
 
 #include <fstream>

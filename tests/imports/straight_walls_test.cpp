@@ -1,4 +1,4 @@
-// Corners that rounding has put beside a wall go onto it; what bends by more than rounding stays.
+// Corners that rounding has put beside a wall are moved onto it; walls that bend by more than rounding stay.
 #include "imports/straight_walls.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // configs/sumo in its two commands: SUMO's vehicles stay in the streets, the houses are those of the polygons, and
-// paths are found. The folder is copied first, since SUMO writes beside its configuration. Skipped without sumo or a
-// device.
+// paths are found. The folder is copied first, since SUMO writes beside its configuration. The test is skipped without
+// sumo or a device.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,8 +25,8 @@ using namespace wavetracer;
 const fs::path source = fs::path(test::source_folder()) / "configs/sumo";
 
 // Distance from the nearest street axis: they are 120 m apart, and end at 0 and 240. Lanes are 3.2 m wide, houses stand
-// 12 m from the axis. A crossing is a square of 14.4 m, in which those who turn, and the middle of a bus before all,
-// cut the corner.
+// 12 m from the axis. A crossing is a square of 14.4 m, in which turning vehicles, above all the middle of a bus, cut
+// the corner.
 double from_axis(double x) { return std::abs(x - 120 * std::clamp(std::round(x / 120), 0.0, 2.0)); }
 
 }  // namespace
@@ -61,7 +61,7 @@ TEST_CASE("SUMO to channels in two commands") {
   const fs::path town = fs::path(folder.path("configs")) / "sumo";
   fs::create_directories(town.parent_path());
   fs::copy(source, town, fs::copy_options::recursive);
-  fs::remove(town / "town.fcd.xml");  // of someone who tried it
+  fs::remove(town / "town.fcd.xml");  // left by somebody who tried it
   REQUIRE(std::system((sumo + " -c '" + (town / "town.sumocfg").string() + "' > /dev/null 2>&1").c_str()) == 0);
 
   const Trajectories drive = read_trajectories(town / "town.fcd.xml", {});

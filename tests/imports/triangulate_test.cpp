@@ -26,8 +26,8 @@ std::vector<Point> corners(const Polygon& polygon) {
   return out;
 }
 
-// No triangle flat or turned, as many as Euler's formula asks for, areas add up exactly: then they cannot overlap,
-// since all lie inside: no edge of theirs crosses an edge of the polygon.
+// No triangle may be flat or turned, their number must be that of Euler's formula, and areas must add up exactly. Then
+// they cannot overlap, since all lie inside: no edge of theirs crosses an edge of the polygon.
 void check_triangles(Polygon polygon) {
   orient(polygon);
   REQUIRE(fault(polygon) == "");
@@ -61,7 +61,7 @@ void check_triangles(Polygon polygon) {
     CHECK(count == 1);
     inner += edges.count({edge.second, edge.first});
   }
-  CHECK(edges.size() == border + inner);     // what is no border has its opposite
+  CHECK(edges.size() == border + inner);     // every inner edge has its opposite
   for (const auto& [edge, count] : edges) {  // diagonals stay inside
     for (size_t i = 0; i <= polygon.holes.size(); ++i) {
       const Ring& r = i == 0 ? polygon.outer : polygon.holes[i - 1];
@@ -131,7 +131,8 @@ TEST_CASE("a spiral and a comb of 4900 corners, which have few ears at a time, t
     REQUIRE(fault(polygon) == "");
     const std::clock_t start = std::clock();
     const std::vector<Triangle> triangles = triangulate(polygon);
-    CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 3);  // 20 s when every ear was looked for anew
+    // It took 20 s when every ear was searched again.
+    CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 3);
     CHECK(triangles.size() == polygon.outer.size() - 2);
     int64_t sum = 0;
     for (const Triangle& t : triangles) sum += turn(polygon.outer[t[0]], polygon.outer[t[1]], polygon.outer[t[2]]);

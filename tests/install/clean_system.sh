@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian package in a minimal Debian 12 of its own, and uses it there as a user would.
-# Usage, as root: clean_system.sh PACKAGE.deb FOLDER MIRROR. FOLDER is made by debootstrap where it is missing, and kept;
+# Installs the Debian package in a separate minimal Debian 12, and uses it there as a user would.
+# Usage, as root: clean_system.sh PACKAGE.deb FOLDER MIRROR. debootstrap makes FOLDER if it is missing, and it is kept;
 # MIRROR is the address of a Debian archive. Needs debootstrap and some 700 MB.
 set -euo pipefail
 [ $# = 3 ] || { sed -n '3,4s/^# //p' "$0" >&2; exit 2; }

@@ -1,7 +1,7 @@
-# Installs, builds the examples of docs/examples against what was installed, runs them, and looks at what they say.
-# Expects BUILD, SOURCE, WORK and VERSION; stops at the first step that fails.
+# Installs, builds the examples of docs/examples against the installed files, runs them, and checks their output. It
+# expects BUILD, SOURCE, WORK and VERSION; it stops at the first step that fails.
 
-# step(COMMAND...): its output is left in `said`.
+# step(COMMAND...): runs a command and leaves its output in `said`.
 function(step)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -19,7 +19,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-# As a user would move it: nothing may remember where it was built or installed first.
+# The folder is moved as a user would move it: nothing may remember where it was built or installed first.
 file(RENAME ${prefix} ${WORK}/moved)
 set(prefix ${WORK}/moved)
 step(${prefix}/bin/wavetracer --version)
@@ -50,13 +50,13 @@ step(cc -std=c99 -Wall -Wextra -Werror -pedantic ${SOURCE}/docs/examples/pkg_con
 set(ENV{LD_LIBRARY_PATH} ${library_folder})
 step(${WORK}/c_example ${SOURCE}/configs/city.toml trace.rays=20000)
 expect("frame 0: [1-9][0-9]* paths\n.* ns .* dB")
-# Files that a configuration names are looked for beside it, wherever the program was started.
+# Files that a configuration names are searched beside it, wherever the program was started.
 file(WRITE ${WORK}/beside/room.toml "[scene]\nfile = \"room/room.xml\"\n[trace]\nrays = 1000\n"
   "[[transmitter]]\nname = \"t\"\nposition_m = [1, 1, 1]\n[[receiver]]\nname = \"r\"\nposition_m = [2, 1, 1]\n")
 file(COPY ${prefix}/share/wavetracer/configs/scenes/room DESTINATION ${WORK}/beside)
 step(${WORK}/c_example ${WORK}/beside/room.toml)
 expect("frame 0: [1-9][0-9]* paths")
-# All configurations are there, with the files that they name.
+# All configurations are installed, with the files that they name.
 step(${prefix}/bin/wavetracer validate -c ${prefix}/share/wavetracer/configs/demo.toml)
 foreach(file sumo/scene/city.xml sumo/town.sumocfg sumo/live.toml scenes/room/room.xml live.toml coverage.toml)
   if(NOT EXISTS ${prefix}/share/wavetracer/configs/${file})
@@ -64,7 +64,7 @@ foreach(file sumo/scene/city.xml sumo/town.sumocfg sumo/live.toml scenes/room/ro
   endif()
 endforeach()
 
-# Python, from where the package and the library were installed, and nowhere else.
+# Python uses the installed package and library, and no others.
 if(PYTHON)
   set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
   set(ENV{PYTHONDONTWRITEBYTECODE} 1)
@@ -82,7 +82,7 @@ else:
   expect("^(skipped|${VERSION} .*: [1-9][0-9,]* paths of .* True)")
 endif()
 
-# What the library shows: functions of wavetracer, of C and C++, and nothing of what it is made of.
+# The library exports functions of wavetracer, of C and C++, and none of the libraries that it is made of.
 file(GLOB library ${library_folder}/libwavetracer.so)
 step(nm --dynamic --defined-only --demangle --format=posix ${library})
 string(REGEX REPLACE "(wavetracer_|wavetracer::|(typeinfo|typeinfo name|vtable) for wavetracer::)[^\n]*\n" "" others "${said}")

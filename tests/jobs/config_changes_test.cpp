@@ -1,4 +1,4 @@
-// Which keys of two configurations differ, in words.
+// Names the keys in which two configurations differ.
 #include "jobs/config_changes.hpp"
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@ using Words = std::vector<std::string>;
 
 TEST_CASE("keys that differ are named with both values, others are not") {
   const std::string was =
-      "# a comment = 1\n[trace]\nrays = 1000\nseed = 1\n\n[[transmitter]]\nname = \"a\"\n[[transmitter]]\nname = "
-      "\"b\"\n";
+      "# a comment = 1\n[trace]\nrays = 1000\nseed = 1\n\n[[transmitter]]\nname = \"a\"\n[[transmitter]]\n"
+      "name = \"b\"\n";
   CHECK(config_changes(was, was).empty());
   CHECK(config_changes(was,
                        "[trace]\nrays = 2000\nreuse = false\n[[transmitter]]\nname = \"a\"\n[[transmitter]]\n"

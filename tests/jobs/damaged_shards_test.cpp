@@ -1,5 +1,5 @@
 // Bytes of shards that changed since they were written are noticed before anything is merged.
-// Frames are made up; the bytes are changed by hand.
+// Frames are invented; the bytes are changed by hand.
 #include <doctest/doctest.h>
 #include <filesystem>
 #include "base/hash.hpp"
@@ -73,7 +73,7 @@ TEST_CASE("any byte of any file of a shard that changed is noticed by merge and 
       CHECK(found.missing[0] == Unit{10, 19, 0, 1});
       std::ofstream(file, std::ios::binary) << bytes;
     }
-    // A run that goes on computes it again.
+    // A run that continues computes it again.
     change_byte(file, bytes.size() / 2);
     Shards again(run, drive_identity);
     CHECK(again.resume() == 2);

@@ -23,7 +23,7 @@ TEST_CASE("responses, beams and carriers of a drive merge into the files of a ru
   Shards shards(folder.path() / "drive", test::identity);
   for (const auto& [first, count] : test::cuts) shards.write(sample.run(), frames(first, count));
   const auto drive = shards.merge(sample.run(), {});
-  // As `wavetracer merge` does, from what is in the folder alone.
+  // Merges as `wavetracer merge` does, from the folder alone.
   const auto merged = merge_found(find_parts({folder.path() / "drive"}), folder.path() / "merged", "");
   REQUIRE(whole.size() == 6);
   REQUIRE(drive.size() == 6);

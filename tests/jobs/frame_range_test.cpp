@@ -1,5 +1,5 @@
-// --frames: every form, and every mistake with what to do about it.
-// Needs neither the program nor a device.
+// --frames: every form, and every mistake with its advice.
+// Neither the program nor a device is needed.
 #include "jobs/frame_range.hpp"
 #include <doctest/doctest.h>
 #include <utility>

@@ -1,4 +1,5 @@
-// What an interrupt says of files, in a process of its own: before and after they have got their final names.
+// Checks the messages of an interrupt about files, in a separate process: before and after they have got their final
+// names.
 #include "jobs/interrupt.hpp"
 
 #include <doctest/doctest.h>
@@ -20,9 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns what a process that does this, and waits to be ended, says on stderr.
+// Returns what a process that does this, and waits to be ended, prints on stderr.
 std::string last_words(const std::function<void()>& begin_and_wait, const fs::path& messages) {
-  std::cout.flush();  // or both processes write what waits there
+  std::cout.flush();  // otherwise both processes would write the buffered text
   const pid_t process = fork();
   if (process == 0) {
     const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -40,7 +41,7 @@ std::string last_words(const std::function<void()>& begin_and_wait, const fs::pa
   while (true) pause();
 }
 
-// The same of one that writes to `output` and is told to end before or after it has given the file its name.
+// Does the same for one that writes to `output` and is told to end before or after it has given the file its name.
 std::string interrupted_words(const fs::path& output, bool named, const fs::path& messages) {
   return last_words(
       [&] {
@@ -75,5 +76,5 @@ TEST_CASE("a signal that any thread handles is seen by the thread that waits for
         wait_for_the_end();
       },
       folder.path() / "messages");
-  CHECK(words == "wavetracer: ended\n");  // and nothing that the thread sanitizer has to say
+  CHECK(words == "wavetracer: ended\n");  // and the thread sanitizer reports nothing
 }

@@ -54,7 +54,7 @@ TEST_CASE("links are counted, and each pair is there once, by its mean power") {
 }
 
 TEST_CASE("a file of many blocks has the statistics of its rows, with line ends in names") {
-  // Lines of 40 to 44 bytes: three blocks of 4 MiB and a bit. Every third row is of a name with quotes and a line end.
+  // Lines have 40 to 44 bytes: three blocks of 4 MiB and a bit. Every third row has a name with quotes and a line end.
   std::string text = header;
   constexpr uint64_t rows = 330'000;
   for (uint64_t i = 0; i < rows; ++i)

@@ -52,7 +52,7 @@ TEST_CASE("a merge that follows shards as they finish writes what one at the end
   const SampleRun sample = with_waypoints();
   const std::vector<std::string> expected = without(sample);
   REQUIRE(cut_units.count() == 5);
-  // Up to how many units it looks, so that the last parts are of the merge.
+  // It looks at this many units, so that the merge itself handles the last parts.
   for (const uint64_t looked : {0, 2, 5}) {
     CAPTURE(looked);
     const TemporaryFolder folder;
@@ -84,7 +84,7 @@ TEST_CASE(
   const auto files_of = [&](uint64_t index) {
     return folder.path() / "shards" / (unit_name(cut_units.at(index)) + ".h5");
   };
-  const auto known = [&] {  // of() ends it, so each question has an object of its own
+  const auto known = [&] {  // each call of of() ends it, so each question has an object of its own
     MergeAhead asked(sample.config, cut_units, folder.path());
     asked.look();
     std::vector<fs::path> parts;

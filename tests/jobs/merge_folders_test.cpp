@@ -67,7 +67,7 @@ TEST_CASE("parts in one folder or in many make the files of a run that was writt
   merge_found(find_parts({folder.path() / "a"}), folder.path() / "a", "");
   check_same(folder.path() / "a", folder.path() / "whole");
   CHECK(fs::exists(folder.path() / "a/shards/manifest.1_of_2.jsonl"));
-  // What is there twice and agrees counts once.
+  // Units that are there twice and agree count once.
   merge_found(find_parts({folder.path() / "b", folder.path() / "a"}), folder.path() / "twice", "");
   check_same(folder.path() / "twice", folder.path() / "whole");
 }
@@ -127,8 +127,8 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
   CHECK_THROWS_AS(find_parts({a}), RuntimeError);
   std::ofstream(manifest) << text;
 
-  // The right length, other bytes: a file of zeros, then one of another run. The hash of the manifest tells; what
-  // follows is what a part is refused for whose manifest was made for it.
+  // A part has the right length but other bytes: a file of zeros, then one of another run. The hash of the manifest
+  // shows it; then the manifest is adapted, and the part is refused for other reasons.
   const fs::path part = shards / "frames_000010_000019.h5";
   const std::string bytes = slurp(part);
   std::ofstream(part, std::ios::binary) << std::string(bytes.size(), '\0');
@@ -144,7 +144,7 @@ TEST_CASE("a hostile part is an error that names it, and nothing is written") {
   CHECK_THROWS_WITH_AS(merge_found(find_parts({a}), folder.path() / "out", ""), doctest::Contains(first.c_str()),
                        InputError);
   std::ofstream(first, std::ios::binary) << first_bytes;
-  // A part on which the library may fault (1.10.8 does): the second one, which the error must name.
+  // A part on which the library may crash (1.10.8 does): the second one, which the error must name.
   const std::string fault = slurp(fs::path(test::source_folder()) / "tests/fuzz/corpus/merge/fault_in_attribute.h5");
   std::ofstream(part, std::ios::binary) << fault;
   note_as_written(manifest);

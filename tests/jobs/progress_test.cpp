@@ -1,4 +1,4 @@
-// Elapsed time, rate and time left, against what a clock and a division say.
+// Elapsed time, rate and time left, compared with a clock and a division.
 #include "jobs/progress.hpp"
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -15,7 +15,7 @@ using wavetracer::progress_words;
 
 namespace {
 
-// What `action` writes to stderr while that is a terminal.
+// Returns what `action` writes to stderr while that is a terminal.
 template <class Action>
 std::string on_terminal(const Action& action) {
   int master = -1, slave = -1;

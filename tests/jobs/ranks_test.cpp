@@ -1,4 +1,4 @@
-// Ranks as launchers announce them, and --shard.
+// Ranks from the variables of launchers, and --shard.
 // Variables are those of Open MPI 4, MPICH's Hydra and Slurm 22.
 #include "jobs/ranks.hpp"
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ Ranks ranks(const std::map<std::string, std::string>& variables) {
 TEST_CASE("without a launcher, or with one rank, there is one process") {
   CHECK(ranks({}).size == 1);
   CHECK(ranks({{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "1"}}).size == 1);
-  // A batch script, which is no step.
+  // A batch script is no step.
   CHECK(ranks({{"SLURM_PROCID", "0"}, {"SLURM_NTASKS", "8"}, {"SLURM_STEP_NUM_TASKS", "8"}}).size == 1);
   CHECK(ranks({{"SLURM_PROCID", "0"}, {"SLURM_STEP_NUM_TASKS", "8"}, {"SLURM_STEP_ID", "4294967291"}}).size == 1);
 }

@@ -1,4 +1,5 @@
-// Shards go once the outputs were proved to hold them, and not before; a later run knows that all is there.
+// Shards are removed once the outputs were proved to contain them, and not before; a later run knows that the run is
+// complete.
 #include <doctest/doctest.h>
 #include <fstream>
 #include "jobs/earlier_run.hpp"
@@ -109,7 +110,7 @@ TEST_CASE("a record whose outputs are gone, cut short or replaced makes no run c
       complete_after([](const auto& files, const auto&) { test::change_byte(files[0], fs::file_size(files[0]) / 2); }));
   CHECK_FALSE(
       complete_after([](const auto&, const auto& folder) { std::ofstream(merged_record(folder)) << "{\"first\":3"; }));
-  CHECK_FALSE(complete_after([&](const auto&, const auto& folder) {  // outputs of another run, be they equally long
+  CHECK_FALSE(complete_after([&](const auto&, const auto& folder) {  // outputs of another run, even with equal lengths
     write_outputs(folder, sample.run(), sample.drive(3, 22));
   }));
   CHECK_FALSE(complete_after(
@@ -121,7 +122,7 @@ TEST_CASE("shards whose rows are not in the manifest's number are kept") {
   const SampleRun sample;
   Shards shards(folder.path(), identity);
   shards.write(asked(sample), sample.drive(3, 22));
-  // The file of another cut in the place of this one, in equal length for the manifest.
+  // The file of another cut replaces this one, with the same length for the manifest.
   const TemporaryFolder other;
   const auto fewer = write_outputs(other.path(), sample.run(), sample.drive(3, 21));
   const fs::path part = folder.path() / "shards" / "frames_000003_000024.h5";

@@ -1,4 +1,4 @@
-// What the tests of shards share: the run that they are of, its cuts, and the names of what is in a folder.
+// Helpers of the tests of shards: the run that they belong to, its cuts, and the names of the files in a folder.
 #pragma once
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +20,7 @@ inline SampleRun with_waypoints() {
   return sample;
 }
 
-// The manifest says of all files that they are as they were written: damage that no hash tells of.
+// Rewrites the manifest so that all files match it: the damage cannot be found by hash.
 inline void note_as_written(const std::filesystem::path& manifest) {
   std::string text;
   for (Shard shard : read_manifest(manifest)) {
@@ -34,7 +34,7 @@ inline void note_as_written(const std::filesystem::path& manifest) {
   std::ofstream(manifest, std::ios::binary) << text;
 }
 
-// In order.
+// Returns the names in order.
 inline std::vector<std::string> names(const std::filesystem::path& folder) {
   std::vector<std::string> out;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back(entry.path().filename());

@@ -1,5 +1,5 @@
-// A drive that is written in shards reads as one that is written whole, whatever happened between its shards.
-// Frames are made up; the program's own drives are tested in tests/app.
+// A drive that is written in shards reads as one that is written at once, whatever happened between its shards. Frames
+// are invented; the program's own drives are tested in tests/app.
 #include "jobs/shards.hpp"
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -131,7 +131,7 @@ TEST_CASE("a drive that is resumed ends as one that was not interrupted, from ev
   const SampleRun sample = with_waypoints();
   const auto expected = write_drive(folder.path() / "expected", sample);
   const fs::path drive = folder.path() / "drive", manifest = drive / "shards" / "manifest.jsonl";
-  // What a run that was killed leaves: the shards before it, and one of these.
+  // A killed run leaves the shards before the current one, and one of these states.
   const std::vector<std::function<void()>> states = {
       [] {},
       [&] { std::ofstream(drive / "shards" / "frames_000010_000019.h5.77.tmp") << "half"; },
@@ -287,7 +287,7 @@ TEST_CASE("a disk that fills up while shards are written or merged leaves whole 
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   int failed_writes = 0, failed_merges = 0;
   const fs::path drive = folder.path() / "drive";
-  // A shard wants some 340 kB with the room that is reserved, all of them merged some 350 kB.
+  // A shard needs some 340 kB with the reserved space, all of them merged some 350 kB.
   for (rlim_t limit = 0;; limit = limit < 330000 ? limit + 30000 : limit + 1500) {
     CAPTURE(limit);
     fs::remove_all(drive);

@@ -1,5 +1,5 @@
-// How a run is cut, and who computes which part: units, process files, claims.
-// Processes are this one, a child of it that has ended, and made-up ones of another machine.
+// The cut of a run, and the assignment of its parts: units, process files, claims.
+// Processes are this one, a child of it that has ended, and invented ones of another machine.
 #include "jobs/units.hpp"
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 
 namespace {
 
-// What a process that has ended leaves.
+// Returns the file content of a process that has ended.
 ProcessInfo dead_process(const std::string& job) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
@@ -122,7 +122,7 @@ TEST_CASE("a folder in use by another job is refused, and free again when its pr
   leave_file(folder, dead_process("job"));
   check_not_in_use(folder.path(), this_process("other", 0));
   leave_file(folder, dead_process(""));
-  { const Presence next(folder.path(), this_process("", 0)); }  // which takes away what dead ones have left
+  { const Presence next(folder.path(), this_process("", 0)); }  // it removes the files of dead processes
   CHECK(fs::is_empty(folder.path()));
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("a task is taken by one process; one that died is followed by one othe
   b.look();
   CHECK(a.take("x"));
   CHECK_FALSE(a.take("x"));
-  CHECK_FALSE(b.take("x"));  // though it has not looked since
+  CHECK_FALSE(b.take("x"));  // although it has not looked since
   b.look();
   CHECK(b.state("x") == ClaimState::taken);
   CHECK(b.state("y") == ClaimState::free);
@@ -178,7 +178,7 @@ TEST_CASE("a task is taken by one process; one that died is followed by one othe
   CHECK(a.state("z") == ClaimState::free);
   Claims again(folder.path(), dead);
   again.look();
-  CHECK(again.take("z"));  // the second to die over it
+  CHECK(again.take("z"));  // the second process to die over it
   a.look();
   CHECK(a.state("z") == ClaimState::failed);
   CHECK_FALSE(a.take("z"));

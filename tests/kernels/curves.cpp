@@ -63,9 +63,8 @@ uint32_t Curve::checked(uint32_t level, size_t words, uint32_t stride, uint32_t 
     throw std::invalid_argument(fmt::format("curves: {} points in planes of {} words", count, stride));
   if (words < size_t{stride} * (dimensions_ - 1) + count || codes < count)
     throw std::invalid_argument(
-        fmt::format("curves: {} points in {} planes of {} words, but the buffers hold {} words "
-                    "and {} codes",
-                    count, dimensions_, stride, words, codes));
+        fmt::format("curves: {} points in {} planes of {} words, but the buffers hold {} words and {} codes", count,
+                    dimensions_, stride, words, codes));
   return level == 0 ? bits_ : level;
 }
 

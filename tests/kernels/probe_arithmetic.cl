@@ -1,4 +1,4 @@
-// The arithmetic that a device can do: chains of fused multiplies and adds, 8 of which are independent of each other,
+// Measures the arithmetic of a device: chains of fused multiplies and adds, 8 of which are independent of each other,
 // and nothing that memory could slow down. WT_SCALAR is float or double, WT_LANES 1 or the lanes of a vector of OpenCL.
 // Assumes a global size that is a multiple of the local one.
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable

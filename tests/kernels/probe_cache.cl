@@ -1,7 +1,6 @@
 // Kernels that only tests and benchmarks run: the ray cache's table under operations whose outcome a host can check.
-// Keys are numbers. What a key is, and what is stored under it, are functions of its number and of the frame of
-// writing, so that an answer that is torn, of another key or of another frame gives itself away. Global sizes may
-// exceed what there is to do.
+// Keys are numbers. A key, and the value stored under it, are functions of its number and of the frame of writing, so
+// that an answer that is torn, of another key or of another frame is detected. Global sizes may exceed the work.
 #include "probe_question.clh"
 
 inline wt_cache probe_cache(global wt_cache_entry* entries, global uint* heads, global uint* used,
@@ -15,8 +14,8 @@ inline ulong probe_cells(uint number) { return probe_mix(number) >> 1; }
 #define PROBE_FRAMES 4u
 
 // Four keys in a row share their primitive. Exact ones share their cells as well, and only their rays tell them apart.
-// Rays of quantised ones are other ones in each frame, at least 1 apart: by precision an entry of one frame does not
-// stand in another, and is written over again and again.
+// Quantised keys have other rays in each frame, at least 1 apart: with the purge by precision, an entry of one frame is
+// not valid in another, and is overwritten again and again.
 inline wt_cache_question probe_key(uint key, uint now, uint regions, wt_cache_widths widths) {
 #ifdef WT_CACHE_EXACT
   const uint ray = key, number = key >> 2;
@@ -39,7 +38,7 @@ inline wt_cache_entry probe_entry(wt_cache_question q, uint key) {
   return e;
 }
 
-// Is the answer all of what was once stored under this key?
+// Tells whether the answer is exactly a value that was once stored under this key.
 inline bool probe_whole(const wt_cache_entry* e, uint key, uint regions, wt_cache_widths widths) {
   const wt_cache_question q = probe_key(key, e->time, regions, widths);
   const wt_cache_entry is = probe_entry(q, key);
@@ -49,10 +48,10 @@ inline bool probe_whole(const wt_cache_entry* e, uint key, uint regions, wt_cach
          e->direction[1] == is.direction[1] && e->direction[2] == is.direction[2];
 }
 
-// Operation i, a put in one of four: of keys below `universe`, of which the first 64 get an eighth of all operations;
-// in random frames. slots[key] becomes the slot that a put of the key returned.
+// Does operation i; one in four is a put. Keys are below `universe`; the first 64 of them get an eighth of all
+// operations; frames are random. slots[key] becomes the slot that a put of the key returned.
 // outcome: puts, finds, hits, hits that are wrong.
-#define PROBE_RUN 16u  // operations a work-item
+#define PROBE_RUN 16u  // operations per work-item
 kernel void mixed_operations(global wt_cache_entry* entries, global uint* heads, global uint* used,
                              const global wt_cache_region* regions, global wt_cache_counters* counters,
                              uint region_count, wt_cache_widths widths, ulong operations, uint universe,
@@ -86,7 +85,7 @@ kernel void mixed_operations(global wt_cache_entry* entries, global uint* heads,
   wt_fetch_add_u32(outcome + 3, wrong);
 }
 
-// Of every key below `universe`: where it is found, whatever its frame, or WT_NONE; WT_NONE - 1: its answer is wrong.
+// Finds every key below `universe`: its slot in any frame, or WT_NONE, or WT_NONE - 1 if its answer is wrong.
 kernel void find_keys(global wt_cache_entry* entries, global uint* heads, global uint* used,
                       const global wt_cache_region* regions, global wt_cache_counters* counters, uint region_count,
                       wt_cache_widths widths, uint universe, global uint* slots) {
@@ -101,7 +100,7 @@ kernel void find_keys(global wt_cache_entry* entries, global uint* heads, global
   slots[key] = !found ? WT_NONE : probe_whole(&e, key, region_count, widths) ? slot : WT_NONE - 1;
 }
 
-// Keys first .. first + count - 1. slots[key]: what the put returned.
+// Puts the keys first .. first + count - 1. slots[key]: result of the put.
 kernel void put_keys(global wt_cache_entry* entries, global uint* heads, global uint* used,
                      const global wt_cache_region* regions, global wt_cache_counters* counters, uint region_count,
                      wt_cache_widths widths, uint first, uint count, uint now, global uint* slots) {
@@ -113,7 +112,7 @@ kernel void put_keys(global wt_cache_entry* entries, global uint* heads, global 
   slots[first + i] = wt_cache_put(cache, q, &e);
 }
 
-// The tables of single rays: what each is given or gives is its hit's primitive. WT_NONE: dropped, or not found.
+// Tables of single rays: the value stored or returned for each is its hit's primitive. WT_NONE: dropped, or not found.
 kernel void put_rays(global wt_cache_entry* entries, global uint* heads, global uint* used,
                      const global wt_cache_region* regions, global wt_cache_counters* counters, wt_cache_widths widths,
                      const global float* rays, uint capacity, uint count, uint now, const global uint* primitives,
@@ -137,7 +136,7 @@ kernel void find_rays(global wt_cache_entry* entries, global uint* heads, global
   primitives[i] = found ? e.primitive : WT_NONE;
 }
 
-// Empties the slots of a list. A chained table gives up no single entry.
+// Empties the slots of a list. A chained table cannot give up a single entry.
 #ifndef WT_CACHE_CHAINED
 kernel void remove_slots(global wt_cache_entry* entries, global uint* heads, global uint* used,
                          const global wt_cache_region* regions, global wt_cache_counters* counters,

@@ -1,5 +1,5 @@
-// What only tests run: keys, hashes and buckets of rays on the device.
-// Three words per ray: cells, hash, and tag above bucket.
+// Kernels that only tests run: keys, hashes and buckets of rays on the device.
+// Each ray has three words: cells, hash, and tag above bucket.
 #include "wavetracer/device/cache.h"
 
 kernel void cache_keys(const global float* directions, const global uint* left, const global uint* surfaces, uint count,

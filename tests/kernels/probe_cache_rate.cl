@@ -1,22 +1,22 @@
-// Kernels that only bench_cache runs: what a table of the ray cache does in a second, and what memory would allow.
-// Questions are arrays, read in order, one per work-item. All regard region 0.
+// Kernels that only bench_cache runs: operations of a ray cache's table per second, and the limit of memory. Questions
+// are arrays, read in order, one per work-item. All are about region 0.
 #include "probe_question.clh"
 
-// What is stored under a key.
+// Returns the value that is stored under a key.
 inline uint rate_primitive(ulong cells, uint left) { return (uint)(cells ^ cells >> 32) + left; }
 
-// Question i is of key first + i or, with askers, of one of `keys` keys from `first` on, drawn at random for so many
-// questions in a row.
+// Question i asks for key first + i or, with askers, for one of `keys` keys from `first` on; a random key is drawn for
+// each group of `askers` questions in a row.
 kernel void make_questions(uint first, uint keys, uint askers, global ulong* cells, global uint* left, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint key = first + (askers ? (uint)((probe_mix(~(ulong)(i / askers)) >> 32) * keys >> 32) : i);
-  cells[i] = probe_mix(key + 1ul) >> 1;  // of key 0 all would be 0, which stands for a miss
+  cells[i] = probe_mix(key + 1ul) >> 1;  // for key 0 all values would be 0, which means a miss
   left[i] = key >> 2;
 }
 
 #ifdef WT_CACHE_TALLY
-// The group adds up what its puts count, as cache_store does.
+// The group adds up the counts of its puts, as cache_store does.
 kernel void put_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
                           const global wt_cache_region* regions, global wt_cache_counters* counters,
                           wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count) {
@@ -41,7 +41,7 @@ kernel void put_questions(global wt_cache_entry* entries, global uint* heads, gl
 }
 #endif
 
-// Answers: planes of t, primitive and surface, as in a hit list.
+// Writes answers as planes of t, primitive and surface, as in a hit list.
 kernel void find_questions(global wt_cache_entry* entries, global uint* heads, global uint* used,
                            const global wt_cache_region* regions, global wt_cache_counters* counters,
                            wt_cache_widths widths, const global ulong* cells, const global uint* left, uint count,
@@ -76,7 +76,7 @@ kernel void hash_questions(wt_cache_widths widths, const global ulong* cells, co
   out[i] = (uint)(wt_cache_hash(WT_CACHE_HASH_METHOD, cells[i], left[i], left[i] >> 1, widths) >> 32);
 }
 
-// Of the rays of a labelled queue: all that a question costs before memory is asked.
+// Computes, for the rays of a labelled queue, everything that precedes the memory access of a question.
 kernel void hash_rays(const global float* rays, uint capacity, uint count, wt_cache_widths widths, global uint* out) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
@@ -84,7 +84,7 @@ kernel void hash_rays(const global float* rays, uint capacity, uint count, wt_ca
   out[i] = (uint)(q.hash >> 32) ^ q.region;
 }
 
-// What memory gives to one random access a work-item: slots of 64 bytes, all of them read, and words of eight.
+// Measures random accesses, one per work-item: slots of 64 bytes, which are read completely, and words of eight.
 kernel void gather_slots(const global ulong2* slots, uint slot_count, uint count, global uint* out) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;

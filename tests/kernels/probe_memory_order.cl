@@ -2,14 +2,15 @@
 // Assumes buffers cleared by the host; global sizes may exceed `count`.
 #include "lib/memory_order.clh"
 
-// places[i] gets the number of work-items that added before this one: all differ where the add is atomic.
+// places[i] gets the number of work-items that added before this one: all differ if the add is atomic.
 kernel void take_places(global uint* counter, global uint* places, uint count) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   places[i] = wt_fetch_add_u32(counter, 1u);
 }
 
-// A set of non-zero words with linear probing. `inserted` counts the words that were new, `winners[slot]` their claims.
+// Inserts into a set of non-zero words with linear probing. `inserted` counts the words that were new, `winners[slot]`
+// their claims.
 kernel void insert_words(global const ulong* words, uint count, global ulong* slots, uint slot_mask,
                          global uint* inserted, global uint* winners, global uint* lost) {
   const uint i = (uint)get_global_id(0);
@@ -29,7 +30,7 @@ kernel void insert_words(global const ulong* words, uint count, global ulong* sl
   wt_fetch_add_u32(lost, 1u);
 }
 
-// slots[i % slot_count] keeps the lowest word that came, and first[...] the number of the work-item that came first.
+// slots[i % slot_count] keeps the lowest word, and first[...] the number of the work-item that came first.
 kernel void keep_lowest(global const uint* words, uint count, global uint* slots, uint slot_count, global uint* first,
                         global uint* firsts) {
   const uint i = (uint)get_global_id(0);
@@ -38,15 +39,16 @@ kernel void keep_lowest(global const uint* words, uint count, global uint* slots
   if (wt_compare_swap_relaxed_u32(first + i % slot_count, 0xFFFFFFFFu, i) == 0xFFFFFFFFu) wt_fetch_add_u32(firsts, 1u);
 }
 
-// The pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which distance makes
-// two items meet depends on how a device spreads its groups over cores, and on whether it runs a group's items in turn.
+// Returns the pair that this work-item shares with one of the work-group `distance` (a power of two) away. Which
+// distance makes two items meet depends on how a device spreads its groups over cores, and on whether it runs a group's
+// items in turn.
 inline uint pair_of_item(uint distance) {
   const uint group = (uint)get_group_id(0);
   return (group / (2 * distance) * distance + group % distance) * (uint)get_local_size(0) + (uint)get_local_id(0);
 }
 
 // One group of two publishes payloads of two words by a release store of a flag, the other looks by an acquire load.
-// seen[pair]: 0 not published yet, 1 published and whole, 2 torn. Who comes first is left open: nobody waits.
+// seen[pair]: 0 not published yet, 1 published and whole, 2 torn. Either may come first: neither waits.
 kernel void publish(global uint* payload, global uint* flags, global uint* seen, uint pairs, uint distance) {
   const uint pair = pair_of_item(distance);
   if (pair >= pairs) return;
@@ -61,8 +63,8 @@ kernel void publish(global uint* payload, global uint* flags, global uint* seen,
   }
 }
 
-// The same with one wide word, a claim by 32-bit compare-and-swap, and the fence alone: one winner a pair. A loser that
-// sees the flag but not the owner's word clears the word, which the host finds.
+// Does the same with one wide word, a claim by 32-bit compare-and-swap, and the fence alone: each pair has one winner.
+// A loser that sees the flag but not the owner's word clears the word, which the host finds.
 kernel void claim(global uint* owners, global ulong* words, global uint* flags, global uint* wins, uint pairs,
                   uint distance) {
   const uint pair = pair_of_item(distance);

@@ -1,11 +1,11 @@
-// The open-addressed table as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 and C.3), faults and all:
-// what bench_cache and the tests of lib/cache_open.clh compare with, and nothing that the program uses.
+// The open-addressed table as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 and C.3), with its
+// faults. bench_cache and the tests of lib/cache_open.clh compare with it; the program does not use it.
 // Atomics have the orders of lib/memory_order.clh, which the listing leaves to chance. Assumes cleared nodes, position
 // stamps that are not 0, WT_NODES (the listing's num_of_buckets) and WT_READERS (cache_readers_number).
 #include "lib/memory_order.clh"
 #include "wavetracer/device/records.h"
 
-// CacheNode with the parts that the two functions use, and a result as ours is.
+// CacheNode with the members that the two functions use, and a result like ours.
 typedef struct {
   uint hash;
   float next_origin[3];
@@ -40,14 +40,14 @@ inline uint thesis_hash(uint primitive, uint instance, uint x, uint y, uint z) {
   return (uint)s + morton;
 }
 
-// getBucketIndex. A hash near the largest reaches no further than the middle of the table.
+// Implements getBucketIndex. The largest hashes reach no further than the middle of the table.
 inline uint thesis_bucket(uint hash) { return (uint)(((float)hash / 4294967295.0f) * (WT_NODES - 1) / 2); }
 
 inline uint thesis_hash_of(ulong cells, uint left) {
   return thesis_hash(left, left >> 1, (uint)cells & 0x1FFFFFu, (uint)(cells >> 21) & 0x1FFFFFu, (uint)(cells >> 42));
 }
 
-// writeToCache. False: somebody holds the write lock, perhaps for ever.
+// Implements writeToCache. Returns false if another work-item holds the write lock, perhaps for ever.
 inline bool thesis_write(volatile global thesis_node* nodes, uint hash, float t, uint primitive, uint surface,
                          uint pos_hash) {
   volatile global thesis_node* node = nodes + thesis_bucket(hash);
@@ -67,7 +67,7 @@ inline bool thesis_write(volatile global thesis_node* nodes, uint hash, float t,
   return true;
 }
 
-// getFromCache. atomicInc's bound is never met, as the count goes back to 0 one read before.
+// Implements getFromCache. The bound of atomicInc is never reached, as the count returns to 0 one read before.
 inline bool thesis_read(volatile global thesis_node* nodes, uint hash, uint pos_hash, float* t, uint* primitive,
                         uint* surface) {
   volatile global thesis_node* node = nodes + thesis_bucket(hash);
@@ -91,7 +91,7 @@ inline bool thesis_read(volatile global thesis_node* nodes, uint hash, uint pos_
   return true;
 }
 
-// Stores what probe_cache_rate.cl stores under a key. taken[i]: was it written?
+// Stores the same values as probe_cache_rate.cl. taken[i]: whether it was written.
 kernel void thesis_put(global thesis_node* nodes, const global ulong* cells, const global uint* left, uint count,
                        uint pos_hash, global uint* taken) {
   const uint i = (uint)get_global_id(0);
@@ -113,7 +113,7 @@ kernel void thesis_find(global thesis_node* nodes, const global ulong* cells, co
   surfaces[i] = surface;
 }
 
-// Adds the nodes that hold something to *written.
+// Adds the number of written nodes to *written.
 kernel void thesis_count(const global thesis_node* nodes, global uint* written) {
   const uint i = (uint)get_global_id(0);
   if (i < WT_NODES && nodes[i].used) wt_fetch_add_u32(written, 1u);

@@ -133,7 +133,7 @@ def mistakes(client, folder):
     assert error.code == 2 and pickle.loads(pickle.dumps(error)).code == 2
     wait_until("the other parts are given up", lambda: not list((folder / "parts").glob("*")))
     fails(lambda: wd.run(wrong, folder, client=client, parts=1, program="no-such-wavetracer"), "no such program")
-    # What fails every time fails for good after the retries, and says what the program said.
+    # A part that fails every time fails for good after the retries, and the error has the program's message.
     broken = written(folder.with_suffix(".sh"), "#!/bin/sh\necho the device is gone >&2\nexit 4\n", executable=True)
     fails(lambda: wd.run(wrong, folder, client=client, parts=1, program=[broken], retries=1), "the device is gone",
           "exit code 4")
@@ -147,7 +147,7 @@ def mistakes(client, folder):
 
 
 def given_up(client, config, folder, expected):
-    """What is cancelled leaves no process, and the next call computes it."""
+    """A cancelled drive leaves no process, and the next call computes it."""
     forever = written(folder.with_suffix(".sh"), "#!/bin/sh\nexec sleep 1000\n", executable=True)
     job = wd.Job(str(config), str(folder), 2, program=(str(forever),))
     futures, whole = wd.submit(job, client=client)
@@ -168,7 +168,7 @@ def as_command(cluster, config, folder, expected):
 
 
 SBATCH = r"""#!/bin/sh
-# Slurm as far as a job array needs it: runs the tasks one after the other, and jobs only after those they depend on.
+# A stand-in for Slurm: it runs the tasks of a job array one after the other, and jobs only after those they depend on.
 echo "$*" >> sbatch.log
 script=$(mktemp ./job.XXXXXX)
 cat > "$script"

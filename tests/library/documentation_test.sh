@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Man pages that man reads without a warning, completions that bash answers with, and a reference that is not stale.
-# Usage: documentation_test.sh PROGRAM SOURCE_FOLDER FOLDER
+# Tests man pages, which man reads without a warning, completions, which bash answers with, and the reference, which
+# must be up to date. Usage: documentation_test.sh PROGRAM SOURCE_FOLDER FOLDER
 set -euo pipefail
 program=$1 source=$2 folder=$3
 rm -rf "$folder"
@@ -25,7 +25,7 @@ if command -v man >/dev/null; then
   for words in 'wavetracer run' '--resume' 'EXIT STATUS' 'NO_COLOR' 'scene info'; do
     grep -q -e "$words" "$folder/wavetracer.1.txt" || fail "wavetracer.1 does not say $words"
   done
-  # Every key that init knows.
+  # The page has every key that init prints.
   for key in $("$program" init | sed -n 's/^#\{0,1\} *\([a-z0-9_]*\) = .*/\1/p'); do
     grep -q -e "^ *$key" "$folder/wavetracer.toml.5.txt" || fail "wavetracer.toml.5 has no $key"
   done
@@ -34,7 +34,7 @@ fi
 # --- completions ---
 "$program" documentation --completion bash -o "$folder/bash"
 bash -n "$folder/bash" || fail "bash completion"
-# answer WORDS...: what bash offers in the place of the last word; NAME=VALUE are three words, as bash splits them.
+# answer WORDS...: prints what bash offers for the last word; NAME=VALUE are three words, as bash splits them.
 answer() {
   bash -c '
     source "$1"; shift

@@ -1,5 +1,5 @@
-// The C interface from several threads and in forked processes, as wavetracer.h says: turns, observers, and what a
-// forked process may do.
+// The C interface from several threads and in forked processes, as wavetracer.h says: turns, observers, and the rights
+// of a forked process.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ std::vector<double> delays(const wavetracer_frame* frame) {
   return {first, first + column.rows};
 }
 
-// The delays of a frame that is solved now; none where that fails.
+// Returns the delays of a frame that is solved now; none if that fails.
 std::vector<double> solved(wavetracer_simulation* simulation) {
   wavetracer_frame* const frame = wavetracer_run_frame(simulation, 0, nullptr);
   std::vector<double> out = delays(frame);
@@ -43,7 +43,7 @@ std::vector<double> solved(wavetracer_simulation* simulation) {
   return out;
 }
 
-// The code of an error, which is given back; its text must have this part.
+// Returns the code of an error, which is freed; its text must contain this part.
 int code_of(wavetracer_error* error, const char* part) {
   const int code = wavetracer_error_code(error);
   const bool says = std::string(wavetracer_error_message(error)).find(part) != std::string::npos;
@@ -57,7 +57,7 @@ void run_threads(unsigned count, const std::function<void()>& body) {
   for (std::thread& thread : threads) thread.join();
 }
 
-// Returns how a forked process ends that does this; one that hangs is ended after half a minute.
+// Returns how a forked process that does this ends; one that hangs is killed after half a minute.
 int forked(const std::function<int()>& body, bool at_once) {
   const pid_t child = fork();
   if (child == 0) {

@@ -138,7 +138,7 @@ def strangers():
                         expect(client.hello(token=secret)["message"] == "world", f"let in beside {k + 1} silent ones")
                         expect(client.ask(frame(k, k, []))["message"] == "channels", "and answered")
             expect(first.ask(frame(1, 0, []))["message"] == "channels", "the first client stays")
-            # The oldest have given way, with a word or without; the newest are there still.
+            # The oldest connections were closed, with or without a message; the newest are still open.
             expect(all(c.receive() is None or c.receive() is None for c in silent[:30]), "the oldest gave way")
             silent[-1].socket.settimeout(0.3)
             try:
@@ -148,7 +148,7 @@ def strangers():
                 pass
             for client in silent[:30]:  # so many are not told at once why they cannot stay
                 client.close()
-            # Places are for those who have said hello: two, and a third is told so.
+            # Places are for clients that have said hello: two have them, and a third is refused with a message.
             with server.connect() as second, server.connect() as third:
                 expect(second.hello(token=secret)["message"] == "world", "the second client")
                 third.send({"message": "hello", "protocol": 1, "token": secret})
@@ -171,7 +171,8 @@ def long_messages(server):
         answers = [bad.receive() for _ in range(4)]
         expect([a.get("code", a["message"]) for a in answers] == ["unknown_key", "channels"] * 2, answers)
         expect([answers[1]["frame"], answers[3]["frame"]] == [2, 3], answers)
-        # Most of a megabyte of vehicles, each of which would be removed again: seconds, if it were built.
+        # The message has most of a megabyte of vehicles, each of which would be removed again: building it would take
+        # seconds.
         begin = time.monotonic()
         bad.bytes(b'{"message":"frame","frame":4,"vehicles":[' + b",".join([b'{"id":1}'] * 100000) + b"]}\n")
         expect(good.ask(frame(1, 0, [one]))["message"] == "channels", "the other client is answered")

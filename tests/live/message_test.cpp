@@ -1,4 +1,4 @@
-// Messages of clients without a socket: what is read, and what is refused with which code.
+// Messages of clients without a socket: which are accepted, and which are refused with which code.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -146,7 +146,7 @@ TEST_CASE("what no message has is refused where it begins to be too much, and a 
     for (int k = 1; k < count; ++k) out += "," + one;
     return out;
   };
-  // Every text ends in what is no JSON: whoever read so far would say bad_json of it.
+  // Every text ends in invalid JSON: a parser that reads to the end would report bad_json.
   try {
     parse_message(R"({"message":"frame","frame":3,"vehicles":[)" + many("{}", 5) + "!", 4);
     FAIL("accepted");

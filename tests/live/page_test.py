@@ -86,7 +86,8 @@ with tempfile.TemporaryDirectory() as folder:
     expect(os.listdir(folder) == ["live.html"], os.listdir(folder))
     print("the newest frame")
 
-    # A page that cannot be written is an error at the start; one that no longer can is said once, and frames go on.
+    # A page that cannot be written is an error at the start; if it cannot be written later, that is reported once, and
+    # frames continue.
     try:
         Server(more=["--page", os.path.join(folder, "absent", "live.html")])
         expect(False, "a page in a folder that is not there")

@@ -1,4 +1,4 @@
-// Live worlds without a socket: the same channels as a drive of the same poses, places, speeds, and what is refused.
+// Live worlds without a socket: the same channels as a drive of the same poses, places, speeds, and refused messages.
 // The oracle of channels is run_frame() on tracks; that of Doppler shifts the closed form of a line of sight.
 #include <doctest/doctest.h>
 
@@ -70,7 +70,8 @@ auto named(const LiveFrame& f) {
 
 }  // namespace
 
-// Here to rounding, since poses are taken from the placements of the drive; protocol_test.py compares bits.
+// Equality is up to rounding here, since poses are taken from the placements of the drive; protocol_test.py compares
+// bits.
 TEST_CASE("live poses give the channels of a drive of the same poses") {
   Config drive = city(false);
   drive.tracks = {{.id = "b", .waypoints = {{0, -3, -20, 0}, {1, -3, -30, 0}}},
@@ -136,7 +137,7 @@ TEST_CASE("places: kept while a vehicle stays, given to others after it; names a
   const uint32_t x = traffic.vehicles.at("x").place, y = traffic.vehicles.at("y").place;
   live.run_poses(traffic, 0.1, std::vector{pose("y", 1, 50), pose("z", 50, 0)});
   CHECK(traffic.vehicles.at("y").place == y);
-  CHECK(traffic.vehicles.at("z").place == x);  // the first one free
+  CHECK(traffic.vehicles.at("z").place == x);  // the first free place
   CHECK(traffic.vehicles.size() == 2);
   const LiveFrame frame = live.run_poses(traffic, 0.2, std::vector{pose("z", 50, 0), pose("lorry", -50, 0, "truck")});
   std::map<std::string, int> names;
@@ -153,7 +154,7 @@ TEST_CASE("a place that another vehicle takes keeps nothing that is not so: path
   const auto name = [](const std::vector<std::string>& names) { return [&](uint32_t i) { return names[i]; }; };
   const auto found = rows(warm.result.paths, name(warm.transmitters), name(warm.receivers));
   const auto all = rows(first.result.paths, name(first.transmitters), name(first.receivers));
-  // Every strong path of the cold frame is there, with the Doppler shift of a vehicle that has just come: none.
+  // Every strong path of the cold frame is there, with a Doppler shift of zero for a vehicle that has just arrived.
   for (const Row& row : found) CHECK(std::get<5>(row) == 0);
   size_t shared = 0;
   for (const Row& row : all)
@@ -231,7 +232,7 @@ TEST_CASE("between two poses: cars on their cubic, with the Doppler shifts of th
   a.orientation = {std::cos(0.04), 0, 0, std::sin(0.04)};
   b.position_m.x -= 0.8;
   const LiveFrame frame = live.run_poses(traffic, 10.1, std::vector{a, b, pose("come", -60, 3)});
-  REQUIRE(frame.result.counts.rays > 0);  // somebody has come
+  REQUIRE(frame.result.counts.rays > 0);  // a vehicle has arrived
   const LiveTraffic before = traffic;
 
   const double step_s = 1e-3, time_s = 10.06;
@@ -251,7 +252,7 @@ TEST_CASE("between two poses: cars on their cubic, with the Doppler shifts of th
   }
   CHECK(compared > 20);
 
-  // At the time of a frame all is as it was.
+  // At the time of a frame nothing changes.
   const auto last = named(live.run_between(traffic, 10.1)), same = named(frame);
   REQUIRE(last.size() == same.size());
   for (const auto& [key, values] : same) {

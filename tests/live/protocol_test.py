@@ -220,7 +220,7 @@ def between_poses():
 
 
 def free_running():
-    """Of frames that come faster than they are solved the newest is, and the others are counted."""
+    """If frames come faster than they are solved, the newest is solved, and the others are counted."""
     with Server(sets=["live.max_pending_frames=1"]) as server, server.connect() as client:
         client.hello(mode="free")
         last = 40
@@ -238,7 +238,7 @@ def free_running():
 
 
 def nothing_for_nobody():
-    """What answers have no room for is not computed, and said."""
+    """Results that answers cannot carry are not computed, and a warning says so."""
     server = Server(sets=["response.bandwidth_hz=20e6", "radio.frequencies_hz=[5.9e9, 28e9]"])
     with server.connect() as client:
         client.hello()

@@ -1,4 +1,4 @@
-// Who pays for what goes wrong while a frame is solved: its client, that frame, or the server. Nothing is solved here.
+// An error while a frame is solved costs its client, that frame, or the server. Nothing is solved here.
 #include "live/solver.hpp"
 
 #include <doctest/doctest.h>

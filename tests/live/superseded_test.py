@@ -1,6 +1,6 @@
-"""What a message does to those that wait: newer frames of a free-running client, times between frames, errors among
-them, bye and a closed direction. Every message is answered or counted.
-Assumes an OpenCL device; how many frames are skipped depends on it, and no test on how many."""
+"""Tests the effect of a message on those that wait: newer frames of a free-running client, times between frames, errors
+among them, bye and a closed direction. Every message is answered or counted. Assumes an OpenCL device; how many frames
+are skipped depends on it, and no test on how many."""
 import json
 import socket
 import sys
@@ -55,7 +55,8 @@ def free_running_instants():
 
 
 def skipped_frames_that_matter():
-    """What a skipped frame was to forget is forgotten; skipped frames are counted where an error comes between."""
+    """If a skipped frame was to start cold, the next one does; skipped frames are counted where an error comes between.
+    """
     sets = ["trace.rays=1000", "trace.refresh_rays=1"]
     still = {"velocity_m_s": [0, 0, 0], "angular_velocity_rad_s": [0, 0, 0]}
     moved = [vehicle("ego", -40, 3, 0, **still), vehicle("other", 30, -3, 0, **still)]
@@ -69,7 +70,7 @@ def skipped_frames_that_matter():
             warm = client.ask(frame(3 * turn, 10 * turn + 1, moved))["links"]
             expect(warm != alone, "a warm frame differs from a cold one here")
             client.ask(frame(3 * turn, 10 * turn + 2, POSES, cold=True))
-            # The second is skipped, if the third comes in time.
+            # The second is skipped if the third comes in time.
             client.send(lines_of(frame(1000, 10 * turn + 3, POSES), frame(1001, 10 * turn + 4, moved, cold=True),
                                  frame(1002, 10 * turn + 5, moved)))
             answers = [client.receive()]
@@ -96,7 +97,7 @@ def skipped_frames_that_matter():
 
 
 def leaving():
-    """What was asked for before bye, or before the client's direction is closed, is answered."""
+    """Requests before bye, or before the client closes its direction, are answered."""
     with Server(sets=["live.max_rate_hz=6"]) as server:
         for mode in ("step", "free"):
             with server.connect() as client:

@@ -1,5 +1,5 @@
 // Recordings of CARLA as text, by the format of its sources (CarlaRecorderQuery.cpp of 0.9.15): centimetres, y to the
-// right, boxes anywhere; what is passed over, and what is wrong.
+// right, boxes anywhere; skipped lines, and errors.
 #include "motion/carla.hpp"
 
 #include "motion_files.hpp"
@@ -16,8 +16,8 @@ const std::string created =
     " Create 2191: traffic.traffic_light (3) at (4255, 10020, 0)\n"
     " Create 3137: vehicle.jeep.wrangler_rubicon (1) at (-5236.45, 8543.61, 1.8)\n  number_of_wheels = 4\n"
     "  base_type = car\n  role_name = hero\n  color = 255,255,255\n"
-    " Create 3138: vehicle.harley-davidson.low_rider (1) at (0, 0, 0)\n  number_of_wheels = 2\n  role_name = "
-    "autopilot\n"
+    " Create 3138: vehicle.harley-davidson.low_rider (1) at (0, 0, 0)\n  number_of_wheels = 2\n"
+    "  role_name = autopilot\n"
     " Create 3139: walker.pedestrian.0001 (2) at (0, 0, 93)\n"
     " Parenting 3140 with 3137 (parent)\n";
 const std::string boxes =

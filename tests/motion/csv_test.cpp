@@ -1,4 +1,4 @@
-// CSV: columns in any order, what may be missing, line ends and quotes, and the errors with file and line.
+// CSV: columns in any order, optional columns, line ends and quotes, and the errors with file and line.
 // Yaw is mathematical here and the position is the centre, unlike in FCD.
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// What esmini writes, by the formats of its sources (CSV_Logger of CommonMini.cpp, dat2csv.cpp; 2025): the log with
-// entities that come and go, the recording with and without its first line, and what is wrong.
+// Files of esmini, by the formats of its sources (CSV_Logger of CommonMini.cpp, dat2csv.cpp; 2025): the log with
+// entities that come and go, the recording with and without its first line, and errors.
 #include "motion/esmini.hpp"
 
 #include <fmt/format.h>

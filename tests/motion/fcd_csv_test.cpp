@@ -79,7 +79,7 @@ TEST_CASE("CSV of xml2csv.py is the FCD that it was made of, with every separato
     for (size_t at = quoted.find(id); at != quoted.npos; at = quoted.find(id, at + 2))
       quoted.replace(at, 3, ";\"" + id.substr(1, 1) + "\";");
   check_same(read_rows(quoted), xml);
-  // The names that newer releases write alone, without those of the elements.
+  // Newer releases write names alone, without those of the elements.
   check_same(read_rows("time;angle;id;lane;pos;slope;speed;type;x;y\n" + sumo_rows), xml);
 }
 

@@ -1,4 +1,4 @@
-// SUMO FCD that is broken: every fault is an InputError with file, line and what to do.
+// SUMO FCD that is broken: every fault is an InputError with file, line and advice.
 // Line numbers are counted by hand: fcd() of motion_files.hpp puts the first timestep into line 3.
 #include "motion_files.hpp"
 
@@ -115,7 +115,7 @@ TEST_CASE("longitude and latitude are refused where there is no georeference") {
   };
   fails(drive(11.57, 1.3e-4), "drive.xml: " + advice);
   CHECK_NOTHROW(read_text(drive(11.57, 10)));
-  CHECK_NOTHROW(read_text(drive(11000, 1.3e-4)));  // strange, but no degrees
+  CHECK_NOTHROW(read_text(drive(11000, 1.3e-4)));  // unusual, but no degrees
   std::string back = drive(0, 10);                 // into a car park and out of it again, at the same place
   back.insert(back.find("</fcd"), timestep("9000", car("x=\"20\" y=\"48.1\" angle=\"90\" speed=\"10\"")));
   CHECK_NOTHROW(read_text(back));

@@ -87,7 +87,7 @@ TEST_CASE("coordinates of the file to those of the scene; sizes and speeds stay"
 }
 
 TEST_CASE("attributes that SUMO was told to leave out follow from the motion") {
-  // Uphill to the north-east, 3-4-5 in the plane and 1 m up a second; then it stands.
+  // Uphill to the north-east, 3-4-5 in the plane and 1 m up per second; then it stands.
   std::string steps;
   for (int k = 0; k < 4; ++k) {
     const int way = std::min(k, 2);
@@ -232,7 +232,7 @@ TEST_CASE("a file of 50 MB is read in bounded memory") {
   const Trajectories t = read_trajectories(path);
   const long grown = peak_kib() - before;
   CHECK(t.tracks.at(0).samples.size() > 300);
-#ifndef __SANITIZE_ADDRESS__  // it keeps freed memory
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer keeps freed memory
   CHECK(grown < 8 * 1024);
 #else
   MESSAGE("peak memory grew by ", grown, " KiB");

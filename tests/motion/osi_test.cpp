@@ -1,5 +1,5 @@
-// Traces of OSI: those that ASAM's own bindings wrote (files/make_osi.py), and messages of our own that are wrong.
-// Closed forms of that drive: a circle of 20 m at 10 m/s, nose down by 0.1 rad.
+// Traces of OSI: those that ASAM's own bindings wrote (files/make_osi.py), and messages of our own that are wrong. The
+// closed form of that drive is a circle of 20 m at 10 m/s, nose down by 0.1 rad.
 #include "motion/osi.hpp"
 #include "folders.hpp"
 

@@ -1,4 +1,4 @@
-// Files of parked vehicles: columns in any order, what may be missing, and errors with file and line.
+// Files of parked vehicles: columns in any order, optional columns, and errors with file and line.
 #include "motion/parked.hpp"
 #include "folders.hpp"
 

@@ -1,4 +1,4 @@
-// Appearing, vanishing, gaps and teleports: where a vehicle is absent, and what is told of it.
+// Appearing, vanishing, gaps and jumps: where a vehicle is absent, and the messages about it.
 // The bounds are those of read.hpp: 1.5 steps; 1.5 v t + 5 m + 5 m/s^2 t^2.
 #include "motion/pose.hpp"
 #include "motion_files.hpp"

@@ -66,7 +66,7 @@ double mean_speed_m_s(const Trajectories& t, size_t sample) {
   return sum / static_cast<double>(t.tracks.size());
 }
 
-// From the nearest centre line of a street, signed.
+// Returns the signed distance from the nearest centre line of a street.
 double off_centre_m(double x, uint32_t blocks, const StreetGrid& grid) {
   const double pitch_m = grid.block_m + grid.street_m, shift_m = blocks / 2.0 * pitch_m;
   return std::remainder(x + shift_m, pitch_m);
@@ -81,7 +81,7 @@ TEST_CASE("rectangles that touch, and that do not") {
   CHECK_FALSE(touch(a, {4.1, 0, 1, 0, 2, 1}));
   CHECK_FALSE(touch(a, {0, 2.1, 1, 0, 2, 1}));
   CHECK(touch(a, {2.5, 1.5, r, r, 2, 1}));
-  CHECK_FALSE(touch(a, {3.6, 2.6, -r, r, 2, 1}));  // only an axis of the second tells
+  CHECK_FALSE(touch(a, {3.6, 2.6, -r, r, 2, 1}));  // only an axis of the second separates them
 }
 
 TEST_CASE("no two vehicles ever touch") {
@@ -112,7 +112,7 @@ TEST_CASE("dense traffic goes on: nobody is stuck") {
     }
     CHECK(driven_m > 50);
   }
-  // With every slot taken, vehicles around a block come to wait for one another; they must find another way.
+  // If every slot is taken, vehicles around a block come to wait for one another; they must find another way.
   const Trajectories full = generate_traffic(options_of(3, 840, 600, 1));
   CHECK(std::all_of(full.tracks.begin(), full.tracks.end(), [](const Track& track) {
     const auto& s = track.samples;
@@ -164,7 +164,7 @@ TEST_CASE("motion is smooth: velocities are those of the positions, brakes and t
       const double change_m_s = b.speed_m_s - a.speed_m_s;
       CHECK(change_m_s <= 2 * step_s + 1e-9);
       CHECK(change_m_s >= -4 * step_s);
-      // In turns of 7 m (right) and 13 m (left), at speeds of at most 2.5 m/s^2 sideways.
+      // Turns have 7 m (right) and 13 m (left), with speeds of at most 2.5 m/s^2 sideways.
       CHECK(std::abs(std::remainder(b.yaw_rad - a.yaw_rad, 2 * pi)) <= 1.1 * std::sqrt(2.5 / 7) * step_s);
       CHECK(b.speed_m_s >= 0);
       fastest_m_s = std::max(fastest_m_s, b.speed_m_s);

@@ -1,5 +1,5 @@
-// What summary.json says about a ray cache: sums over frames, whether they were written at once, in shards or resumed.
-// The counts of a frame are made up: frame n has (k + 1) n of the k-th.
+// The part of summary.json about a ray cache: sums over frames, whether they were written at once, in shards or
+// resumed. The counts of a frame are invented: frame n has (k + 1) n of the k-th.
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include "jobs/shards.hpp"

@@ -1,4 +1,4 @@
-// Bytes of many files in one, against the same done in memory; and what cannot be copied.
+// Bytes of many files are copied into one and compared with the same done in memory; impossible copies are refused.
 #include "output/copy_pieces.hpp"
 #include <doctest/doctest.h>
 #include <cstring>

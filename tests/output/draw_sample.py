@@ -45,7 +45,7 @@ def draw(case, *options):
 
 
 def marks(svg, kind):
-    """How often a mark or an edge stands in the picture, legend left out."""
+    """Counts a mark or an edge in the picture, without the legend."""
     return sum(path.get("d").count("M") for path in svg.findall(f"{name}path[@class='{kind}']"))
 
 

@@ -1,5 +1,5 @@
-// Where outputs cannot be written, the error names the file and nothing partial is left behind.
-// The full disk is played by the file size limit of the process, which fails writes in the same places.
+// If outputs cannot be written, the error names the file and nothing partial is left behind.
+// The file size limit of the process simulates a full disk: it fails writes in the same places.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Scratch {
   }
 };
 
-// Files beyond this many bytes cannot be written while it lives.
+// While it exists, files beyond this many bytes cannot be written.
 struct SizeLimit {
   rlimit before{};
   void (*handler)(int);
@@ -85,7 +85,8 @@ TEST_CASE("a disk that fills up leaves neither files nor the folder, wherever it
     ++failures;
   }
   CHECK(failures > 40);
-  CHECK(error_of(scratch.path / "a" / "b", sample.run(), sample.frames()) == "");  // the library survived all of it
+  // The library still works after all of this.
+  CHECK(error_of(scratch.path / "a" / "b", sample.run(), sample.frames()) == "");
   CHECK(scratch.names() == std::vector<std::string>{"a", "b", "links.csv", "paths.h5", "summary.json", "waypoints.h5"});
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("a rename that fails takes back the files that were already renamed") 
   std::vector<PendingFile> files;
   files.emplace_back(scratch.path / "first", std::as_bytes(std::span(text)));
   files.emplace_back(scratch.path / "second", std::as_bytes(std::span(text)));
-  fs::create_directory(scratch.path / "second");  // in the way since the file was written beside it
+  fs::create_directory(scratch.path / "second");  // it was created after the file was written beside it
   CHECK_THROWS_WITH_AS(commit_together(files), doctest::Contains("Is a directory"), RuntimeError);
   files.clear();
   CHECK(scratch.names() == std::vector<std::string>{"second"});

@@ -21,7 +21,7 @@ namespace {
 
 const std::filesystem::path source = test::source_folder();
 
-// With each run of spaces and line breaks as one space.
+// Returns the text with each run of spaces and line breaks as one space.
 std::string flowing(const std::string& file) {
   return std::regex_replace(slurp(source / file), std::regex("\\s+"), " ");
 }

@@ -1,5 +1,5 @@
-// A child that answers, fails, faults, takes too much memory or time: each is an answer or an error of its class, and
-// the process that asked goes on.
+// A child that answers, fails, crashes, takes too much memory or time: each gives an answer or an error of its class,
+// and the parent process continues.
 #include "output/limited_child.hpp"
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -62,7 +62,7 @@ TEST_CASE("a child answers one request after the other, of any size") {
     for (size_t k = 0; k < count; ++k) REQUIRE(values[k] == i + k);
     ++i;
   }
-  CHECK(asked == 0);  // it is the child that counted
+  CHECK(asked == 0);  // the child counted, not this process
 }
 
 TEST_CASE("errors of a child are thrown as what they are, and it goes on") {
@@ -70,7 +70,8 @@ TEST_CASE("errors of a child are thrown as what they are, and it goes on") {
   CHECK_THROWS_WITH_AS(child.request("runtime"), "a dataset is missing", RuntimeError);
   CHECK_THROWS_WITH_AS(child.request("input"), "part.h5: a dataset is missing", InputError);
   CHECK(child.request("word") == "word!");
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which end a process where memory ends
+// The sanitizers end a process that runs out of memory.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   CHECK_THROWS_WITH_AS(child.request("memory"), "reading it takes more than 64 MiB of memory", RuntimeError);
   CHECK(child.request("word") == "word!");
 #endif

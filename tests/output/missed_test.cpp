@@ -1,5 +1,5 @@
-// What summary.json says of missed paths: the same whether frames were written at once, in shards or in blocks.
-// Counts of a frame are made up.
+// The part of summary.json about missed paths: it is the same whether frames were written at once, in shards or in
+// blocks. Counts of a frame are invented.
 #include <doctest/doctest.h>
 
 #include <cmath>

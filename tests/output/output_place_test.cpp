@@ -1,5 +1,5 @@
-// Outputs by the name of a link, a pipe, a device, a socket or a disk: what is there stays what it is.
-// Devices are nodes of the test's own, never those of /dev; where no node can be made, that part is left out.
+// Outputs with the name of a link, a pipe, a device, a socket or a disk: the existing object is kept.
+// Devices are nodes of the test's own, never those of /dev; if no node can be made, that part is skipped.
 #include "base/output_place.hpp"
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -27,10 +27,10 @@ using test::TemporaryFolder;
 
 namespace {
 
-// False, with a word, where this process may make none.
+// Returns false, with a message, if this process may make none.
 bool make_device(const fs::path& path, mode_t kind, unsigned minor_number) {
   if (mknod(path.c_str(), kind | 0600, makedev(kind == S_IFCHR ? 1 : 7, minor_number)) == 0) {
-    // Containers let nodes be made that nobody may open.
+    // Containers allow nodes to be made that nobody may open.
     if (const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK); file >= 0) return ::close(file) == 0;
     if (kind == S_IFBLK) return true;
   }
@@ -95,7 +95,7 @@ TEST_CASE("devices are written to and stay devices; a full one is an error") {
     CHECK(type_of(null) == fs::file_type::character);
     CHECK_THROWS_WITH_AS(write_file(full, "text"), doctest::Contains("No space left"), RuntimeError);
     CHECK(type_of(full) == fs::file_type::character);
-    // An error takes back those of files that appear together, if they are plain files.
+    // An error removes files that appear together again, if they are plain files.
     std::vector<PendingFile> files;
     for (const char* name : {"first", "null", "full"})
       files.emplace_back(folder.path() / name, std::as_bytes(std::span(std::string_view("text"))));

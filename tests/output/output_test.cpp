@@ -1,4 +1,4 @@
-// What write_outputs() writes is what a reader finds: paths.h5 through the C library, links.csv and summary.json.
+// A reader finds the data that write_outputs() has written: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
 #include "wavetracer/output.hpp"
 #include <doctest/doctest.h>
@@ -128,9 +128,8 @@ TEST_CASE("links.csv has a row per link, quoted names, and -inf where no path is
   REQUIRE(lines.size() == 1 + 2 * 4);
   CHECK(lines[0] ==
         "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,"
-        "doppler_spread_hz,los,missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,tx_beam,rx_"
-        "beam,"
-        "beam_gain_db");
+        "doppler_spread_hz,los,missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,"
+        "tx_beam,rx_beam,beam_gain_db");
   CHECK(lines[1].starts_with("0,\"rsu, north\",car,1,"));
   CHECK(lines[1].ends_with(",1,nan,nan,nan,0,0,nan,nan,nan"));
   CHECK(lines[2].starts_with("0,\"rsu, north\",1,1,"));
@@ -155,7 +154,7 @@ TEST_CASE("summary.json sums counts, takes medians of seconds and lists each war
                                          {"solved", 16},
                                          {"paths", 5},
                                          {"receptions", 6}});
-  // Of five paths of depth 0 to 4, every second vertex is a transmission.
+  // Five paths have depths 0 to 4; every second vertex is a transmission.
   CHECK(
       json["paths_by_kind"] ==
       nlohmann::json{{"line_of_sight", 1}, {"reflected", 1}, {"transmitted", 3}, {"diffracted", 0}, {"scattered", 0}});

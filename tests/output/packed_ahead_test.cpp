@@ -1,4 +1,4 @@
-// Chunks that were compressed before the file was begun, against the file that is written without them.
+// Chunks that were compressed before the file was begun, compared with the file that is written without them.
 #include "output/packed_ahead.hpp"
 #include <doctest/doctest.h>
 #include <chrono>
@@ -49,7 +49,7 @@ struct Growing {
     groups[0].tables[0].take(parts.size() - 1, 0, rows_of_part);
     groups[0].tables[1].take(parts.size() - 1, 4 * rows_of_part, rows_of_part + 1, offsets.back());
   }
-  Pieces pieces;  // of the last write()
+  Pieces pieces;  // pieces of the last write()
   fs::path write(const std::string& name, const PackedAhead* ahead) {
     PendingFile out(folder.path() / name);
     hdf5::File head;
@@ -65,7 +65,7 @@ void wait_for(const PackedAhead& ahead, size_t chunks) {
   for (int i = 0; i < 3000 && ahead.count() < chunks; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
-// All parts, as they come, and what was made of them.
+// All parts in their order, and the results.
 struct Ahead {
   Growing growing;
   IdleThreads threads{2};
@@ -90,7 +90,7 @@ TEST_CASE("all full chunks are made while parts come, none of them is left in th
   CHECK(made.ahead.count() == full_chunks);
   CHECK(std::distance(fs::directory_iterator(made.growing.folder.path()), {}) == parts_count);
   const std::string expected = slurp(made.growing.write("without.h5", nullptr));
-  // A row that was read before is not read again: this chunk has the bytes of then.
+  // A row that was read before is not read again: this chunk has its earlier bytes.
   change_byte(made.growing.parts[0], 0);
   const fs::path with = made.growing.write("with.h5", &made.ahead);
   CHECK(slurp(with) == expected);

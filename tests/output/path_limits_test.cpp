@@ -1,5 +1,5 @@
-// What the limits of output leave out, and that it is counted wherever it may be missed.
-// The sample's paths are few enough to say by hand which of them remain.
+// Limits of output leave paths out, and these are counted wherever they may be missed.
+// The sample's paths are so few that the remaining ones are known by hand.
 #include "output/path_limits.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
@@ -70,7 +70,7 @@ TEST_CASE("each limit leaves out what its key says, link by link") {
   CHECK(kept(limits(none, 10, {})) == Rows{0, 2, 3, 4});
   CHECK(kept(limits(none, 0, {})) == Rows{0, 4});
   CHECK(kept(limits(none, none, 1)) == Rows{0, 4});
-  CHECK(kept(limits(none, none, 2)) == Rows{0, 2, 4, 5});  // of two as strong the first
+  CHECK(kept(limits(none, none, 2)) == Rows{0, 2, 4, 5});  // the first of two equally strong paths is kept
   CHECK(kept(limits(-75, none, 2)) == Rows{0, 2});
   CHECK(kept(limits(0, none, {})).empty());
 }

@@ -1,4 +1,4 @@
-// What frames of the sample run have between elements, made up: simple functions of frame, link and row.
+// Invented values between elements in frames of the sample run: simple functions of frame, link and row.
 #pragma once
 #include <span>
 #include <vector>

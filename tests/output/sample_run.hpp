@@ -26,7 +26,7 @@ struct SampleRun {
   std::vector<FrameResult> drive(uint32_t first, uint32_t count) const;
 };
 
-// Of a drive of frames 3 to `last`.
+// Returns the identity of a drive of frames 3 to `last`.
 inline RunIdentity sample_identity(uint32_t last) { return {"1.2.3", "0123", "cpu", 3, last, 1}; }
 
 // Merges what the shards have with these frames, the first of a unit that was interrupted in the frame after them.

@@ -1,5 +1,5 @@
-// bitonic_sort against std::stable_sort: both forms, every payload, lengths around powers of two and blocks.
-// Blocks are made small, so that a few hundred keys already take every launch.
+// bitonic_sort against std::stable_sort: both forms, every payload, lengths around powers of two and blocks. Blocks are
+// small, so that a few hundred keys already need every launch.
 #include "passes/bitonic_sort.hpp"
 
 #include <doctest/doctest.h>
@@ -41,11 +41,12 @@ std::vector<Key> make_keys(Keys kind, uint32_t n) {
       case Keys::reversed:
         keys[i] = static_cast<Key>(~Key{0} - i / 3);
         break;
-      // Nothing, everything and the top bit: the largest key is also what fills up vectors.
+      // The values are 0, the largest key and the top bit: the largest key is also the padding of vectors.
       case Keys::extreme:
         keys[i] = word % 3 == 0 ? 0 : word % 3 == 1 ? ~Key{0} : Key{1} << (8 * sizeof(Key) - 1);
         break;
-      // The largest key here and there, and from a third of them on: what ends a block is not sorted.
+      // The largest key appears here and there, and from a third of them on: the padding at the end of a block is not
+      // sorted.
       case Keys::ending:
         keys[i] = i > n / 3 || word % 4 == 0 ? ~Key{0} : word % 7;
         break;
@@ -54,7 +55,7 @@ std::vector<Key> make_keys(Keys kind, uint32_t n) {
   return keys;
 }
 
-// Sorts n keys with values 1000, 1001, ...; three keys and values more than that must stay.
+// Sorts n keys with values 1000, 1001, ...; three keys and values after them must not change.
 template <class Key>
 void check_sort(BitonicSort<Key>& sort, Payload payload, const std::vector<Key>& unsorted) {
   const auto n = static_cast<uint32_t>(unsorted.size());
@@ -71,7 +72,7 @@ void check_sort(BitonicSort<Key>& sort, Payload payload, const std::vector<Key>&
   }
   if (payload == Payload::none) expected_values.assign(values.begin(), values.begin() + n);
   for (uint32_t i = 0; i < 3; ++i) {
-    keys.push_back(i);  // small keys: they would be drawn forward
+    keys.push_back(i);  // small keys would be drawn forward
     expected_keys.push_back(i);
     expected_values.push_back(values[n + i]);
   }

@@ -1,5 +1,5 @@
-// Blockers: what hid a path before is asked first, and the same paths are visible as without it, wherever the ends have
-// gone to, and whatever the table holds.
+// Blockers: a surface that hid a path before is tested first, and the same paths are visible as without it, for all
+// motions of the ends and all contents of the table.
 #include "passes/blockers.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using Found = std::set<std::pair<Sequence, uint32_t>>;
 
-// Solves all sequences again and again, with the ends where they are then.
+// Solves all sequences again and again, with the ends at their current places.
 struct Frames {
   std::vector<Quad> quads;
   DeviceScene scene;
@@ -76,7 +76,7 @@ TEST_CASE("the same paths are visible with and without what hid others before, a
       if (frame == 0) CHECK(frames.hidden == 0);
       hidden += frames.hidden;
       visible += expected.size();
-      tx += random.in_cube(frame == 3 ? 6 : 0.05);  // a jump, too
+      tx += random.in_cube(frame == 3 ? 6 : 0.05);  // includes a jump
       for (glm::dvec3& p : rx) p += random.in_cube(0.05);
     }
   }

@@ -1,5 +1,5 @@
 // bounces: the same sequences, quarters, ages, ends and counts as the loop of trace, scan and interact, in a moving
-// world, for any number of interactions; and an overflow that is told.
+// world, for any number of interactions; and an overflow that is reported.
 #include "passes/bounces.hpp"
 
 #include <map>
@@ -15,8 +15,8 @@ namespace {
 
 using Chain = std::vector<uint32_t>;
 
-// What is left of a batch: of each sequence, root first, its quarters and its age; the ends of the samples, likewise by
-// their sequences; how many rays made so many hits.
+// The results of a batch: for each sequence, root first, its quarters and its age; the ends of the samples, by their
+// sequences; the numbers of hits, with the number of rays that made them.
 struct Discovered {
   std::map<Chain, std::pair<uint32_t, uint32_t>> sequences;
   std::vector<Chain> ends;

@@ -1,5 +1,5 @@
-// The chained table: many work-items at once, and what is in memory afterwards, walked by the host.
-// Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
+// The chained table: many work-items at once; then the host checks the memory.
+// It is small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ TEST_CASE("chained cache: a key put by many work-items at once is in its tree on
       CacheConfig config = chained(3 * 2048, 3, method);
       config.key = key;
       Cache cache(config, 3);
-      // Copies lie in other work-groups, and each has a hit of its own.
+      // Copies lie in other work-groups, and each has its own hit.
       constexpr uint32_t keys = 384, copies = 8;
       const std::vector<CachedRay> once = random_rays(method, keys, 3);
       std::vector<CachedRay> rays;
@@ -40,7 +40,7 @@ TEST_CASE("chained cache: a key put by many work-items at once is in its tree on
       check_whole(forest, keys);
       uint64_t used = 0;
       for (const uint32_t u : cache.table.used.read()) used += u;
-      CHECK(used >= keys);  // the others were taken by work-items that came second
+      CHECK(used >= keys);  // work-items that came second took the others
       const Answers answers = cache.find(rays);
       CHECK(answers.count() == rays.size());
       size_t wrong = 0;
@@ -48,7 +48,7 @@ TEST_CASE("chained cache: a key put by many work-items at once is in its tree on
         wrong += answers.hits[i].surface != i % keys || answers.hits[i].primitive >= copies ||
                  answers.hits[i].t != hit_of(i % keys).t || !(answers.hits[i] == answers.hits[i % keys]);
       CHECK(wrong == 0);
-      // The same again: nothing changes.
+      // The same operations again change nothing.
       cache.put(rays, hits);
       CHECK(cache.counters().duplicates == rays.size());
       CHECK(cache.find(rays).hits == answers.hits);
@@ -57,8 +57,8 @@ TEST_CASE("chained cache: a key put by many work-items at once is in its tree on
 }
 
 TEST_CASE("chained cache: both halves of a launch put the same keys, and whoever comes second sees the first") {
-  // The half that starts late finds its keys put, is faster, and catches up: from there on the two meet at every key.
-  // A few meetings in 10^5.
+  // The half that starts later finds its keys stored, is faster, and catches up: from there on both meet at every key.
+  // There are a few meetings in 10^5.
   const uint32_t keys = as_many(400000, 1000);
   Cache cache(chained(2 * keys));
   std::vector<CachedRay> rays = random_rays(15, keys);
@@ -104,13 +104,13 @@ TEST_CASE("chained cache: a pool that runs out drops what is new, counts it, and
   size_t wrong = 0;
   for (uint32_t i = 0; i < 1024; ++i) wrong += answers.found[i] && !(answers.hits[i] == hit_of(i));
   CHECK(wrong == 0);
-  // Again: what is there is there, what is not finds no place.
+  // The second time, stored keys are found, and the others still find no place.
   cache.put(rays, hits_of(1024));
   counts = cache.counters();
   CHECK(counts.duplicates == 256);
   CHECK(counts.exhausted == 768);
   CHECK(cache.find(rays).hits == answers.hits);
-  CHECK(cache.table.used.read()[0] < 256 + 1024);  // asked for in vain, but not for ever
+  CHECK(cache.table.used.read()[0] < 256 + 1024);  // asked for in vain, but it ends
   // The other region has room.
   std::vector<CachedRay> others = random_rays(22, 200);
   for (CachedRay& ray : others) ray.region = 1;
@@ -130,7 +130,7 @@ TEST_CASE("chained cache: trees stay flat when keys come in their own order into
   cache.put(rays, hits_of(rays.size()));
   const Forest forest(cache.table);
   check_whole(forest, rays.size());
-  CHECK(forest.deepest > 8);    // a few buckets took all
+  CHECK(forest.deepest > 8);    // a few buckets got all keys
   CHECK(forest.deepest <= 40);  // about 3 log2 of 2,000; in the order of the keys it would be hundreds
   CHECK(cache.find(rays).count() == rays.size());
 }

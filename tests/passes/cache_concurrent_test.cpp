@@ -1,4 +1,4 @@
-// The concurrent table: every operation beside every other, one entry per key, holes, full regions, whole keys.
+// The concurrent table: every operation together with every other, one entry per key, holes, full regions, whole keys.
 // Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <set>
 
@@ -25,7 +25,7 @@ TEST_CASE("concurrent cache: more keys than entries") {
   for (const TableKind& kind : table_kinds("concurrent")) check_mixed(kind, 4096, 96, 4);
 }
 
-// Balls into bins, simulated: of 0.8 * 8 keys per bucket 0.8% meet four full buckets in a row.
+// This is a simulation of balls into bins: with 0.8 * 8 keys per bucket, 0.8% meet four full buckets in a row.
 TEST_CASE("concurrent cache: at load 0.8 nearly every key finds a place, and is found there") {
   CacheProbe probe(quantised.config(2560), 1);
   const std::vector<uint32_t> slots = probe.put_keys(0, 2048, 0);
@@ -52,7 +52,7 @@ TEST_CASE("concurrent cache: a full region drops what has no place, and keeps th
   CHECK(probe.find_keys(64) == slots);
 }
 
-// A key that was put beyond a full bucket must be found, and not be put again before it, when the bucket has holes.
+// A key that was stored beyond a full bucket must be found, and not be stored again before it, if the bucket has holes.
 TEST_CASE("concurrent cache: holes lose no key and give none a second entry") {
   CacheProbe probe(quantised.config(64), 1);
   std::vector<uint32_t> slots = probe.put_keys(0, 64, 0);

@@ -1,5 +1,5 @@
-// The chained table, and its trees as the host finds them in memory: how many nodes, in which order, in which buckets.
-// Assumes rays whose surface follows from the primitive that they left, see surface_of.
+// The chained table, and its trees in memory as the host reads them: number of nodes, their order, their buckets. The
+// surface of a ray follows from the primitive that it left, see surface_of.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -20,7 +20,7 @@ inline CacheConfig chained(uint64_t entries, double load_factor = 3, uint32_t me
   config.buffer_size = entries;
   config.load_factor = load_factor;
   config.hash_method = method;
-  config.hit_point = "cached";  // answers are what was put
+  config.hit_point = "cached";  // answers are exactly the stored hits
   return config;
 }
 
@@ -68,7 +68,7 @@ struct Forest {
     return key;
   }
 
-  // In order: keys ascend strictly, so that no key is there twice.
+  // Visits the tree in order: keys ascend strictly, so that no key is there twice.
   void walk(uint32_t slot, uint32_t depth) {
     if (slot == WT_NONE) return;
     const size_t links = table_.regions.size() * region_.buckets + 2 * size_t{slot};

@@ -1,5 +1,5 @@
-// Groups of rays of one key against groups that the host finds by comparing every two rays.
-// Assumes a small division, so that random rays share keys.
+// Groups of rays of one key, compared with groups that the host finds by comparing every two rays.
+// The division must be small, so that random rays share keys.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -22,7 +22,7 @@ std::vector<CachedRay> rays_with_twins(uint32_t seed, size_t count) {
   return rays;
 }
 
-// Without the hashes and cells of the cache: the definition of its key (docs/architecture.md).
+// This follows the definition of the key (docs/architecture.md), without the hashes and cells of the cache.
 bool same_key(const CacheConfig& config, const CachedRay& a, const CachedRay& b) {
   if (a.region != b.region || a.left != b.left) return false;
   if (config.key == "exact") return a.origin == b.origin && a.direction == b.direction;
@@ -39,7 +39,7 @@ bool may_share(const CacheConfig& config, const CachedRay& ray) {
   return config.key == "exact" || config.scope == "all" || ray.left == WT_NONE || ray.surface < static_surfaces;
 }
 
-// The first ray of its group that each ray follows, WT_NONE where it is the first, alone or not missed.
+// Returns the first ray of the group that each ray follows, WT_NONE if it is the first, alone or not missed.
 std::vector<uint32_t> brute_force(const CacheConfig& config, std::span<const CachedRay> rays,
                                   const std::vector<bool>& missed) {
   std::vector<uint32_t> follows(rays.size(), WT_NONE);
@@ -68,7 +68,7 @@ std::vector<bool> marked(const gpu::Buffer<float>& marks, size_t count) {
   return out;
 }
 
-// One queue through elect() and share().
+// Runs one queue through elect() and share().
 struct Grouped {
   std::vector<uint32_t> follows;
   std::vector<bool> traced, missed, refused;  // after elect(); after share()
@@ -77,7 +77,7 @@ struct Grouped {
   std::vector<uint32_t> receivers, entries;
 };
 
-// hits[i]: what a trace of ray i would give. surfaces: of the scene.
+// hits[i]: the result of tracing ray i. surfaces: of the scene.
 Grouped run_groups(const CacheConfig& config, std::span<const CachedRay> rays, const std::vector<bool>& missed,
                    std::span<const Hit> hits, std::vector<wt_surface> surfaces = {}) {
   CacheTable table = make_cache_table(context(), config, 3, 1000, 1000);
@@ -172,7 +172,7 @@ TEST_CASE("cache_groups: every ray of a group takes the hit of the one that was 
 }
 
 TEST_CASE("cache_groups: with hit_point own a ray meets the plane itself, and is traced where it misses the surface") {
-  // All rays of one cell go down; the first meets the surface 0 at (0, 0, 0), which reaches 1 m from there.
+  // All rays of one cell go down; the first meets surface 0 at (0, 0, 0), which reaches 1 m from there.
   std::vector<CachedRay> rays;
   std::vector<Hit> hits;
   for (const float x : {0.0f, 0.5f, 3.0f, -0.75f}) {

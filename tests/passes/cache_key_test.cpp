@@ -1,5 +1,5 @@
 // Key, hashes and mapping of the ray cache (include/wavetracer/device/cache.h) against 128-bit arithmetic and loops
-// over bits, and what the thesis' own (thesis_cache.hpp) does in their place.
+// over bits, and the thesis' own versions (thesis_cache.hpp).
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -113,7 +113,8 @@ TEST_CASE("the mapping is a multiply-high: it reaches every bucket, in order and
     wrong += wt_cache_bucket(hash, buckets) != static_cast<uint32_t>(uint128{hash} * buckets >> 64);
   }
   CHECK(wrong == 0);
-  // The first hash of bucket b is the least that is b / buckets of 2^64; the one before is of the bucket before.
+  // The first hash of bucket b is the smallest that is at least b / buckets of 2^64; the one before belongs to the
+  // bucket before.
   for (uint32_t buckets = 1; buckets <= 5000; ++buckets)
     for (uint32_t b = 1; b < buckets; ++b) {
       const auto first = static_cast<uint64_t>(((uint128{b} << 64) + buckets - 1) / buckets);

@@ -1,6 +1,6 @@
-// cache_lookup and cache_store on every kind of table: rays of a room against a model on the host, keys, and hits.
-// Of rays that meet under a lock of the open table one is turned away: which of them, and so which key is kept, is the
-// device's choice; that every slot that is wanted gets one of them is not.
+// cache_lookup and cache_store on every kind of table: rays of a room against a model on the host, keys, and hits. If
+// rays meet under a lock of the open table, one of them is refused. The device decides which one, and so which key is
+// kept, but every wanted slot must get one of them.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -36,7 +36,7 @@ std::vector<Hit> traced(const DeviceScene& scene, const std::vector<CachedRay>& 
 using Key = std::tuple<uint32_t, uint32_t, uint64_t>;
 Key key_of(const CacheConfig& config, const CachedRay& ray) { return {ray.region, ray.left, cells_of(config, ray)}; }
 
-// Only the first ray of each key.
+// Keeps only the first ray of each key.
 std::vector<CachedRay> distinct(const CacheConfig& config, const std::vector<CachedRay>& rays) {
   std::map<Key, CachedRay> first;
   for (const CachedRay& ray : rays) first.try_emplace(key_of(config, ray), ray);
@@ -45,7 +45,7 @@ std::vector<CachedRay> distinct(const CacheConfig& config, const std::vector<Cac
   return out;
 }
 
-// Rays of as many keys as there are, put into an empty table of this kind. Returns how many keys are in it.
+// Puts rays of distinct keys into an empty table of this kind. Returns how many keys are in it.
 size_t check_stored(Cache& cache, std::span<const CachedRay> rays) {
   const wt_cache_counters counts = cache.counters();
   CHECK(counts.stored + counts.dropped == rays.size());
@@ -64,7 +64,7 @@ size_t check_stored(Cache& cache, std::span<const CachedRay> rays) {
   return kept;
 }
 
-// The same rays ask: of the open table those that share a slot may turn each other away.
+// The same rays ask: in the open table, those that share a slot may refuse each other.
 void check_answered(Cache& cache, const Answers& answers, size_t kept) {
   const wt_cache_counters counts = cache.counters();
   CHECK(answers.count() <= kept);
@@ -126,7 +126,7 @@ TEST_CASE("what was stored answers rays of its key, at their own points, and not
         wrong += answers.hits[i].surface != stored.surface || answers.hits[i].primitive != stored.primitive;
         wrong += std::abs(answers.hits[i].t - t) > 1e-5 * (1 + t);
       } else {
-        wrong += kind != "open";  // of which another key may have the slot
+        wrong += kind != "open";  // another key may have the slot
       }
       const Ray& after = answers.rays[i];
       wrong += after.origin != others[i].origin || after.direction != others[i].direction;
@@ -176,7 +176,7 @@ TEST_CASE("two rays that leave one wall in one direction share a result with a q
       CHECK(shared.found[0] == (key == "quantised"));
       if (key == "quantised") {
         CHECK(shared.hits[0] == of_first);
-        CHECK(shared.rays[0].origin == first.origin);  // hit_point = "cached": it goes on as the other ray
+        CHECK(shared.rays[0].origin == first.origin);  // hit_point = "cached": it continues as the other ray
       } else if (kind != "open") {
         cache.put(std::span(&second, 1), std::span(&of_second, 1));
         CHECK(cache.find(std::span(&second, 1)).hits[0] == of_second);

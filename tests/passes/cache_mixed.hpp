@@ -1,5 +1,6 @@
-// Mixed operations on a table of the ray cache, all at once, and what is in it afterwards beside a model that runs in
-// sequence: for tests and bench_cache. Whatever the order of the operations was, every count of MixedFaults is 0.
+// Mixed operations on a table of the ray cache, all at once, and the content of the table afterwards, compared with a
+// model that runs in sequence: for tests and bench_cache. For every order of the operations, each count of
+// MixedFaults is 0.
 #pragma once
 #include <algorithm>
 
@@ -15,7 +16,7 @@ inline uint64_t split_mix(uint64_t i) {
   return x ^ (x >> 31);
 }
 
-// The same operations in sequence: how many are puts, and of which keys.
+// The same operations in sequence: the number of puts, and their keys.
 struct SequentialModel {
   uint64_t puts = 0;
   std::vector<bool> was_put;
@@ -31,12 +32,12 @@ struct SequentialModel {
   }
 };
 
-// What no order of the operations leaves.
+// Counts states that no order of the operations can leave.
 struct MixedFaults {
   size_t wrong_answers = 0;  // torn, of another key, or of a frame in which it was not written
-  size_t never_put = 0;      // keys that are in the table all the same
-  size_t lost = 0;           // keys whose put returned a place where they are not
-  size_t miscounted = 0;     // operations and entries, by the counters and otherwise
+  size_t never_put = 0;      // keys that are in the table although nobody put them
+  size_t lost = 0;           // keys whose put returned a place where they are missing
+  size_t miscounted = 0;     // mismatches of counters and contents
   size_t all() const { return wrong_answers + never_put + lost + miscounted; }
 };
 
@@ -46,8 +47,8 @@ struct MixedReport {
   double seconds = 0;
 };
 
-// Over keys of which `load` times the table's entries may be stored. Quantised keys go by precision: an entry of
-// another frame does not stand, see probe_cache.cl.
+// Uses keys of which `load` times the table's entries may be stored. Quantised keys are purged by precision: an entry
+// of another frame is not valid, see probe_cache.cl.
 inline MixedReport run_mixed(gpu::Context& context, const TableKind& kind, uint64_t operations, uint64_t entries,
                              double load) {
   CacheConfig config = kind.config(entries);
@@ -77,11 +78,11 @@ inline MixedReport run_mixed(gpu::Context& context, const TableKind& kind, uint6
     count += found[key] != WT_NONE;
     faults.never_put += found[key] != WT_NONE && !model.was_put[key];
     if (outcome.slots[key] == WT_NONE) continue;
-    // Of an open table others may have taken the slot since; never does it become empty.
+    // In an open table others may have taken the slot since, but it never becomes empty.
     faults.lost += kind.kind == "open" ? table[outcome.slots[key]].version == 0 : found[key] != outcome.slots[key];
   }
-  if (kind.kind != "open") agree(count == kept);  // more were kept than are found where a key is there twice
-  if (kind.kind != "chained") {                   // whose pool also has entries that no tree took
+  if (kind.kind != "open") agree(count == kept);  // more are kept than found if a key is there twice
+  if (kind.kind != "chained") {                   // its pool also has entries that no tree took
     std::vector<bool> there(universe);
     size_t written = 0, keys = 0;
     for (const wt_cache_entry& entry : table) {

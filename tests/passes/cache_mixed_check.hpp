@@ -1,5 +1,5 @@
-// Mixed operations as a test: see cache_mixed.hpp.
-// Assumes on_device.hpp's context.
+// Runs mixed operations as a test, see cache_mixed.hpp.
+// It uses the context of on_device.hpp.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 
 namespace wavetracer::test {
 
-// crowded: all work-items want a few keys. On a GPU thousands of them meet at each, and hardly any gets through.
+// crowded: all work-items use a few keys. On a GPU thousands of them meet at each, and hardly any succeeds.
 inline void check_mixed(const TableKind& kind, uint64_t operations, uint64_t entries, double load,
                         bool crowded = false) {
   CAPTURE(kind.name());

@@ -1,5 +1,5 @@
 // The open-addressed table under locks: mixed operations, wear, purging by position and by precision, and the two
-// faults of the thesis' listing C.3, which is run beside it as printed. Small enough for Oclgrind.
+// faults of the thesis' listing C.3, which runs as printed for comparison. It is small enough for Oclgrind.
 #include "passes/cache_mixed_check.hpp"
 
 using namespace wavetracer;
@@ -17,7 +17,7 @@ Ray ray_at(float degrees) {
   return {{0, 0, 0}, {static_cast<float>(std::cos(radians)), static_cast<float>(std::sin(radians)), 0}, 3};
 }
 
-// Rays of one primitive that want one slot of the table.
+// Returns two rays of one primitive that need one slot of the table.
 std::pair<Ray, Ray> rays_of_one_slot(const CacheTable& table, uint32_t left) {
   const auto slot = [&](const Ray& ray) {
     const uint64_t cells =
@@ -33,7 +33,7 @@ std::pair<Ray, Ray> rays_of_one_slot(const CacheTable& table, uint32_t left) {
   return {};
 }
 
-// The listing's table. Two nodes: the mapping reaches the first alone, so all keys meet there.
+// The listing's table with two nodes: the mapping reaches only the first, so all keys meet there.
 class ThesisTable {
  public:
   bool put(uint64_t cells, uint32_t left) {
@@ -41,7 +41,7 @@ class ThesisTable {
     kernel("thesis_put")({1, 1}, "probe", nodes_, word(cells), word(left), 1u, stamp, taken);
     return taken.read_one(0) != 0;
   }
-  // The primitive that thesis_put stores under a key.
+  // Returns the primitive that thesis_put stores under a key.
   static uint32_t stored(uint64_t cells, uint32_t left) { return static_cast<uint32_t>(cells ^ cells >> 32) + left; }
   uint32_t find(uint64_t cells, uint32_t left) {
     auto t = context().buffer<float>(1, "t");
@@ -117,7 +117,8 @@ TEST_CASE("open cache: entries of before a region's frame are stale, and replace
   CHECK(probe.find(ray, 5, 4) == 41);
 }
 
-// Section 3.2.3: what lies in the slot answers rays of other cells too, as far as the residual allows, and no further.
+// Section 3.2.3: the content of the slot answers rays of other cells too, as far as the residual allows, and no
+// further.
 TEST_CASE("open cache: precision purging goes by the residual") {
   CacheConfig config = open_config("readers", 16);
   config.purge = "precision";
@@ -140,7 +141,7 @@ TEST_CASE("open cache: precision purging goes by the residual") {
   CHECK(probe.find(far, 5, 0) == 41);
 }
 
-// Fault 8: getFromCache compares neither key nor hash, so whoever asks a slot gets what is in it.
+// Fault 8: getFromCache compares neither key nor hash, so every ray that asks a slot gets its content.
 TEST_CASE("open cache: another key's entry is no answer, as it is by the thesis' listing") {
   ThesisTable thesis;
   const uint64_t a_cells = device::wt_cache_cells(1, 0, 0, 200000), b_cells = device::wt_cache_cells(0, 1, 0, 200000);
@@ -155,7 +156,7 @@ TEST_CASE("open cache: another key's entry is no answer, as it is by the thesis'
   CHECK(probe.find(a, 5, 0) == 40);
 }
 
-// Fault 9: the write lock stays taken until readers_number reads, so a slot that nobody asks for again is dead.
+// Fault 9: the write lock stays taken until readers_number reads, so a slot that is not asked again is lost.
 TEST_CASE("open cache: a written slot takes another key at once, as it does not by the thesis' listing") {
   ThesisTable thesis;
   const uint64_t a_cells = device::wt_cache_cells(1, 0, 0, 200000), b_cells = device::wt_cache_cells(0, 1, 0, 200000);

@@ -1,5 +1,6 @@
 // The thesis' tables on the device (cache.kind = "thesis", "thesis-chained") against its listings on the host, one
-// operation at a time: they answer, refuse and err alike. Then the faults that tell them from ours.
+// operation at a time: they give the same answers, refusals and errors. Then come the faults that distinguish them from
+// ours.
 #include <doctest/doctest.h>
 
 #include <unordered_map>
@@ -37,7 +38,7 @@ thesis::CacheKey listing_key(const CacheConfig& config, const CachedRay& ray) {
           static_cast<int>(config.division)};
 }
 
-// Of few keys, each again and again, so that operations meet.
+// There are few keys, each used again and again, so that operations meet.
 std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   Random random(seed);
   const std::vector<CachedRay> keys = random_rays(seed, 30);
@@ -46,7 +47,7 @@ std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   return rays;
 }
 
-// Near where the ray starts, so that by precision some answer.
+// The hit is near the start of the ray, so that some answer by precision.
 Hit near_hit(uint32_t i) { return {0.1f * static_cast<float>(i % 7), 0, i}; }
 
 thesis::Point point(const Float3& p) { return {p[0], p[1], p[2]}; }
@@ -76,7 +77,7 @@ TEST_CASE("printed tables: hashes and buckets are those of the listings") {
       }
     }
   }
-  CHECK(wt_thesis_bucket(0x7FFFFFFF, 0xFFFFFFF0u) < 0xFFFFFFF0u);  // where float rounds up
+  CHECK(wt_thesis_bucket(0x7FFFFFFF, 0xFFFFFFF0u) < 0xFFFFFFF0u);  // float rounds up here
 }
 
 TEST_CASE("thesis: the open table answers as listing C.3, by position and by precision") {
@@ -115,7 +116,7 @@ TEST_CASE("thesis: the open table answers as listing C.3, by position and by pre
       others += !(listing_key(config, rays[*expected]) == key);
     }
     CHECK(answered > 20);
-    CHECK(refused > 20);  // slots whose write lock nobody opens
+    CHECK(refused > 20);  // slots whose write lock is never opened
     CHECK(others > 5);    // the fault: answers of other keys
   }
 }

@@ -1,5 +1,5 @@
 // A table of the ray cache with the kernels of probe_cache.cl, for tests and bench_cache.
-// Keys are numbers; what is stored under one follows from it, so that kernels see for themselves whether it is right.
+// Keys are numbers; the value stored under a key follows from it, so that kernels can check it themselves.
 #pragma once
 #include <array>
 #include <string>
@@ -59,8 +59,8 @@ class CacheProbe {
 
   struct Outcome {
     uint32_t puts, finds, hits, wrong;
-    std::vector<uint32_t> slots;  // a key: what a put of it returned, or WT_NONE
-    double seconds;               // of the kernel, by the device's clock
+    std::vector<uint32_t> slots;  // for each key: result of its put, or WT_NONE
+    double seconds;               // time of the kernel, by the device's clock
   };
   Outcome mixed(uint64_t operations, uint32_t universe) {
     auto slots = no_slots(universe);
@@ -73,14 +73,14 @@ class CacheProbe {
   }
 
   static constexpr uint32_t wrong_answer = WT_NONE - 1;
-  // Of keys 0 .. universe - 1: where each is found, WT_NONE, or wrong_answer.
+  // Returns for the keys 0 .. universe - 1 where each is found, WT_NONE, or wrong_answer.
   std::vector<uint32_t> find_keys(uint32_t universe) {
     auto slots = no_slots(universe);
     run("find_keys", universe, region_count_, table.widths, universe, slots);
     return slots.read();
   }
 
-  // What the puts returned.
+  // Returns the results of the puts.
   std::vector<uint32_t> put_keys(uint32_t first, uint32_t count, uint32_t now) {
     auto slots = no_slots(first + count);
     run("put_keys", count, region_count_, table.widths, first, count, now, slots);
@@ -91,7 +91,7 @@ class CacheProbe {
     run("remove_slots", slots.size(), context_.buffer(slots, "removed slots"), static_cast<uint32_t>(slots.size()));
   }
 
-  // One labelled ray, by itself: the hit's primitive that it is given, and what it is answered (WT_NONE: nothing).
+  // Puts or finds one labelled ray by itself: the primitive of its hit goes in or comes out (WT_NONE: nothing).
   uint32_t put(const Ray& ray, uint32_t left, uint32_t now, uint32_t primitive) {
     auto slot = no_slots(1);
     const RayQueue queue = labelled(ray, left);
@@ -106,7 +106,7 @@ class CacheProbe {
     return primitive.read_one(0);
   }
 
-  // Entries of before this frame are stale.
+  // Entries written before this frame become stale.
   void set_since(uint32_t since) {
     for (wt_cache_region& region : table.regions) region.since = since;
     table.device_regions.write(table.regions);

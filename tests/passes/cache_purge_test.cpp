@@ -1,5 +1,5 @@
-// What may answer, and what is removed, on every kind of table: position, precision, receivers and instances that move,
-// and cache_purge by age. Assumes hits that are given, not traced.
+// The entries that may answer, and those that are removed, on every kind of table: position, precision, receivers and
+// instances that move, and cache_purge by age. Hits are given, not traced.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -43,7 +43,7 @@ TEST_CASE("precision: an entry answers while origin and direction are within the
     const CachedRay ray{{1, 2, 3}, {0.6f, 0.8f, 0}, 3, 7, 0};
     const Hit hit{4, 5, 6};
     cache.put(std::span(&ray, 1), std::span(&hit, 1));
-    cache.set_since(0, 9);  // is of no matter here
+    cache.set_since(0, 9);  // does not matter here
     cache.counters();
     std::vector<CachedRay> near(3, ray);
     near[0].origin = {1.03f, 1.97f, 3.03f};  // 0.09
@@ -57,7 +57,7 @@ TEST_CASE("precision: an entry answers while origin and direction are within the
 }
 
 TEST_CASE("scope all: a receiver must be within its radius of the cached segment, by the distance in space") {
-  // Segments of 10 m along x, each with a receiver at its middle when it was stored.
+  // Segments of 10 m run along x, each with a receiver at its middle when it was stored.
   const std::vector<Float3> now{{5, 0, 0},  {5, 0.99f, 0}, {5, 5, 0},  {5, 0.9f, 0.9f}, {9.5f, 0, 0},
                                 {12, 0, 0}, {-0.9f, 0, 0}, {5, 0, -3}, {-2, 0, 0},      {5, 0.7f, 0.7f}};
   const std::vector<bool> within{true, true, false, false, true, false, true, false, false, true};
@@ -83,7 +83,7 @@ TEST_CASE("scope all: a receiver must be within its radius of the cached segment
     CHECK(answers.found == within);
     CHECK(cache.counters().stale == 5);
     for (uint32_t i = 0; i < now.size(); ++i) CHECK(answers.receptions[i] == (within[i] ? i : WT_NONE));
-    // Purged for good: also where the receiver comes back; and traced anew they take their place.
+    // They are purged for good, even if the receiver comes back; traced again, they take their place.
     for (size_t i = 0; i < now.size(); ++i) centres[4 * i + 1] = centres[4 * i + 2] = 0;
     cache.movement.receivers.write(centres);
     CHECK(cache.find(rays).found == within);
@@ -91,7 +91,7 @@ TEST_CASE("scope all: a receiver must be within its radius of the cached segment
     const wt_cache_counters counts = cache.counters();
     CHECK(counts.replaced == 5);
     CHECK(counts.duplicates == 5);
-    CHECK(cache.find(rays).count() == rays.size());  // those five met no receiver
+    CHECK(cache.find(rays).count() == rays.size());  // those five had no receiver
   }
   // The thesis keeps the third, whose x agrees, by algorithm 4, and the fourth, in the corner of the cube, by C.3.
   const thesis::Point point{5, 0, 0};
@@ -129,7 +129,7 @@ TEST_CASE("entries that answer are touched where that is asked for, and purge go
     CAPTURE(kind);
     CacheConfig config = small_cache(kind);
     config.hit_point = "cached";
-    config.division = 100000;  // each ray a key
+    config.division = 100000;  // each ray has its own key
     Cache cache(config, 2);
     const std::vector<CachedRay> rays = random_rays(5, 400, 2);
     cache.put(rays, std::vector<Hit>(rays.size(), {1, 1, 1}));
@@ -149,7 +149,7 @@ TEST_CASE("entries that answer are touched where that is asked for, and purge go
     cache.counters();
     cache.purge(4);
     CHECK(cache.counters().evicted == kept - touched.size());
-    CHECK(cache.find(touched).count() == touched.size());  // which share no slot
+    CHECK(cache.find(touched).count() == touched.size());  // they share no slot
     CHECK(cache.find(std::span(rays).subspan(200)).count() == 0);
     cache.put(rays, std::vector<Hit>(rays.size(), {2, 2, 2}));
     if (kind == "concurrent") CHECK(cache.find(rays).count() == rays.size());
@@ -163,7 +163,7 @@ TEST_CASE("cache_purge clears a chained region when more than half of it is old"
   cache.now = 2;
   cache.put(late, hits_of(100));
   cache.touch = true;
-  std::vector<CachedRay> touched;  // of region 0, 100 of 150
+  std::vector<CachedRay> touched;  // 100 of 150 rays in region 0
   for (uint32_t i = 0; i < 200; i += 2) touched.push_back(early[i]);
   CHECK(cache.find(touched).count() == 100);
   cache.touch = false;

@@ -1,5 +1,5 @@
-// The thesis' chained table (thesis_cache.hpp) beside ours in the situations that it gets wrong.
-// Assumes that faults of the listing are shown where they are certain to happen.
+// The thesis' chained table (thesis_cache.hpp) and ours in the situations that it gets wrong.
+// Faults of the listing are shown where they are certain to happen.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ using namespace wavetracer::device;
 using namespace wavetracer::test;
 
 TEST_CASE("keys of equal hash are told apart; the thesis takes one for the other") {
-  // By a birthday search in each hash: 32 bits, 300,000 keys, 10 pairs expected.
+  // The pairs come from a birthday search in each hash: 32 bits, 300,000 keys, 10 pairs expected.
   Random random(31);
   std::unordered_map<uint32_t, CachedRay> ours, theirs[2];
   std::vector<std::array<CachedRay, 2>> our_pairs, their_pairs[2];
@@ -79,7 +79,7 @@ TEST_CASE("entries of a path are linked below the root as well; the thesis retur
   }
   CHECK(unlinked == 0);
   CHECK(Forest(cache.table).nodes == 3 * paths);
-  // Look-ups along the path follow the links, and count.
+  // Look-ups along the path follow the links and are counted.
   cache.counters();
   std::vector<uint32_t> before(paths, WT_NONE);
   for (uint32_t depth = 0; depth < 3; ++depth) {
@@ -104,5 +104,5 @@ TEST_CASE("entries of a path are linked below the root as well; the thesis retur
     }
   }
   for (const thesis::ChainedTable::Node& node : table.nodes) linked += node.queue != -1;
-  CHECK(linked == 0);  // the fault: 20 links are wanted
+  CHECK(linked == 0);  // the fault: there should be 20 links
 }

@@ -1,5 +1,5 @@
 // A ray cache on the device for tests: labelled rays as plain records, put into it and looked up by its own passes.
-// What is put is given, not traced: any hit for any ray.
+// Stored hits are given, not traced: any hit for any ray.
 #pragma once
 #include <numeric>
 #include <set>
@@ -43,7 +43,7 @@ inline std::vector<CachedRay> random_rays(uint32_t seed, size_t count, uint32_t 
   return rays;
 }
 
-// Hits that say whose they are.
+// Hits identify their ray.
 inline Hit hit_of(uint32_t key, uint32_t copy = 0) { return {1.0f + static_cast<float>(key), copy, key}; }
 
 inline std::vector<Hit> hits_of(size_t count) {
@@ -57,7 +57,7 @@ inline uint64_t cells_of(const CacheConfig& config, const CachedRay& ray) {
   return device::wt_cache_cells(ray.direction[0], ray.direction[1], ray.direction[2], division);
 }
 
-// The one slot of an open table that a ray may lie in.
+// Returns the only slot of an open table that a ray may lie in.
 inline uint32_t open_slot(const CacheTable& table, const CachedRay& ray) {
   const device::wt_cache_region& region = table.regions[ray.region];
   const uint64_t hash =
@@ -113,8 +113,8 @@ inline std::vector<uint32_t> entries_of(const RayQueue& queue) {
 
 struct Answers {
   std::vector<bool> found;
-  std::vector<Hit> hits;  // default where not found
-  std::vector<Ray> rays;  // afterwards
+  std::vector<Hit> hits;  // default if not found
+  std::vector<Ray> rays;  // rays after the operation
   std::vector<uint32_t> entries, receptions;
   size_t count() const { return static_cast<size_t>(std::count(found.begin(), found.end(), true)); }
 };
@@ -136,7 +136,7 @@ class Cache {
     scene.exact_surfaces = context().buffer<wt_exact_surface>(1, "exact surfaces");
   }
 
-  // Returns what the plane WT_RAY_ENTRY then holds; hits and receptions one per ray.
+  // Returns the resulting plane WT_RAY_ENTRY; hits and receptions: one per ray.
   std::vector<uint32_t> put(std::span<const CachedRay> rays, std::span<const Hit> hits,
                             std::vector<uint32_t> receptions = {}) {
     RayQueue queue = upload(rays);
@@ -169,7 +169,7 @@ class Cache {
     return out;
   }
 
-  // Each ray in a launch of its own, so that none meets another under a lock.
+  // Each ray has its own launch, so that none meets another under a lock.
   std::vector<bool> find_one_by_one(std::span<const CachedRay> rays) {
     std::vector<bool> found;
     for (size_t i = 0; i < rays.size(); ++i) found.push_back(find(rays.subspan(i, 1)).found[0]);
@@ -177,13 +177,13 @@ class Cache {
   }
 
   void purge(uint32_t keep_from) { purge_(context(), table, keep_from); }
-  // The counts since the last call.
+  // Returns the counts since the last call.
   device::wt_cache_counters counters() {
     const device::wt_cache_counters counts = table.counters.read_one(0);
     table.counters.write(std::vector<device::wt_cache_counters>(1));
     return counts;
   }
-  // Of the transmitter's position key.
+  // Sets the transmitter's position key.
   void set_stamp(uint32_t region, uint32_t stamp) {
     table.regions[region].stamp = stamp;
     table.device_regions.write(table.regions);

@@ -1,5 +1,5 @@
-// candidates: the rejection by boxes never loses what the image method in double accepts, and loses most of the rest.
-// Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
+// candidates: the rejection by boxes never rejects a pair that the image method in double accepts, and rejects most
+// others. Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
 #include "passes/candidates.hpp"
 
 #include <doctest/doctest.h>
@@ -88,7 +88,7 @@ TEST_CASE("receivers in groups: every one once, in groups of 16 that are halves 
     std::vector<float> positions;
     for (size_t i = 0; i < 3 * count; ++i) positions.push_back(static_cast<float>(random.between(-100, 100)));
     std::vector<uint32_t> order = grouped(positions);
-    double sizes = 0;  // of the groups' boxes
+    double sizes = 0;  // sum of the sizes of the groups' boxes
     for (size_t first = 0; first + 16 <= count; first += 16)
       for (size_t axis = 0; axis < 2; ++axis) {
         float lower = 100, upper = -100;
@@ -98,7 +98,7 @@ TEST_CASE("receivers in groups: every one once, in groups of 16 that are halves 
         }
         sizes += upper - lower;
       }
-    if (count == 1000) CHECK(sizes / 2 / 62 < 80);  // of a cube of 200 m; its 63rd part is a cube of 50 m
+    if (count == 1000) CHECK(sizes / 2 / 62 < 80);  // the points fill a cube of 200 m; its 63rd part is a cube of 50 m
     std::ranges::sort(order);
     for (uint32_t i = 0; i < count; ++i) CHECK(order[i] == i);
   }
@@ -133,7 +133,7 @@ TEST_CASE("what listeners see is no candidate, nor is a longer sequence than ask
   for (const glm::dvec3& p : receivers) rx.push_back({.position_m = p});
   for (uint32_t t = 0; t < 2; ++t)
     for (uint32_t r = 0; r < 25; ++r) links.push_back({t, r});
-  // Ends 2 and 3 are receivers 4 and 1; the trie holds what they see beside what the transmitters do.
+  // Ends 2 and 3 are receivers 4 and 1; the trie contains what they see and what the transmitters see.
   const RadioEnds ends = make_radio_ends(context(), tx, rx, links, {4, 1});
   using Found = std::set<std::pair<Sequence, uint32_t>>;
   const auto listed = [&](uint32_t origins, uint32_t max_reflections) {

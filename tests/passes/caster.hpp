@@ -1,5 +1,5 @@
 // The slow oracle of trace: every triangle against every ray, in double, with no acceleration of any kind.
-// It judges answers instead of giving them: float32 rounding decides which of two triangles an edge belongs to.
+// It checks answers instead of computing them: float32 rounding decides which of two triangles an edge belongs to.
 #pragma once
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,8 +11,8 @@
 
 namespace wavetracer::test {
 
-// Where the line of a ray meets a triangle's plane, and how far it passes inside the triangle: the least distance from
-// the lines of the edges, negative outside, in metres. not_a_number where the ray lies in the plane.
+// The point where the line of a ray meets a triangle's plane, and how far it passes inside the triangle: the least
+// distance from the lines of the edges, negative outside, in metres. It is not_a_number if the ray lies in the plane.
 struct Meeting {
   double t, inside_m, t_error;
 };
@@ -33,11 +33,12 @@ inline Meeting meet(const AccelTriangle& triangle, const Ray& ray, double positi
     const double distance = glm::dot(across, o - v[i]) / length;
     inside_m = std::min(inside_m, along < 0 ? distance : -distance);
   }
-  // An error of position moves the crossing along the ray by that over the cosine.
+  // An error of position moves the crossing along the ray by that error divided by the cosine.
   return {glm::dot(normal, v[0] - o) / along, inside_m, position_error_m * size / std::abs(along)};
 }
 
-// What is wrong with the hit of a ray, or nothing. position_error_m: what float32 may do to a coordinate.
+// Returns a text about an error in the hit of a ray, or an empty one. position_error_m: the largest float32 error of a
+// coordinate.
 inline std::string fault(std::span<const AccelTriangle> triangles, const Ray& ray, const Hit& hit,
                          double position_error_m) {
   Meeting mine{std::numeric_limits<double>::infinity(), 0, 0};
@@ -46,7 +47,7 @@ inline std::string fault(std::span<const AccelTriangle> triangles, const Ray& ra
     if (triangles[hit.primitive].surface != hit.surface) return "the surface is not the primitive's";
     if (hit.surface == ray.surface) return "it hit the surface that it left";
     mine = meet(triangles[hit.primitive], ray, position_error_m);
-    if (std::isnan(mine.t)) return {};  // in the plane: any answer will do
+    if (std::isnan(mine.t)) return {};  // the ray lies in the plane: any answer is accepted
     if (mine.inside_m < -position_error_m) return "the triangle is passed at " + std::to_string(-mine.inside_m) + " m";
     if (!(hit.t > 0)) return "a hit behind the origin";
     if (std::abs(mine.t - hit.t) > mine.t_error)

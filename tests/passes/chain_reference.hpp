@@ -1,5 +1,5 @@
-// The string over the roofs as a test has it: the profile over a line by all edges, its hull by sorting, and the
-// shortest way over edges by bisection in one place after the other.
+// An independent implementation of the string over the roofs: the profile over a line by all edges, its hull by
+// sorting, and the shortest way over edges by bisection at one place after the other.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ inline std::vector<uint32_t> hull_over(const Scene& scene, const Points& line) {
   return out;
 }
 
-// Each point by bisection between its neighbours, until none moves. Edges are made so long that none is left.
+// Bisects each point between its neighbours until none moves. Edges are extended so that no point leaves them.
 inline Points shortest(const Scene& scene, const std::vector<uint32_t>& wedges, const glm::dvec3& a,
                        const glm::dvec3& b) {
   std::vector<Wedge> lines;
@@ -93,7 +93,7 @@ inline bool on_edge(const Wedge& w, const glm::dvec3& p) {
   return at > 0 && at < w.length_m;
 }
 
-// The edges that the string settles on; no wedges where it does not within eight pulls, or leaves an edge.
+// Returns the edges that the string settles on; no wedges if it does not within eight pulls, or leaves an edge.
 inline Chain expected(const Scene& scene, const glm::dvec3& a, const glm::dvec3& b, uint32_t most) {
   Points line{a, b};
   std::vector<uint32_t> wedges;

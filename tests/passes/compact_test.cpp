@@ -18,11 +18,11 @@ namespace {
 
 constexpr uint32_t untouched = 77;
 
-// One word in `period` lives; period 1: all, 0: none.
+// One word of `period` is live; period 1: all, 0: none.
 void check_compact(Compact& compact, Scan& scan, uint32_t block, size_t first, uint32_t count, uint32_t period) {
   Random random(count + period);
   const uint32_t blocks = (count + block - 1) / block;
-  std::vector<float> words(first + count + 5, 1.0f);  // what lies on both sides lives, but not here
+  std::vector<float> words(first + count + 5, 1.0f);  // values on both sides would be live, but are not read
   std::vector<uint32_t> expected_counts(blocks + 3, untouched), expected_indices;
   for (uint32_t b = 0; b < blocks; ++b) expected_counts[b] = 0;
   for (uint32_t i = 0; i < count; ++i) {

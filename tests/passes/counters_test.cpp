@@ -1,4 +1,4 @@
-// Counters: lengths that are read, lengths that are foreseen, and when a frame was as foreseen.
+// Counters: lengths that are read, lengths that are foreseen, and the test whether a frame was as foreseen.
 #include "passes/counters.hpp"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ void count_to(Counters& counters, uint32_t candidates, uint32_t solved) {
   counters.restart(&wt_counters::solved, solved, "test");
 }
 
-// A frame with two lists; whether it was as foreseen.
+// Runs a frame with two lists; returns whether it was as foreseen.
 bool settles(Counters& counters, bool foresee, uint32_t candidates, uint32_t solved, size_t capacity = list_room) {
   counters.foresee(foresee);
   counters.zero();
@@ -61,7 +61,7 @@ TEST_CASE("nothing is foreseen before a frame has settled; then lengths are boun
   CHECK(counters.foresees());
   counters.zero();
   CHECK(counters.length(&wt_counters::candidates, list_room, "test") >= 12'500);
-  CHECK(counters.length(&wt_counters::candidates, 11'000, "test") == 11'000);  // no more than there is room for
+  CHECK(counters.length(&wt_counters::candidates, 11'000, "test") == 11'000);  // limited to the room of the list
   CHECK(counters.last().candidates == 10'000);
 }
 
@@ -71,11 +71,11 @@ TEST_CASE("a frame with more than was foreseen does not settle, and the next one
   CHECK(settles(counters, true, 12'000, 1'200));
   CHECK(!settles(counters, true, 12'000, 9'000));  // one list is enough
   CHECK(counters.last().solved == 1'200);
-  // Read, as a frame that did not settle is repeated. What hid paths in its first try hides them at once in the second:
-  // counts may be lower then, and yet the next frame needs the room of the first.
+  // It is read, since a frame that did not settle is repeated. A surface that hides paths during the first try hides
+  // them from the start in the second: counts may be lower then, and yet the next frame needs the room of the first.
   CHECK(settles(counters, false, 12'000, 2'000));
   CHECK(settles(counters, true, 12'000, 9'000));
-  // A list that has no room for all of it does not settle either.
+  // A list that is too small for its content does not settle either.
   CHECK(!settles(counters, true, 12'000, 9'000, 8'500));
 }
 

@@ -40,7 +40,7 @@ TEST_CASE("crowns: a row for every link and every cell") {
       if ((t + 2 * r) % 3 != 0 && !(t == 1 && r < 16)) links.push_back({t, r});
   const RadioEnds ends = make_radio_ends(context(), transmitters, receivers, links);
   Crowns crowns(context(), cells, 40, 2);
-  crowns(ends);  // twice: nothing of the first run may be left
+  crowns(ends);  // it runs twice: nothing of the first run may remain
   const SolvedList& list = crowns(ends);
   REQUIRE(list.count == links.size() * cells.size());
   const auto headers = list.headers.read(0, list.count);

@@ -165,7 +165,7 @@ TEST_CASE("small orders: every cell has one code, and neighbours along a Hilbert
       for (uint64_t code = 0; code < cells; ++code) {
         const Point p = curve.decode(code, level);
         for (const uint32_t component : p) outside += component >> level != 0;
-        // Inverse on all codes, and no cell outside: so a bijection.
+        // The inverse holds for all codes, and no cell is outside: so it is a bijection.
         wrong += curve.encode(p, level) != code;
         jumps += code > 0 && steps_between(p, before) != 1;
         before = p;

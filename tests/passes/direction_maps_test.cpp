@@ -47,7 +47,8 @@ double length(const wt_direction& d) { return std::hypot(double{d.x}, double{d.y
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float tiny = std::numeric_limits<float>::min();
 
-// Where maps break: axes and poles with both zeros, planes between octants, just beside them, and what is no direction.
+// Directions at which maps may fail: axes and poles with both zeros, planes between octants, just beside them, and
+// invalid directions.
 std::vector<wt_direction> hard_directions() {
   std::vector<wt_direction> out;
   for (const float x : {-1.0f, -0.70710678f, -tiny, -0.0f, 0.0f, tiny, 0.70710678f, 1.0f, not_a_number})
@@ -175,7 +176,7 @@ TEST_CASE("cube cells: every bin is used, ends and what lies outside are kept in
       const uint32_t bin = device::wt_cube_cell(component, bins);
       used.insert(bin);
       const double place = (double{component} + 1) / 2 * bins;
-      CHECK(std::abs(place - bin - 0.5) <= 0.5 + 1e-4);  // in its bin, but for rounding at the borders
+      CHECK(std::abs(place - bin - 0.5) <= 0.5 + 1e-4);  // in its bin, except for rounding at the borders
     }
     CHECK(used.size() == bins);
     CHECK(*used.rbegin() == bins - 1);

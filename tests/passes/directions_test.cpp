@@ -1,5 +1,5 @@
 // Maps from launch index to direction: equal solid angles, unit length, and neighbours in index that are neighbours on
-// the sphere. What devices make of them is tested with generate_rays.
+// the sphere. The results of devices are tested with generate_rays.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr Directions all_maps[] = {"horizon", "hilbert", "fibonacci", "random"};
 
-// All directions of a launch of n rays; heights of "horizon" are denser in a narrow and in a wide band.
+// Returns all directions of a launch of n rays; heights of "horizon" are denser in a narrow and in a wide band.
 std::vector<Float3> directions_of(Directions map, uint64_t n) {
   const HeightShare shares[] = {{2, 0.01, false}, {1, 0.1, true}};
   static const std::vector<float> heights = height_table(shares, 0.25);
@@ -35,7 +35,7 @@ std::vector<Float3> directions_of(Directions map, uint64_t n) {
   return out;
 }
 
-// In units of the sphere's area over n rays' shares: z from -1 to 1, then the azimuth in turns.
+// The units are the sphere's area over n rays' shares: z from -1 to 1, then the azimuth in turns.
 std::pair<double, double> cylinder(const Float3& d) {
   const double turn = std::atan2(double{d[1]}, double{d[0]}) / (2 * std::numbers::pi);
   return {(1 - double{d[2]}) / 2, turn < 0 ? turn + 1 : turn};
@@ -79,7 +79,7 @@ TEST_CASE("equal solid angles: chi-square over 192 bins of equal area") {
   // For independent samples the statistic has mean 191 and standard deviation 19.5; its 99.9 % point is 257.
   CHECK(chi_square(directions_of("random", 100000), 12, 16) < 257);
   CHECK(chi_square(directions_of("random", 100000), 12, 16) > 135);  // the 0.1 % point: suspiciously even below
-  // Even maps are far below it: a bin is off by the cells on its border at most.
+  // Even maps are far below it: a bin is wrong by the cells on its border at most.
   for (const uint64_t n : {uint64_t{3072}, uint64_t{100000}, uint64_t{65537}}) {
     CAPTURE(n);
     CHECK(chi_square(directions_of("hilbert", n), 12, 16) < 20);
@@ -115,7 +115,7 @@ TEST_CASE("hilbert and fibonacci: heights are evenly spread, and no two rays are
 
 TEST_CASE("hilbert: consecutive rays are neighbours on the sphere") {
   // Neighbours of a square lattice are sqrt(4 pi / n) apart; offsets inside the cells and their stretch towards the
-  // poles cost about a factor of two, whatever n.
+  // poles cost about a factor of two for every n.
   for (const uint64_t n : {uint64_t{3072}, uint64_t{50000}, uint64_t{200000}}) {
     CAPTURE(n);
     const double lattice = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));

@@ -1,4 +1,4 @@
-// distinct: which solutions are paths, in which order, and what reversal adds: by plain quadratic code, and by hand.
+// distinct: which solutions are paths, their order, the paths that reversal adds; checked by plain quadratic code.
 #include "passes/distinct.hpp"
 
 #include <doctest/doctest.h>
@@ -30,10 +30,10 @@ struct Path {
   bool operator==(const Path&) const = default;
 };
 
-// Ends, and which of them are one: number n for both where `other` says so.
+// Ends, and which of them are one end: both have number n if `other` says so.
 struct Ends {
   std::vector<glm::dvec3> tx, rx;
-  std::vector<uint32_t> receiver_of, transmitter_of;  // WT_NONE: of no one
+  std::vector<uint32_t> receiver_of, transmitter_of;  // WT_NONE: of no end
 };
 
 Ends apart(size_t transmitters, size_t receivers) {
@@ -43,7 +43,7 @@ Ends apart(size_t transmitters, size_t receivers) {
   return ends;
 }
 
-// Transmitter t stands where receiver other[t] does.
+// Transmitter t is at the place of receiver other[t].
 Ends radios(const std::vector<uint32_t>& other) {
   Ends ends = apart(other.size(), other.size());
   ends.receiver_of = other;
@@ -79,7 +79,7 @@ bool same_place(const Path& a, const Path& b) {
   return true;
 }
 
-// What is wanted, by trying every pair of rows.
+// Computes the expected result by trying every pair of rows.
 std::vector<Path> by_plain_code(const Ends& ends, const std::vector<Path>& found, const std::vector<Link>& links) {
   std::vector<std::pair<Path, int>> rows;
   for (const Path& path : found) {
@@ -92,7 +92,7 @@ std::vector<Path> by_plain_code(const Ends& ends, const std::vector<Path>& found
   std::vector<Path> kept;
   for (const auto& row : rows) {
     Path path = row.first;
-    bool stays = !path.points.empty() || length_of(ends, path) > WT_ON_SURFACE_M;  // not from an end to itself
+    bool stays = !path.points.empty() || length_of(ends, path) > WT_ON_SURFACE_M;  // no path from an end to itself
     for (const auto& other : rows) {
       const Path& p = other.first;
       if (&other == &row || p.tx != path.tx || p.rx != path.rx || p.points.size() != path.points.size()) continue;
@@ -143,7 +143,7 @@ std::vector<Link> all_links(const Ends& ends) {
   return links;
 }
 
-// Surfaces that no end is near to.
+// Surfaces that are not near any end.
 DeviceScene far_surfaces() {
   DeviceScene scene;
   wt_exact_surface far{};
@@ -152,7 +152,7 @@ DeviceScene far_surfaces() {
   return scene;
 }
 
-// The rows as the device has them; left_out: of near ends.
+// Returns the rows of the device; left_out: those of near ends.
 std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, const std::vector<Link>& links,
                             const DeviceScene& scene, std::map<Link, uint32_t>* left_out = nullptr) {
   Distinct distinct(context(), ends.receiver_of, ends.transmitter_of);
@@ -269,9 +269,9 @@ TEST_CASE("reversal: what one direction found, the other gets; what both found, 
   CHECK(std::ranges::count(rows, both) == 1);
   CHECK(std::ranges::count(rows, back) == 1);
   CHECK(std::ranges::count(rows, reversed(only_back, 0, 1)) == 1);
-  // Nothing more is to be had from a second time.
+  // A second run adds nothing.
   CHECK((by_device(ends, rows, links, scene) == rows));
-  // Links that are not wanted get no reversed paths, and keep what they have.
+  // Links that are not computed get no reversed paths, and keep their own.
   CHECK(by_device(ends, {there}, {{0, 1}}, scene).size() == 1);
   CHECK(by_device(ends, {there}, links, scene).size() == 2);
 }

@@ -1,5 +1,5 @@
-// Sets of sequences on the device without tracing, and the exact half of a frame (candidates, solve, occlusion).
-// Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
+// Makes sets of sequences on the device without tracing, and runs the exact half of a frame (candidates, solve,
+// occlusion). Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ struct Sequence {
 };
 using SequenceSet = std::set<Sequence>;
 
-// What the trie must hold: every sequence with all its beginnings, the empty one excepted.
+// Returns the required content of the trie: every sequence with all its beginnings, except the empty one.
 inline SequenceSet with_prefixes(const std::vector<Sequence>& sequences) {
   SequenceSet out;
   for (Sequence s : sequences)
@@ -35,8 +35,8 @@ inline SequenceSet with_prefixes(const std::vector<Sequence>& sequences) {
   return out;
 }
 
-// A hit list that says: ray i hit surface surfaces[i], or nothing (WT_NONE). All at distance 1. rays: what it has room
-// for, at least as many as there are surfaces; the planes of a queue and its hits must have one length.
+// Makes a hit list in which ray i hits surface surfaces[i] or nothing (WT_NONE), at distance 1. rays: its capacity, at
+// least the number of surfaces; the planes of a queue and its hits must have one length.
 inline HitList upload_hits(const std::vector<uint32_t>& surfaces, size_t rays) {
   const uint32_t block = tuning_of(context().info()).block;
   HitList hits = make_hit_list(context(), rays);
@@ -52,7 +52,7 @@ inline HitList upload_hits(const std::vector<uint32_t>& surfaces, size_t rays) {
   return hits;
 }
 
-// Rays that live through these sequences once, one ray a sequence. Nothing is done about a full table.
+// Sends rays through these sequences once, one ray per sequence. A full table is not grown.
 inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Sequence> sequences) {
   Scan scan(context());
   Interact interact(context());
@@ -70,13 +70,13 @@ inline void enter_once(Sequences& set, const DeviceScene& scene, std::vector<Seq
   }
 }
 
-// The same, growing the set until all of them are in it: what Discovery does with a batch.
+// Does the same, and grows the set until all of them are in it, as Discovery does with a batch.
 inline void enter(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences,
                   uint32_t max_depth) {
   for (enter_once(set, scene, sequences); set.overflowed(); enter_once(set, scene, sequences)) set.regrow(max_depth);
 }
 
-// Every sequence of the set, nullopt where a chain does not end in one of the roots or a node is listed twice.
+// Returns every sequence of the set, or nothing if a chain does not end in one of the roots or a node is listed twice.
 inline std::optional<SequenceSet> contents(Sequences& set, uint32_t transmitter_count) {
   const uint32_t count = set.collect(transmitter_count);
   const std::vector<uint32_t> nodes = set.nodes().read(0, count);
@@ -108,7 +108,7 @@ struct SolvedPath {
   bool blocked = false;
 };
 
-// Ends that stand still on no vehicle, all of them linked.
+// Returns fixed ends on no vehicle, all of them linked.
 inline RadioEnds standing_ends(const std::vector<glm::dvec3>& transmitters, const std::vector<glm::dvec3>& receivers) {
   std::vector<EndState> tx(transmitters.size()), rx(receivers.size());
   std::vector<Link> links;

@@ -44,7 +44,7 @@ Launcher launcher(uint32_t transmitter, glm::dvec3 position_m, uint32_t source =
   return {transmitter, position_m, source, 1};
 }
 
-// What a ray of this number in its launch begins as.
+// Returns the beginning of the ray with this number in its launch.
 uint32_t numbered(uint32_t root, uint64_t number) {
   return root | static_cast<uint32_t>(number & 3) << WT_QUARTER_SHIFT;
 }
@@ -165,7 +165,7 @@ TEST_CASE("a share of the directions: every stride-th launch index, with the sur
 
 TEST_CASE("launchers that share a launch get the rays that each gets alone") {
   constexpr uint64_t n = 10'000;
-  constexpr uint32_t count = 160;  // of every one
+  constexpr uint32_t count = 160;  // number of rays of each kind
   for (const Directions map : maps)
     for (const uint64_t stride : {uint64_t{1}, uint64_t{13}}) {
       CAPTURE(map);

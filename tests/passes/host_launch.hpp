@@ -1,4 +1,4 @@
-// The rays of a launch as the host computes them, for the tests of what devices make of the same header.
+// The rays of a launch computed on the host, for comparison with devices, which use the same header.
 #pragma once
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 namespace wavetracer::test {
 
 // The numbers that the maps take: the step or the seed, and the cells of hilbert: the fewest faces and levels that hold
-// n rays. Found here again, and not by LaunchDirections, which is under test.
+// n rays. They are computed here again, and not by LaunchDirections, which is under test.
 struct HostLaunch {
   Directions map;
   uint64_t parameter;
@@ -31,7 +31,7 @@ struct HostLaunch {
     function(i, parameter, level, faces, &out.height, &out.turn);
     return out;
   }
-  // heights: tables, of which "horizon" takes the one that begins at number `table`; the others take none.
+  // heights: tables, of which "horizon" uses the one that begins at number `table`; other maps use none.
   device::wt_direction direction(uint64_t i, const float* heights = nullptr, uint32_t table = 0) const {
     const auto [height, turn] = place(i);
     return device::wt_spread(height, turn, map == "horizon", heights, table);

@@ -1,5 +1,5 @@
-// The image method once more, on parallelograms: no triangles, no tolerance. For sequences that a test names.
-// Shares nothing with kernels/solve.cl; legs are not tested.
+// The image method again, on parallelograms, without triangles and tolerances, for sequences that a test names. It
+// shares no code with kernels/solve.cl; legs are not tested.
 #pragma once
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -17,7 +17,7 @@ using reference::Quad;
 
 inline glm::dvec3 normal_of(const Quad& quad) { return glm::normalize(glm::cross(quad.u, quad.v)); }
 
-// The reflection points, or nothing where one lies outside its parallelogram or a leg comes through from behind.
+// Returns the reflection points, or nothing if one lies outside its parallelogram or a leg comes through from behind.
 inline std::optional<std::vector<glm::dvec3>> image_method(const std::vector<Quad>& quads, const glm::dvec3& from,
                                                            const std::vector<uint32_t>& sequence,
                                                            const glm::dvec3& to) {

@@ -1,4 +1,4 @@
-// interact: who goes on, in which order, with which node, from where and to where.
+// interact: which rays continue, their order, nodes, origins and directions.
 // Reflections are compared with the mirror law in double.
 #include "passes/interact.hpp"
 
@@ -43,7 +43,7 @@ struct Step {
     behind = download(transmitted);
     table = set.table().read();
     quarters = set.quarters().read();
-    // A ray without a prefix says so.
+    // A ray without a prefix is marked.
     CHECK(set.overflowed() == std::ranges::any_of(rays, [](const Ray& ray) { return ray.node == WT_NONE; }));
   }
 };
@@ -74,7 +74,7 @@ TEST_CASE("rays that hit go on in their order, mirrored, on the side they came f
       const Ray& after = step.next[j++];
       const Surface& surface = scene.surfaces[step.hits[i].surface];
       wrong += after.surface != step.hits[i].surface;
-      // The node is the pair (what the ray was, what it met).
+      // The node is the pair of the ray's former node and the surface that it hit.
       wrong +=
           after.node >= step.table.size() || step.table[after.node] != ((uint64_t{rays[i].node} << 32) | after.surface);
       const glm::dvec3 d = to_double(rays[i].direction), o = to_double(rays[i].origin);
@@ -147,7 +147,7 @@ TEST_CASE("with transmission rays that hit also go on straight behind the surfac
       rays.back().node = WT_ROOT | (i % 5);
     }
     const Step without(scene, rays), step(scene, rays, false, true), last(scene, rays, true, true);
-    // What is reflected is the same to the last bit; a node is its slot, and who comes to a slot first may differ.
+    // Reflected rays are the same to the last bit; a node is its slot, and which ray comes to a slot first may differ.
     const auto without_nodes = [](std::vector<Ray> of) {
       for (Ray& ray : of) ray.node = 0;
       return of;
@@ -230,7 +230,7 @@ TEST_CASE(
   for (size_t slot = 0; slot < step.table.size(); ++slot)
     if (step.table[slot] != WT_EMPTY) kinds.insert(found[step.table[slot]] = step.quarters[slot]);
   CHECK(found == expected);
-  CHECK(kinds.size() > 5);  // of the 15 there are
+  CHECK(kinds.size() > 5);  // 15 kinds exist
 }
 
 TEST_CASE("what its options need and nobody gives is refused") {
@@ -238,7 +238,7 @@ TEST_CASE("what its options need and nobody gives is refused") {
       make_device_scene(context(), scene_of_triangles(room(Room::ball, 4, 10, {3, -2, 1})), false);
   RayQueue rays = make_ray_queue(context(), 16, "rays"), behind = make_ray_queue(context(), 16, "transmitted rays");
   const HitList hits = make_hit_list(context(), 16);
-  Sequences set(context(), 4096);  // keeps no ages
+  Sequences set(context(), 4096);  // does not keep ages
   CHECK_THROWS_AS(Interact(context(), {.ages = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);
   CHECK_THROWS_AS(Interact(context(), {.samples = true})(scene, rays, hits, 0, set.trie(), {}), std::logic_error);
   CHECK_THROWS_AS(Interact(context(), {})(scene, rays, hits, 0, set.trie(), {.transmitted = &behind}),

@@ -1,4 +1,4 @@
-// Labelled ray queues and made-up hits for the tests of passes that follow rays.
+// Makes labelled ray queues and invented hits for the tests of passes that follow rays.
 // A label is what label_rays and interact write: sample and transmitter.
 #pragma once
 #include <vector>
@@ -10,7 +10,7 @@ namespace wavetracer::test {
 struct LabelledRay {
   Ray ray;
   uint32_t sample = 0, transmitter = 0;
-  Hit hit;  // of its segment
+  Hit hit;  // hit of its segment
 };
 
 inline RayQueue upload_labelled(const std::vector<LabelledRay>& rays) {

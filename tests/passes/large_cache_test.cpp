@@ -1,6 +1,6 @@
 // Millions of operations at once on every table of the ray cache, each answer checked where it is given.
-// 10^8 a table on GPUs; CPUs take as many as WAVETRACER_CACHE_OPERATIONS says, or what a few seconds allow. The small
-// cases are in cache_open_test.cpp, cache_concurrent_test.cpp and cache_chained_test.cpp.
+// GPUs do 10^8 per table; CPUs do WAVETRACER_CACHE_OPERATIONS, or as many as a few seconds allow. The small cases are
+// in cache_open_test.cpp, cache_concurrent_test.cpp and cache_chained_test.cpp.
 #include <array>
 #include <cstdlib>
 

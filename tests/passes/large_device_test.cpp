@@ -1,5 +1,5 @@
-// What takes too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists.
-// The small cases are in the files named after the passes.
+// Cases with too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists. The
+// small cases are in the files named after the passes.
 #include <doctest/doctest.h>
 
 #include "passes/image_method.hpp"
@@ -36,7 +36,7 @@ struct Bounces {
   }
 };
 
-// The same by the naive tracer: mirrored at o + t d, with no care for the side, as first attempts do.
+// The naive tracer does the same: it mirrors at o + t d without regard to the side, as first attempts do.
 uint64_t naive_escapes(const Scene& scene, std::vector<Ray> rays, uint32_t bounces) {
   const NaiveTracer tracer(scene);
   uint64_t escaped = 0;
@@ -93,7 +93,8 @@ TEST_CASE("a million bounces inside closed rooms: no ray leaves, though the naiv
 }
 
 TEST_CASE("more candidates than the list begins with: it grows") {
-  // Two parallel mirrors and receivers between them: every alternating sequence is a candidate for every one.
+  // There are two parallel mirrors with receivers between them: every alternating sequence is a candidate for every
+  // receiver.
   const std::vector<Quad> quads{{{-1e4, 0, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}},
                                 {{-1e4, 5, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}}};
   std::vector<glm::dvec3> receivers;

@@ -1,4 +1,4 @@
-// top_level where it is too large for Oclgrind: a city's worth of instances.
+// top_level with more instances than Oclgrind can handle: those of a city.
 #include <doctest/doctest.h>
 
 #include "passes/traffic.hpp"

@@ -52,7 +52,7 @@ TEST_CASE("a mixture: as many directions up and down, and as many near the horiz
   const HeightShare shares[] = {{1, 0.1, true}, {2, 0.01, false}, {1, 0.2, false}};
   const std::vector<float> table = height_table(shares, 0.25);
   check_falls(table);
-  // Of a side, the share between the horizon and z; and that of the uniform part.
+  // The function returns the share of a side between the horizon and z; the other one that of the uniform part.
   const auto below = [](double z0, double z) { return z / (z0 + (1 - z0) * z); };
   const auto above = [&](double z) {
     return z >= 0 ? 0.25 * (1 - z) / 2 + 0.75 * 0.25 * (1 - below(0.1, z))

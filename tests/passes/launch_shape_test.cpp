@@ -1,5 +1,5 @@
-// Launches of one, two and three dimensions: every ray is taken exactly once, and hits are the same whatever the shape.
-// Groups of a curve's launch hold rays that follow each other, which is what the thesis maps buffers for.
+// Launches of one, two and three dimensions: every ray is taken exactly once, and hits are the same for every shape.
+// Groups of a curve's launch contain consecutive rays, which is the purpose of the thesis' mapped buffers.
 #include "passes/launch_shape.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ std::vector<LaunchShape> all_shapes() {
   return shapes;
 }
 
-// What wt_launch_index computes, on the host.
+// Computes wt_launch_index on the host.
 uint64_t index_of(const LaunchShape& shape, const std::array<size_t, 3>& global, size_t x, size_t y, size_t z) {
   const auto X = static_cast<uint32_t>(x), Y = static_cast<uint32_t>(y), Z = static_cast<uint32_t>(z);
   const auto width = static_cast<uint32_t>(global[0]);

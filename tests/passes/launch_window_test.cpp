@@ -1,5 +1,5 @@
-// Windows of generate_rays: rays of antennas far away go through a part of the sphere alone, as evenly as without it,
-// and start on a sphere around the antenna; the same on the device as on the host.
+// Windows of generate_rays: rays of antennas far away use only a part of the sphere, as evenly as without it, and start
+// on a sphere around the antenna; the same on the device as on the host.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ const glm::dvec3 window_x = glm::normalize(glm::dvec3(1, 1, -std::sqrt(6.0)));
 const glm::dvec3 window_z = glm::normalize(glm::dvec3(0, 0, 1) - window_x.z * window_x);
 const glm::dvec3 window_y = glm::cross(window_z, window_x);
 
-// A table of heights, and the window, which takes the room of two.
+// A table of heights, and the window, which takes the space of two.
 const std::vector<float>& window_tables() {
   static const std::vector<float> tables = [] {
     std::vector<float> out = height_table({}, 1);
@@ -90,7 +90,7 @@ TEST_CASE("windows: device rays are the host's, bit for bit, alone, of several l
       different += c[i] != ray_of(host_ray(launch, order[i]), origin, WT_ROOT | 3, order[i]);
     }
     CHECK(different == 0);
-    // The other launcher of the same launch goes everywhere.
+    // The other launcher of the same launch uses the whole sphere.
     CHECK(std::any_of(b.begin() + 992, b.end(), [](const Ray& ray) { return ray.direction[2] > 0.9f; }));
     CHECK(b[992].origin == Float3{0, 0, 1});
   }

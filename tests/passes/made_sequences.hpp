@@ -1,4 +1,4 @@
-// Made-up sequences for the tests of their set: how long they are, from how many ends, and surfaces to meet.
+// Invented sequences for the tests of their set: their lengths, numbers of ends, and surfaces to meet.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -9,7 +9,7 @@ namespace wavetracer::test {
 
 inline constexpr uint32_t made_transmitters = 3, made_depth = 5;
 
-// Surfaces with these normals, all that interact and commute want to know.
+// Returns surfaces with these normals, which is all that interact and commute need.
 inline DeviceScene scene_of_normals(const std::vector<Float3>& normals) {
   DeviceScene scene;
   scene.cpu = context().info().cpu;

@@ -1,5 +1,5 @@
-// The tracer that a first attempt would write, on the host: what each numerical case of the tests must make fail.
-// Float32 Moeller-Trumbore with the usual epsilon, slabs by one fma, 1 / d as it comes, a short stack, no tie rule.
+// The tracer of a first attempt, on the host: each numerical case of the tests must make it fail. It has float32
+// Moeller-Trumbore with the usual epsilon, slabs by one fma, plain 1 / d, a short stack, and no tie rule.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -21,7 +21,7 @@ void add_quad(std::vector<Corners>& triangles, const glm::dvec3& corner, const g
   triangles.push_back({corner, corner + u + v, corner + v});
 }
 
-// Hits in every shape, which must agree.
+// Returns hits in every shape, which must agree.
 std::vector<Hit> hits_of(const Scene& scene, const std::vector<Ray>& rays, bool spatial_splits = false) {
   const DeviceScene uploaded = make_device_scene(context(), scene, spatial_splits, reach_of(rays));
   const std::vector<Hit> first = trace(uploaded, shapes()[0], rays);
@@ -75,7 +75,8 @@ TEST_CASE("directions with one zero or nearly zero component") {
 }
 
 TEST_CASE("coplanar overlaps: the lowest primitive wins, whatever the tree") {
-  // The same wall many times over, shifted by whole cells: nearly every ray meets several triangles at one distance.
+  // The same wall is repeated many times, shifted by whole cells: nearly every ray meets several triangles at one
+  // distance.
   std::vector<Corners> triangles;
   Random random(8);
   for (int i = 0; i < 40; ++i)
@@ -94,7 +95,7 @@ TEST_CASE("coplanar overlaps: the lowest primitive wins, whatever the tree") {
     for (const AccelTriangle& triangle : flat)
       if (meet(triangle, rays[i], 1e-5).inside_m > 1e-4) lowest = std::min(lowest, triangle.primitive);
     if (lowest == WT_NONE) continue;
-    // A triangle may round to a distance that is one unit shorter; where it does not, the lowest must win.
+    // A triangle may round to a distance that is one unit shorter; if not, the lowest must win.
     if (hits[i].primitive != lowest) {
       CHECK(hits[i].t < meet(flat[lowest], rays[i], 1e-5).t * (1 + 1e-7));
     } else {
@@ -192,8 +193,8 @@ TEST_CASE("grazing rays: a rough floor seen at one part in a hundred thousand") 
 }
 
 TEST_CASE("triangles that shrink a thousandfold and more: a deep tree, and nothing lost") {
-  // Each half as large and half as far as the one before it, so every split parts few from many; seen along the line
-  // on which they are strung, from both ends, and from above.
+  // Each half as large and half as far as the one before it, so every split separates few from many; rays come along
+  // their line, from both ends, and from above.
   std::vector<Corners> triangles;
   for (int i = 0; i < 40; ++i) {
     const double s = std::ldexp(1.0, 12 - i);
@@ -258,7 +259,7 @@ TEST_CASE("five triangles: what fills up a block of four is never hit") {
 }
 
 TEST_CASE("rays whose slabs overflow float32 end, and change nothing for the rays beside them") {
-  // A hundred triangles leave children of nodes unused, whose boxes such rays meet as any other.
+  // A hundred triangles leave children of nodes unused, whose boxes such rays meet like others.
   const Scene scene = scene_of_triangles(random_soup(100, 1, 0.2, 7));
   constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const Ray sane = ray_towards({-3, 0.1, 0.2}, {1, 0.02, -0.05});
@@ -271,7 +272,7 @@ TEST_CASE("rays whose slabs overflow float32 end, and change nothing for the ray
         rays.push_back(ray);
         rays.push_back(sane);
       }
-  // Trees that expect such places, as far as a caller may have asked for them, and trees that do not.
+  // Some trees are built for such places, as far as a caller may ask for them, and some are not.
   for (const double reach_m : {3.0, 1e27}) {
     const DeviceScene uploaded = make_device_scene(context(), scene, false, reach_m);
     for (const TraceShape shape : shapes()) {

@@ -1,5 +1,6 @@
 // occlusion: a surface blocks a leg that crosses it, if the ends lie on opposite sides of its plane and are not on it.
-// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has what touches.
+// Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has the cases of touching
+// surfaces.
 #include "passes/occlusion.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +19,7 @@ bool sees(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3&
   return Exact(reference::scene_of_quads(quads), {a}, {b}, {}, 1).visible() == 1;
 }
 
-// Is there a path with these reflections, and no leg of it obstructed?
+// Tells whether there is a path with these reflections without an obstructed leg.
 bool reflects(const std::vector<Quad>& quads, const glm::dvec3& a, const glm::dvec3& b,
               const std::vector<uint32_t>& surfaces) {
   const Sequence wanted{0, surfaces};
@@ -135,7 +136,7 @@ TEST_CASE("a vertex is on the surfaces that its step names, and on no other surf
   occlusion(uploaded, ends_of(rows), list, counters, nullptr, {&wedges, &tiles});
   std::vector<bool> blocked;
   for (const PathRow& row : download_rows(list)) blocked.push_back(row.blocked);
-  // Behind wall 0 by 10 mm, by 0.05 mm and in its plane. What lies in one plane with a surface of the step, to 0.1 mm,
+  // Behind wall 0 by 10 mm, by 0.05 mm and in its plane. A surface in one plane with a surface of the step, to 0.1 mm,
   // counts as that surface; the faces of edge 1 are parallel to wall 0 here. Tile 2 is a cell of vegetation.
   const std::vector<bool> none{false, false, false}, far{true, false, false}, third{true, true, false};
   std::vector<bool> expected;

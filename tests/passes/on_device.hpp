@@ -1,5 +1,5 @@
-// What the tests of the passes share: one device context a program, rays and hits as plain records, and queues of them.
-// Assumes that each program runs its tests on one thread, on the default device (Oclgrind's, where it runs under it).
+// Helpers of the tests of the passes: one device context per program, rays and hits as plain records, and queues of
+// them. Each program runs its tests on one thread, on the default device (Oclgrind's, if it runs under it).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -32,9 +32,9 @@ struct Hit {
   bool operator==(const Hit&) const = default;
 };
 
-// Kernels are compiled once for all tests of a program. Never destroyed: at exit the driver may be gone before us. It
-// opens devices that the program refuses, so that kernels which need neither double precision nor 64-bit atomics, such
-// as the sorts, are tested there as well; others do not compile there, and their tests fail.
+// Kernels are compiled once for all tests of a program. It is never destroyed: at exit the driver may be gone already.
+// It opens devices that the program refuses, so that kernels which need neither double precision nor 64-bit atomics,
+// such as the sorts, are tested there as well; others do not compile there, and their tests fail.
 inline gpu::Context& context() {
   static gpu::Context& shared = []() -> gpu::Context& {
     auto* const opened = new gpu::Context("", {.fp64 = false, .int64_atomics = false});
@@ -44,7 +44,7 @@ inline gpu::Context& context() {
   return shared;
 }
 
-// How many items a test takes: Oclgrind runs one work-item at a time, a ray in a millisecond.
+// Returns the number of items of a test: Oclgrind runs one work-item at a time, a ray in a millisecond.
 inline uint32_t as_many(uint32_t elsewhere, uint32_t on_oclgrind) {
   return context().info().platform == "Oclgrind" ? on_oclgrind : elsewhere;
 }
@@ -100,7 +100,8 @@ inline std::vector<Hit> download(const HitList& list, size_t count) {
   return hits;
 }
 
-// What make_device_scene must know of rays that start outside the scene: their largest absolute coordinate.
+// Returns the value that make_device_scene needs for rays that start outside the scene: their largest absolute
+// coordinate.
 inline double reach_of(const std::vector<Ray>& rays) {
   double reach = 0;
   for (const Ray& ray : rays)

@@ -1,5 +1,5 @@
-// order_keys and gather_rays: the thesis' histogram (algorithm 1) put right, against its lists; keys of queues and of
-// launches agree; rays are moved, never changed. Faults of the original are tested for by name.
+// order_keys and gather_rays: the corrected histogram of the thesis (algorithm 1), against its lists; keys of queues
+// and of launches agree; rays are moved, never changed. Each fault of the original has a test.
 #include "passes/order_keys.hpp"
 
 #include <doctest/doctest.h>

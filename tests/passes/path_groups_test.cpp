@@ -40,7 +40,7 @@ std::vector<uint32_t> planes() {
   return out;
 }
 
-// What the device has of rows, each of a link of its own.
+// Returns the groups that the device finds of rows, each of which has a link of its own.
 Paths on_device(const std::vector<PathRow>& rows, const std::vector<wt_wedge>& wedges) {
   const auto count = static_cast<uint32_t>(rows.size());
   const std::vector<uint32_t> alone(count, WT_NONE);

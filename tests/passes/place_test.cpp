@@ -29,7 +29,7 @@ TEST_CASE("rays hit instances as they hit the same triangles in one scene") {
         CHECK(fault(triangles, rays[i], hits[i], 2e-5) == "");
         moving += !hits[i].missed() && hits[i].surface >= still;
       }
-      CHECK(moving > 10 * count);  // the test would say nothing otherwise
+      CHECK(moving > 10 * count);  // otherwise the test would prove nothing
     }
   }
 }

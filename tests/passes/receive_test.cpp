@@ -32,7 +32,7 @@ struct Case {
   bool wanted(uint32_t tx, uint32_t rx) const { return std::ranges::binary_search(links, Link{tx, rx}); }
 };
 
-// Random segments, a third of which never end; two of three links wanted.
+// Makes random segments, a third of which never end; two of three links are computed.
 Case random_case(uint32_t ray_count, uint32_t receiver_count, uint32_t seed) {
   Random random(seed);
   Case c;
@@ -54,7 +54,7 @@ struct Nearest {
   double along, apart;
 };
 
-// The textbook's: the foot of the perpendicular, or the end that is nearer.
+// Computes as a textbook does: the foot of the perpendicular, or the nearer end.
 Nearest nearest(const LabelledRay& r, const glm::dvec3& p) {
   const glm::dvec3 o = to_double(r.ray.origin), d = to_double(r.ray.direction);
   const double foot = glm::dot(p - o, d);
@@ -62,9 +62,9 @@ Nearest nearest(const LabelledRay& r, const glm::dvec3& p) {
   return {along, glm::distance(p, o + along * d)};
 }
 
-constexpr double rounding_m = 1e-5;  // of a float32 distance over some 20 m
+constexpr double rounding_m = 1e-5;  // rounding of a float32 distance over some 20 m
 
-// (ray, receiver) of receptions, with a check of everything else that they say.
+// Returns (ray, receiver) of receptions, and checks all their other values.
 std::map<std::pair<uint32_t, uint32_t>, float> pairs_of(const Case& c, const std::vector<wt_reception>& list,
                                                         uint32_t depth) {
   std::map<std::pair<uint32_t, uint32_t>, float> out;

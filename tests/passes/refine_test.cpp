@@ -1,5 +1,5 @@
 // refine: ends counted, rare samples marked and cells split, against plain code; and cells that four finer ones tile.
-// Ends are made up; no ray is traced.
+// Ends are invented; no ray is traced.
 #include "passes/refine.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ struct Samples {
   std::vector<uint32_t> cells, launchers, ends;
 };
 
-// Of two launchers; a third ends in roots, and some sequences end far more samples than others.
+// The samples have two launchers; a third one ends in roots, and some sequences end far more samples than others.
 Samples random_samples(size_t count, uint32_t level, uint32_t seed) {
   Random random(seed);
   Samples out;

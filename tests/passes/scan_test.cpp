@@ -20,7 +20,7 @@ void check_scan(Scan& scan, std::initializer_list<uint32_t> lengths, uint32_t be
   Random random(1);
   for (const uint32_t count : lengths) {
     CAPTURE(count);
-    std::vector<uint32_t> values(count + 3, 7);  // what lies behind must stay
+    std::vector<uint32_t> values(count + 3, 7);  // the values behind must not change
     for (uint32_t i = 0; i < count; ++i) values[i] = random.below(below);
     std::vector<uint32_t> expected = values;
     std::exclusive_scan(values.begin(), values.begin() + count, expected.begin(), 0u);

@@ -1,5 +1,5 @@
-// scatter: its rows against a double loop over transmitters, surfaces that they saw, tiles and receivers, written out
-// here; links masked out, instances, ends on vehicles, more than one group of receivers.
+// scatter: its rows against a double loop over transmitters, surfaces that they saw, tiles and receivers, written
+// separately here; masked links, instances, ends on vehicles, more than one group of receivers.
 #include "passes/scatter.hpp"
 
 #include <doctest/doctest.h>
@@ -69,7 +69,7 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
   const uint32_t node_count = set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));
   Scatter scatter(context(), tiles, world.surface_count(), max_depth);
   scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count,
-          set.counters());  // twice: nothing of the first run may be left
+          set.counters());  // it runs twice: nothing of the first run may remain
   SolvedList& list = scatter(scene, ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   Run run;
   run.listed = list.count;
@@ -97,7 +97,7 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
   return run;
 }
 
-// The same, tile by tile.
+// Does the same, tile by tile.
 ScatterRows expected(const World& world, const TileTable& tiles, const std::vector<Sequence>& sequences) {
   SequenceSet seen;
   for (const Sequence& s : sequences) seen.insert({s.transmitter, {s.surfaces.at(0)}});

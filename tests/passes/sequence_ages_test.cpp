@@ -1,5 +1,5 @@
-// sequences from frame to frame: ages, what is forgotten and what is kept, against a std::map of sequences to frames.
-// Sequences are made up; no ray is traced.
+// sequences from frame to frame: ages, forgotten and kept sequences, against a std::map of sequences to frames.
+// Sequences are invented; no ray is traced.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Rays that live through these sequences in this frame, as enter() has them, in a set that keeps ages.
+// Sends rays through these sequences in this frame, as enter() does, in a set that keeps ages.
 void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>& sequences) {
   Scan scan(context());
   Interact interact(context(), {.ages = true});
@@ -36,8 +36,8 @@ void meet(Sequences& set, const DeviceScene& scene, const std::vector<Sequence>&
   }
 }
 
-// What a set that keeps ages must hold: every sequence with its age, twice the last frame that met it, and one more if
-// a ray did.
+// The required content of a set that keeps ages: every sequence with its age, twice the last frame that met it, and one
+// more if a ray did.
 using Aged = std::map<Sequence, uint32_t>;
 
 void renew(Aged& known, const std::vector<Sequence>& sequences, uint32_t age) {
@@ -68,14 +68,14 @@ Aged aged_contents(Sequences& set) {
   return out;
 }
 
-// Every exchange of two neighbours that stand perpendicular to each other, of one sequence.
+// Returns every exchange of two adjacent perpendicular surfaces of a sequence.
 std::vector<Sequence> exchanges(const Sequence& s, const std::function<bool(uint32_t, uint32_t)>& perpendicular) {
   std::vector<Sequence> out;
   for (size_t k = 0; k + 1 < s.surfaces.size(); ++k) {
     if (!perpendicular(s.surfaces[k], s.surfaces[k + 1])) continue;
     Sequence swapped = s;
     std::swap(swapped.surfaces[k], swapped.surfaces[k + 1]);
-    // A surface does not follow itself: no ray does that.
+    // A surface never follows itself.
     if (std::adjacent_find(swapped.surfaces.begin(), swapped.surfaces.end()) == swapped.surfaces.end())
       out.push_back(swapped);
   }

@@ -1,5 +1,5 @@
-// sequences: the trie is a set, whatever the size of its table: against std::set, small and full tables, exchanges.
-// Sequences are made up; no ray is traced.
+// sequences: the trie is a set for every size of its table: compared with std::set, small and full tables, exchanges.
+// Sequences are invented; no ray is traced.
 #include "passes/sequences.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ std::vector<Sequence> random_sequences(size_t count, uint32_t seed) {
   for (Sequence& s : out) {
     s.transmitter = random.below(made_transmitters);
     s.surfaces.resize(random.below(made_depth + 1));
-    // Squared: some surfaces are met far more often than others, as in a scene.
+    // Squaring makes some surfaces much more frequent than others, as in a scene.
     for (uint32_t& surface : s.surfaces) surface = static_cast<uint32_t>(std::pow(random(), 2) * surface_count);
   }
   return out;
@@ -80,7 +80,7 @@ TEST_CASE("a table that is far too small overflows, says so, and grows to the sa
 
 TEST_CASE("what follows a prefix that found no slot is not entered") {
   // 970 first surfaces crowd the table: some find no slot near theirs, while others are free elsewhere. Only the last
-  // go on, and what comes after one that found no slot would hang in the air.
+  // continue, and a sequence after one that found no slot would have no parent.
   const DeviceScene scene = scene_of_floors(1000);
   std::vector<Sequence> sequences;
   for (uint32_t a = 0; a < 970; ++a) sequences.push_back({a % 3, {a}});
@@ -134,7 +134,7 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
       if (!perpendicular(s.surfaces[k], s.surfaces[k + 1])) continue;
       Sequence swapped = s;
       std::swap(swapped.surfaces[k], swapped.surfaces[k + 1]);
-      // A surface does not follow itself: no ray does that.
+      // A surface never follows itself.
       if (std::adjacent_find(swapped.surfaces.begin(), swapped.surfaces.end()) != swapped.surfaces.end()) continue;
       expected.push_back(swapped);
     }
@@ -150,7 +150,7 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
       return nodes;
     };
     const std::vector<uint32_t> after_exchanges = listed(count);
-    CHECK((listed(set.collect(2)) == after_exchanges));  // what is new is listed, once
+    CHECK((listed(set.collect(2)) == after_exchanges));  // new sequences are listed once
     CHECK(contents(set, 2) == with_prefixes(expected));
   }
 }
@@ -195,6 +195,6 @@ TEST_CASE(
     CHECK(found_by({1, 2, 0}) == 0b110);  // one from 1 0 2 and from 2 1 0
     CHECK(found_by({2, 1, 0}) == 0b100);
     CHECK(found_by({2, 0, 1}) == 0b100);
-    CHECK(found_by({1, 2}) == 0b110);  // of the prefix of 1 2 0, and exchanged from 2 1
+    CHECK(found_by({1, 2}) == 0b110);  // quarters of the prefix of 1 2 0, and exchanged from 2 1
   }
 }

@@ -1,5 +1,5 @@
 // solve: points of all candidates against the image method on parallelograms, and with occlusion against brute force.
-// Positions are generic; what happens on borders is the business of tests/simulation.
+// Positions are generic; tests/simulation tests borders.
 #include "passes/solve.hpp"
 
 #include <doctest/doctest.h>
@@ -97,7 +97,7 @@ TEST_CASE("with occlusion: the sets of brute force, in towns of boxes") {
   }
 }
 
-// Fields leave the line of sight out, and say so (radio/fields.hpp).
+// Fields leave the line of sight out, and report it (radio/fields.hpp).
 TEST_CASE("a receiver at a transmitter: a line of sight of no length, and the reflection straight back") {
   const Exact exact(reference::scene_of_quads({{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}}), {{1, 1, 3}}, {{1, 1, 3}},
                     all_sequences(1, 1, 1), 1);
@@ -109,7 +109,7 @@ TEST_CASE("a receiver at a transmitter: a line of sight of no length, and the re
 }
 
 TEST_CASE("nothing is solved through a surface, even where points of two surfaces coincide") {
-  // Two walls in one plane: mirrored by both, an image is the thing itself, and its leg crosses them like air.
+  // Two walls lie in one plane: mirrored by both, an image is at its original place, and its leg crosses them like air.
   const Quad wall{{0, -5, -5}, {0, 10, 0}, {0, 0, 10}}, same_plane{{0, -4, -3}, {0, 9, 0}, {0, 0, 8}};
   Random random(8);
   std::vector<glm::dvec3> receivers;
@@ -143,7 +143,7 @@ TEST_CASE("an edge of two walls: both orders reflect there, and nothing reaches 
   };
   CHECK(orders({1, 2, 0.5}, {1, 2, -0.5}) == std::vector<size_t>{0, 1, 1, 2, 2});  // straight back from the edge
   CHECK(orders({1, 2, 0.5}, {1, 2.5, -0.5}) == std::vector<size_t>{0, 1, 1, 2});   // beside it, one order only
-  // From the one wall's border to behind the other wall, which begins there: no ray beside the edge gets there.
+  // The ends are on one wall's border and behind the other wall, which begins there: no ray beside the edge gets there.
   CHECK(orders({1, 1, 0.5}, {-1, 1, 0.5}).empty());
 }
 

@@ -1,5 +1,5 @@
-// Solved paths that a test writes down itself, and what their legs pass by brute force: double, every triangle.
-// Row i goes from transmitter i to receiver i.
+// Solved paths that a test writes itself, and the surfaces that their legs pass, by brute force: double, every
+// triangle. Row i goes from transmitter i to receiver i.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ inline SolvedList upload_rows(const std::vector<PathRow>& rows, uint32_t max_dep
   return list;
 }
 
-// In the order of the list. Ends are not known to it, and stay at the origin.
+// Returns rows in the order of the list. It does not know the ends, which stay at the origin.
 inline std::vector<PathRow> download_rows(const SolvedList& list) {
   std::vector<PathRow> rows;
   if (list.count == 0) return rows;
@@ -76,8 +76,8 @@ struct Crossing {
   glm::dvec3 point;
 };
 
-// The surfaces that stand between two points, in order, where nothing touches: those with both points farther than
-// 0.1 mm from their plane, on opposite sides, but not `source` and `goal`. Of such in one place and plane the first of
+// Returns the surfaces between two points, in order, if nothing touches: those with both points farther than 0.1 mm
+// from their plane, on opposite sides, but not `source` and `goal`. If several lie in one place and plane, the first of
 // the scene stays.
 inline std::vector<Crossing> crossings(const Scene& scene, const glm::dvec3& from, const glm::dvec3& to,
                                        uint32_t source = WT_NONE, uint32_t goal = WT_NONE) {
@@ -107,7 +107,7 @@ inline std::vector<Crossing> crossings(const Scene& scene, const glm::dvec3& fro
   return out;
 }
 
-// The row with what its legs pass.
+// Returns the row with the surfaces that its legs pass.
 inline PathRow with_crossings(const Scene& scene, const PathRow& row) {
   PathRow out = row;
   out.steps.clear();

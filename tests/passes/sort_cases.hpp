@@ -1,5 +1,5 @@
-// What the tests of the radix sort share: its forms, keys of a kind, and a check against std::stable_sort.
-// Behind the keys, the values and the temporary memory lie words that must stay.
+// Helpers of the tests of the radix sort: its forms, keys of a kind, and a check against std::stable_sort. Words after
+// the keys, the values and the temporary memory must not change.
 #pragma once
 #include <doctest/doctest.h>
 

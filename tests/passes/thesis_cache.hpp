@@ -1,5 +1,5 @@
-// The ray cache as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 to C.3), for tests of its faults.
-// Transcribed as it is, 32-bit int and 64-bit long; sums and products wrap as they did on the GPU.
+// The ray cache as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 to C.3), for tests of its faults. It
+// is transcribed without changes, with 32-bit int and 64-bit long; sums and products wrap as they did on the GPU.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -149,7 +149,7 @@ inline float calculateResidual(Point a, Point b) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
 }
 
-// Listing C.3 for one stream at a time. What is stored is a number, and where the result begins (data.nextOrigin).
+// Listing C.3 for one stream at a time. It stores a number, and the place where the result begins (data.nextOrigin).
 class OpenTable {
  public:
   struct Node {
@@ -157,7 +157,7 @@ class OpenTable {
     Point nextOrigin{};
     int writeLock = 0, readLock = 0;
     uint32_t readN = 0;
-    bool used = false;  // what an unused node holds is not said; here it is no answer
+    bool used = false;  // the listing does not define an unused node; here it is no answer
   };
 
   OpenTable(int buckets, uint32_t readers, float residual)

@@ -1,5 +1,5 @@
-// top_level: the tree that the device builds over instances, against plain code on what it holds, and against the
-// host's tree by the hits of rays.
+// top_level: the tree that the device builds over instances; plain code checks its content, and hits of rays compare it
+// with the host's tree.
 #include "passes/top_level.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ struct Span {
   glm::dvec3 lower, upper;
 };
 
-// The top level as it stands in DeviceScene::moving, walked from its root.
+// Walks the top level in DeviceScene::moving from its root.
 class Walk {
  public:
   Walk(const Traffic& traffic, const DeviceScene& scene) : traffic_(traffic), moving_(scene.moving.read()) {
@@ -28,9 +28,9 @@ class Walk {
 
   std::multiset<uint32_t> instances;  // those of the leaves
   size_t deepest = 0;                 // inner nodes on the longest way down
-  double half_areas = 0;              // of the boxes of inner nodes, but the root
-  double worst_gap_m = 0;             // how far a corner of an instance lies outside of a box above it
-  double most_slack_m = 0;            // by which the box of a leaf is larger than it need be
+  double half_areas = 0;              // sum over the boxes of inner nodes except the root
+  double worst_gap_m = 0;             // largest distance of an instance's corner outside of a box above it
+  double most_slack_m = 0;            // largest excess of a leaf's box
 
  private:
   // Record number `index` of an array that begins at float4 number `first`.
@@ -41,7 +41,7 @@ class Walk {
     return record;
   }
 
-  // Returns what the node's corners span.
+  // Returns the span of the node's corners.
   Span visit(size_t node, size_t depth) {
     deepest = std::max(deepest, depth);
     const wt_centred_node n = at<wt_centred_node>(sizeof(wt_moving_head) / 16, node);
@@ -69,7 +69,7 @@ class Walk {
     return all;
   }
 
-  // Of the box of an instance's model, turned and moved in double; checks the instance's record.
+  // Returns the corners of the box of an instance's model, turned and moved in double; checks the instance's record.
   Span corners(size_t leaf) {
     const auto record = at<wt_instance>(at<wt_moving_head>(0, 0).instances, leaf);
     const uint32_t number = record.number;

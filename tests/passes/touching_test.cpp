@@ -1,5 +1,5 @@
-// Legs next to what touches: walls that stand on a mirror, houses side by side, edges that are only touched. In any
-// direction and far from the origin, with occlusion and with transmissions.
+// Legs near touching surfaces: walls that stand on a mirror, houses side by side, edges that are only touched. They run
+// in any direction and far from the origin, with occlusion and with transmissions.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -49,7 +49,7 @@ struct TouchingWorld {
     if (!scene.wedges.empty()) wedges.emplace(context(), scene, std::vector<Scene>{}, std::vector<Instance>{}, true);
   }
 
-  // Returns what the path passes by occlusion, all or nothing, and by transmissions, which must agree.
+  // Returns the surfaces that the path passes by occlusion (all or nothing) and by transmissions, which must agree.
   bool free(const PathRow& row) {
     const StepTables steps{wedges ? &wedges->list().wedges : nullptr, nullptr};
     Counters counters(context());

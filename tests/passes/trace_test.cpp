@@ -32,7 +32,7 @@ void check_against_caster(const Scene& scene, const std::vector<Ray>& rays, doub
   for (const TraceShape shape : shapes()) {
     CAPTURE(name_of(shape));
     const std::vector<Hit> hits = trace(uploaded, shape, rays);
-    std::string wrong;  // of the first ray whose hit is wrong
+    std::string wrong;  // error of the first ray whose hit is wrong
     for (size_t i = 0; i < rays.size() && wrong.empty(); ++i)
       wrong = fault(triangles, rays[i], hits[i], position_error_m);
     CHECK(wrong == "");

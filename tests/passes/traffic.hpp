@@ -14,7 +14,7 @@
 
 namespace wavetracer::test {
 
-// Two models of loose triangles, many instances of them, and the world that they amount to.
+// Two models of loose triangles, many instances of them, and the resulting world.
 struct Traffic {
   std::vector<Corners> still;
   std::vector<std::vector<Corners>> bodies;
@@ -79,14 +79,14 @@ inline std::vector<Ray> rays_in(double half, size_t count, uint32_t surface_coun
   return rays;
 }
 
-// Every seventh is absent from three on, so that one, two and three are worlds too.
+// Every seventh is absent if there are three or more, so that worlds of one, two and three exist too.
 inline Traffic with_gaps(size_t count, double half_m) {
   Traffic traffic(count, static_cast<uint32_t>(count), half_m);
   for (size_t i = 3; i < count; i += 7) traffic.placements[i].present = false;
   return traffic;
 }
 
-// The tree of the device against that of the host: the same hits bit for bit, distances included.
+// Compares the tree of the device with that of the host: hits are the same bit for bit, including distances.
 inline void check_hits(const Traffic& traffic, size_t rays_count, double half_m) {
   const DeviceScene host = traffic.upload(TopLevelBuild::host), device = traffic.upload(TopLevelBuild::device);
   const size_t still = traffic.still.size();
@@ -96,7 +96,7 @@ inline void check_hits(const Traffic& traffic, size_t rays_count, double half_m)
     const std::vector<Hit> hits = trace(host, shape, rays);
     CHECK(trace(device, shape, rays) == hits);
     const auto moving = std::ranges::count_if(hits, [&](const Hit& h) { return !h.missed() && h.surface >= still; });
-    CHECK((moving > 0) == !traffic.present().empty());  // the test would say nothing otherwise
+    CHECK((moving > 0) == !traffic.present().empty());  // otherwise the test would prove nothing
   }
 }
 

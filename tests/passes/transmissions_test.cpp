@@ -36,7 +36,7 @@ std::vector<uint32_t> through(const std::vector<Quad>& quads, const glm::dvec3& 
 
 uint32_t passed(uint32_t surface) { return WT_STEP_TRANSMISSION | surface; }
 
-// Steps as they are, points to a nanometre.
+// Compares steps exactly, points to a nanometre.
 void check_row(const PathRow& row, const PathRow& expected) {
   REQUIRE_FALSE(row.blocked);
   REQUIRE(row.steps == expected.steps);
@@ -91,7 +91,7 @@ TEST_CASE("what random paths among random quads pass, in order, is what brute fo
     passing += count;
     allowed += fits && count > 0;
   }
-  CHECK(passing > 150);  // the test would say nothing otherwise
+  CHECK(passing > 150);  // otherwise the test would prove nothing
   CHECK(allowed > 20);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("walls 1 mm apart are two, in the order of the leg, also half a kilome
 }
 
 TEST_CASE("walls nearer each other than float32 tells apart are in order too") {
-  const glm::dvec3 far{3000, 20, 30};  // where 0.24 mm are one unit in the last place
+  const glm::dvec3 far{3000, 20, 30};  // 0.24 mm are one unit in the last place there
   std::vector<Quad> walls{wall(0.00045), wall(0.0003), wall(0.00015), wall(0)};
   for (Quad& w : walls) w.corner += far;
   const glm::dvec3 a = far + glm::dvec3{-3, 0.1, 0.2}, b = far + glm::dvec3{3, 0.3, -0.4};
@@ -137,7 +137,7 @@ TEST_CASE("a shared border is passed once") {
 TEST_CASE("an end on a wall, and the surfaces that a leg is reflected by, are not passed") {
   for (const double off : {0.0, 5e-5, -5e-5}) CHECK(through({wall(0)}, {-3, 0, 0}, {off, 0.1, 0.2}).empty());
   CHECK(through({wall(0)}, {-3, 0, 0}, {2e-4, 0.1, 0.2}).size() == 1);
-  // A reflection that a rounded point puts behind its surface; a wedge of that number hides nothing of its own.
+  // A reflection lies behind its surface because of rounding; a wedge of that number hides nothing of its own.
   const glm::dvec3 from{-3, -1, 0}, to{-3, 1, 0}, behind{0.01, 0, 0};
   CHECK(pass({wall(0)}, {from, to, {0}, {behind}}).steps == std::vector{0u});
   CHECK(pass({wall(0)}, {from, to, {WT_STEP_DIFFRACTION}, {behind}}).steps ==

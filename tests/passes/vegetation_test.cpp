@@ -22,7 +22,7 @@ RawMesh pyramid(const glm::dvec3& tip, double height, double side) {
   return mesh;
 }
 
-// Of three materials.
+// The volumes have three materials.
 VolumeTable random_volumes(Random& random, uint32_t count) {
   Scene scene;
   const auto place = [&] {

@@ -1,4 +1,4 @@
-// visible: what occlusion left, row for row, whatever the order; a list that must grow; nothing at all.
+// visible: the rows that occlusion left, row for row, in any order; a list that must grow; an empty list.
 #include "passes/visible.hpp"
 
 #include <doctest/doctest.h>

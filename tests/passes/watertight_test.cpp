@@ -1,5 +1,5 @@
 // Leaks: rays inside closed rooms of 3,072 triangles, aimed at edges and vertices, also in UTM coordinates.
-// A closed room has no way out, so every miss is a leak. The million of rays is in large_device_test.cpp.
+// A closed room has no way out, so every miss is a leak. A million rays are in large_device_test.cpp.
 #include <doctest/doctest.h>
 
 #include "passes/naive.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("UTM coordinates: recentred by the loader, so that nothing leaks") {
       for (glm::dvec3& corner : corners) corner -= scene.origin_m;
     const std::vector<Ray> rays = aimed_rays(recentred, aim, 300, centre - scene.origin_m, 1, 12);
     for (const TraceShape traversal : shapes()) CHECK(misses(trace(uploaded, traversal, rays)) == 0);
-    // The same room and rays in float32 as they come: its triangles are no longer where the rays are aimed.
+    // Room and rays are the same in plain float32: the triangles are no longer where the rays are aimed.
     CHECK(misses(NaiveTracer(scene_of_triangles(triangles))(aimed_rays(triangles, aim, 20000, centre, 1, 12))) > 0);
   }
 }

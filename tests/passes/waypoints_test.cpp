@@ -26,11 +26,11 @@ std::vector<Corners> open_room() {
   return walls;
 }
 
-// Where a ray goes in it, by the six planes alone; a direction after the last point where it flew out.
+// The points of a ray by the six planes alone; a direction after the last point if it flew out.
 struct Polyline {
   std::vector<glm::dvec3> points;
   bool out = false;
-  double nearest_edge_m = half_m;  // of all points: there, rounding decides
+  double nearest_edge_m = half_m;  // distance from all points: near an edge rounding decides
 };
 
 Polyline follow(glm::dvec3 p, glm::dvec3 d, uint32_t reflections) {

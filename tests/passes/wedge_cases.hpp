@@ -1,5 +1,5 @@
-// What the tests of the wedge passes share: quads with wedges on the device, ends, and wedges read back.
-// Sequences are listed, not traced; numbers of surfaces are those of the quads.
+// Helpers of the tests of the wedge passes: quads with wedges on the device, ends, and wedges read back. Sequences are
+// listed, not traced; numbers of surfaces are those of the quads.
 #pragma once
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -15,7 +15,7 @@ namespace wavetracer::test {
 
 using reference::Quad;
 
-constexpr double every_wave_m = std::numeric_limits<double>::infinity();  // a wavelength: none is too faint
+constexpr double every_wave_m = std::numeric_limits<double>::infinity();  // wavelength: no diffraction is too weak
 
 inline glm::dvec3 vector_of(const double* v) { return {v[0], v[1], v[2]}; }
 
@@ -31,7 +31,8 @@ inline Wedge wedge_of(const wt_wedge& w) {
           {w.planes[0], w.planes[1]}};
 }
 
-// Is p in the free sector of the wedge, by angles, and by at least so much (or, if negative, at most so much outside)?
+// Tells whether p is in the free sector of the wedge, by angles, at least this far inside (or, if negative, at most
+// this far outside).
 inline bool in_sector(const Wedge& w, const glm::dvec3& p, double margin_rad = 0) {
   constexpr double turn = 2 * std::numbers::pi;
   const glm::dvec3 d = p - w.start;
@@ -63,7 +64,7 @@ inline Scene box_and_panels() {
   return scene;
 }
 
-// Of a node of the trie or a root.
+// Returns the sequence of a node of the trie or a root.
 inline Sequence sequence_of(const std::vector<uint64_t>& table, uint32_t node) {
   Sequence s;
   for (; !(node & WT_ROOT); node = static_cast<uint32_t>(table[node] >> 32))

@@ -26,7 +26,7 @@ Scene tops_of(const std::vector<Quad>& quads) {
   return scene;
 }
 
-// By transmitter and receiver, of all pairs.
+// Returns the chains of all pairs, by transmitter and receiver.
 Chains chains(const Scene& scene, const Points& tx, const Points& rx, uint32_t most, bool free_edges = true) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 1000);
   std::vector<EndState> from, to;
@@ -169,7 +169,7 @@ TEST_CASE("a chain whose way leaves an edge is none") {
   }
 }
 
-// A house on the ground, its walls and roof closed; wedges 0 to 3 below, then by what reference::box_wedges says.
+// Makes a house on the ground, its walls and roof closed; wedges 0 to 3 below, then those of reference::box_wedges.
 Scene house_of(const glm::dvec3& low, const glm::dvec3& high) {
   Scene scene = reference::scene_of_quads(reference::box_walls(low, high));
   scene.wedges = reference::box_wedges(low, high);

@@ -1,5 +1,6 @@
 // wedge_join: of all pairs of prefixes that see one wedge, or two, none that solves exactly is rejected, and none is
-// listed that is not wanted, too long, or there already. The exact solve is the reference's bisection and image method.
+// listed whose link is not computed, or that is too long or a repetition. The exact solve is the reference's bisection
+// and image method.
 #include "passes/wedge_join.hpp"
 #include "passes/wedge_prefixes.hpp"
 #include "passes/wedges.hpp"
@@ -82,7 +83,7 @@ Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_depth, bool
   return out;
 }
 
-// Is there a path from an end over the reflections to a point of the edge, in its free sector?
+// Tells whether there is a path from an end over the reflections to a point of the edge, in its free sector.
 bool reaches(const JoinWorld& world, const Sequence& s, const Wedge& wedge, const glm::dvec3& p) {
   if (!s.surfaces.empty()) {
     const Surface& last = world.scene.surfaces[s.surfaces.back()];
@@ -93,7 +94,7 @@ bool reaches(const JoinWorld& world, const Sequence& s, const Wedge& wedge, cons
   return reference::in_free_sector(wedge, p, points->empty() ? world.end(s.transmitter) : points->back());
 }
 
-// Does nothing stand between the last reflection, or the end, and the point of the edge?
+// Tells whether nothing is between the last reflection, or the end, and the point of the edge.
 bool sees(const JoinWorld& world, const Sequence& s, const glm::dvec3& p) {
   const auto points = image_method(world.quads, world.end(s.transmitter), s.surfaces, p);
   const glm::dvec3 from = points->empty() ? world.end(s.transmitter) : points->back();
@@ -105,8 +106,8 @@ struct JoinCount {
   size_t solved = 0, allowed = 0, hidden = 0;
 };
 
-// Every pair of prefixes. Those that may be joined at all are `allowed`; those that solve must be candidates, or, where
-// paths go over two wedges, be hidden.
+// Checks every pair of prefixes. Pairs that may be joined are `allowed`; those that solve must be candidates or, if
+// paths go over two wedges, hidden.
 JoinCount check(const JoinWorld& world, const Run& run, uint32_t max_depth, bool pairs) {
   JoinCount out;
   std::set<Joined> allowed;

@@ -63,7 +63,7 @@ Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, ui
   return out;
 }
 
-// Whether a mirror shows a point of a wedge, or may do so by rounding: lines from the image to many points of it.
+// Tells whether a mirror shows a point of a wedge, or may do so by rounding: lines from the image to many points of it.
 bool shows(const wt_exact_surface& mirror, const wt_surface& box, const glm::dvec3& image, const Wedge& wedge,
            double tolerance_m) {
   const glm::dvec3 normal = vector_of(mirror.normal);
@@ -81,7 +81,7 @@ bool shows(const wt_exact_surface& mirror, const wt_surface& box, const glm::dve
   return false;
 }
 
-// The same on the host, from the wedges and planes that the device has.
+// Does the same on the host, from the wedges and planes of the device.
 void check(const PrefixWorld& world, const std::vector<Sequence>& sequences, const Listed& found,
            bool free_edges = true) {
   std::map<Seen, glm::dvec3> expected;  // images
@@ -133,7 +133,7 @@ void check(const PrefixWorld& world, const std::vector<Sequence>& sequences, con
   }
 }
 
-// Some of all sequences, so that of many wedges one face alone is seen.
+// Returns some of all sequences, so that many wedges are seen by one face alone.
 std::vector<Sequence> some(std::vector<Sequence> all, double share, uint32_t seed) {
   Random random(seed);
   std::erase_if(all, [&](const Sequence&) { return random() > share; });

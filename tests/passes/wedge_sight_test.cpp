@@ -1,5 +1,5 @@
-// wedge_sight: no point of a piece that is called hidden can be seen, neither past the last mirror nor past what stands
-// between, by legs against every triangle in double; and most of what is hidden is called so.
+// wedge_sight: no point of a piece that is called hidden can be seen, neither past the last mirror nor past other
+// surfaces, by legs against every triangle in double; and most hidden pieces are recognised.
 #include "passes/wedge_sight.hpp"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,7 @@ SightWorld random_world(uint64_t seed) {
   return world;
 }
 
-// Does a path over these mirrors reach the point, with nothing that blocks in the way of its last leg?
+// Tells whether a path over these mirrors reaches the point, with no surface that blocks its last leg.
 bool sees(const SightWorld& world, const std::vector<bool>& blocks, const Sequence& s, const glm::dvec3& p) {
   const glm::dvec3 end = world.transmitters[s.transmitter].position_m;
   const auto points = image_method(world.quads, end, s.surfaces, p);

@@ -1,5 +1,5 @@
 // wedge_solve: points on one edge and on two against closed forms and the reference's bisection, whose lengths are
-// minimal; edges' ends, reflections, and what is no path.
+// minimal; edges' ends, reflections, and cases without a path.
 #include "passes/wedge_solve.hpp"
 #include "passes/wedges.hpp"
 
@@ -222,13 +222,13 @@ TEST_CASE("reflections before and after: the edge is met where the images' strai
     if (at) CHECK(glm::distance(row.points[0], a + (edge - a) * (a.z / (a.z - 4))) < 1e-12);
     if (b.z < 0) CHECK(glm::distance(row.points.back(), b + (edge - b) * (b.z / (b.z - 4))) < 1e-12);
   }
-  // A row has room for so many interactions and no more.
+  // A row has room for this number of interactions and no more.
   CHECK(solve(scene, {tx}, {rx}, questions, 3).size() == 4);
 }
 
 TEST_CASE("what is no path: ends on the edge's line or in the solid, reflections at the wedge's own faces, corners") {
   const Scene scene = box_and_panels();
-  const glm::dvec3 upper{1.7, 2.4, 4.1};  // of the box
+  const glm::dvec3 upper{1.7, 2.4, 4.1};  // upper corner of the box
   // Wedge 3 is the edge along z between the walls x upper (1) and y upper (3).
   const Wedge& w = scene.wedges[3];
   REQUIRE(w.surface == std::array<uint32_t, 2>{1, 3});
@@ -239,7 +239,7 @@ TEST_CASE("what is no path: ends on the edge's line or in the solid, reflections
   CHECK_FALSE(one(scene, free, w.start - 2.0 * w.along, {3}));
   CHECK_FALSE(one(scene, {0, 0, 2}, also, {3}));
   CHECK_FALSE(one(scene, free, {0, 0, 2}, {3}));
-  // On either face, a nanometre beyond rounding included.
+  // The ends lie on either face, or a nanometre beyond rounding.
   for (const double off : {0.0, 1e-10, 1e-3}) {
     CHECK(one(scene, {upper.x + off, 0.3, 2}, also, {3}));
     CHECK(one(scene, free, {-0.4, upper.y + off, 3}, {3}));

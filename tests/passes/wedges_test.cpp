@@ -1,5 +1,5 @@
 // wedges: where instances have them, their numbers, and which surfaces they bound.
-// Poses are random rotations; expected places are worked out with quaternions.
+// Poses are random rotations; expected places are computed with quaternions.
 #include "passes/wedges.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ struct Fleet {
     const Quad panel{{-0.4, -1, 0.2}, {0.3, 2.1, 0}, {0.1, 0, 1.4}};
     models.push_back(reference::scene_of_quads(reference::box_walls({-2, -0.9, 0.2}, {2.3, 0.9, 1.4})));
     models[0].wedges = reference::box_wedges({-2, -0.9, 0.2}, {2.3, 0.9, 1.4});
-    for (Wedge& w : models[0].wedges) w.plane = {w.surface[0] / 2, w.surface[1] / 2};  // not what they are, but others
+    for (Wedge& w : models[0].wedges) w.plane = {w.surface[0] / 2, w.surface[1] / 2};  // changed wedges
     models.push_back(reference::scene_of_quads({panel}));
     models[1].wedges = reference::free_wedges(panel, 0);
     Random random(3);

@@ -1,5 +1,5 @@
-// What plots hold, against the run that was written: made-up runs without a device, numbers of which are known.
-// Pictures need gnuplot; without it the tests of files say so and check the rest.
+// The contents of plots are compared with the run that was written: invented runs without a device, whose numbers are
+// known. Pictures need gnuplot; without it the tests of files say so and check the rest.
 #include "plots/plots.hpp"
 
 #include <doctest/doctest.h>
@@ -93,7 +93,7 @@ double power_db(const Paths& paths, size_t row) {
 }
 
 // A grid "g" of 3 x 2 behind a receiver of its own; transmitter 0 reaches cells 0 to 3, transmitter 1 cells 3 and 4,
-// and nobody cell 5. Powers are 10^-(tx + cell + 8).
+// and none reaches cell 5. Powers are 10^-(tx + cell + 8).
 Written grid_run() {
   SampleRun sample;
   sample.config.text =
@@ -341,8 +341,8 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   choice.grid.clear();
   choice.what = {"gian"};
   check_contains(refused(drive, choice),
-                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; did "
-                 "you mean \"gain\"?");
+                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; "
+                 "did you mean \"gain\"?");
   choice.what = {"coverage"};
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
   choice.what = {"rays"};

@@ -54,7 +54,7 @@ TEST_CASE("segments lead from point to point, without receivers and the metre be
   CHECK(all[1].source == WaypointSource::cache);
   CHECK(all[2].x0 == 0);
   CHECK(all[2].x1 == 3);
-  CHECK(ray_segments(three_rays(), 2).size() == 2);  // of the first and the third ray
+  CHECK(ray_segments(three_rays(), 2).size() == 2);  // the first and the third ray are drawn
 }
 
 TEST_CASE("centroids are those of the hits of a segment") {

@@ -78,7 +78,7 @@ def check_frame(simulation, frame):
         else:
             assert powers == coherent == -np.inf
     assert not frame["delay_s"].flags.writeable
-    # Rays have seen something of every link with a path, and nothing of one without.
+    # Rays have found something of every link with a path, and nothing of one without.
     shares = frame["link_missed_power_share"]
     assert shares.shape == (len(frame["link"]),)
     with_path = [np.any((frame["tx"] == tx) & (frame["rx"] == rx)) for tx, rx in frame["link"]]
@@ -87,7 +87,8 @@ def check_frame(simulation, frame):
 
 
 def check_missed(folder, frames):
-    """What was missed is what the files say; of frames alone, as they do not add up by a plain sum."""
+    """The estimates of missed paths are those in the files; those of summary.json are compared for a single frame only,
+    since estimates of frames are not simply added."""
     with open(folder + "/links.csv") as file:
         written = [float(row["missed_power_share"]) for row in csv.DictReader(file)]
     assert np.array_equal(written, np.concatenate([frame["link_missed_power_share"] for frame in frames]), equal_nan=True)
@@ -167,7 +168,7 @@ def check_run(run, frames):
 
 
 def check_open(folder, run):
-    """What cannot be opened, and what is no complete run."""
+    """Files that cannot be opened, and folders without a complete run, give errors."""
     raises(3, "no such file", wavetracer.open, folder / "nowhere")
     work = folder.parent / "python_bad"
     shutil.rmtree(work, ignore_errors=True)
@@ -234,7 +235,7 @@ def check_progress(simulation):
     bar = Bar.made[-1]
     assert bar.total == bar.n == 2 and bar.closed and any(t.startswith("rays") for t in bar.told) \
         and any(t.startswith("paths") for t in bar.told), bar.told
-    # Ctrl-C in the middle of a frame: the frame is given up, and the simulation goes on.
+    # Ctrl-C in the middle of a frame: the frame is cancelled, and the simulation can continue.
     class Pressed(Bar):
         def set_postfix_str(self, text, refresh):
             os.kill(os.getpid(), signal.SIGINT)
@@ -245,7 +246,7 @@ def check_progress(simulation):
     else:
         raise AssertionError("Ctrl-C was lost")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    # So is a bar that fails.
+    # The same holds for a bar that fails.
     class Broken(Bar):
         def update(self, n):
             raise ZeroDivisionError("in the bar")
@@ -282,7 +283,7 @@ def check_arrays(folder):
         wanted = 299792458 / 5.9e9 / (4 * np.pi * d[..., None]) * np.exp(
             -2j * np.pi * ((5.9e9 + frequencies) * d[..., None] / 299792458 % 1))
         assert np.abs(h[r, :len(d), 0, :, 0] - wanted).max() < 1e-9 * np.abs(wanted).max()
-    # The receiver "two" has one port: its second half, and the port H of "one" in this line of sight, are nothing.
+    # The receiver "two" has one port: its second half, and the port H of "one" in this line of sight, are zero.
     assert not h[1, 2:].any() and np.abs(h[0, 2:]).max() < 1e-9 * np.abs(h[0, 0]).max()
     only = frame.paths.select(rx="two")
     assert only.cfr(0).shape == (1, 4, 1, 6, 1, 1) and only.cir()[0].shape == (1, 4, 1, 6, 1, 1)
@@ -354,7 +355,7 @@ def main():
     check_arrays(pathlib.Path(folder))
     check_carriers()
     raises(2, "no response.bandwidth_hz", lambda: wavetracer.open(folder).responses)
-    # A sphere catches no exact paths: nothing is known of what it missed.
+    # A sphere catches no exact paths: the missed power is unknown.
     with wavetracer.Simulation(DRIVE, trace={"reception": "sphere"}) as simulation:
         assert (unknown := simulation.run_frame(0)).missed is None
         assert np.all(np.isnan(unknown["link_missed_power_share"])) and len(unknown["link_missed_power_share"]) > 0

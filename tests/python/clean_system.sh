@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs the wheel with its extra `pocl` in a minimal Debian 12 of its own, which has python3 and python3-venv and
+# Installs the wheel with its extra `pocl` in a separate minimal Debian 12, which has python3 and python3-venv and
 # neither a compiler nor OpenCL, and uses it there as a user without root would.
-# Usage, as root: clean_system.sh WHEEL FOLDER MIRROR. FOLDER is made by debootstrap where it is missing, and kept; MIRROR
-# is the address of a Debian archive. Needs debootstrap, PyPI and some 2 GB. pip's variables (PIP_...) are handed on.
+# Usage, as root: clean_system.sh WHEEL FOLDER MIRROR. debootstrap makes FOLDER if it is missing, and it is kept; MIRROR
+# is the address of a Debian archive. Needs debootstrap, PyPI and some 2 GB. pip's variables (PIP_...) are passed on.
 set -euo pipefail
 [ $# = 3 ] || { sed -n '4,5s/^# //p' "$0" >&2; exit 2; }
 wheel=$(realpath "$1") root=$2 mirror=$3

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Which OpenCL drivers the package offers, on made-up systems, with made-up packages of PyPI: nothing is loaded.
+"""Tests the OpenCL drivers that the package offers, on made-up systems, with made-up packages of PyPI: nothing is
+loaded.
 
 Usage: drivers_test.py. Exits with 77 without numpy.
 """
@@ -23,7 +24,8 @@ work = pathlib.Path(tempfile.mkdtemp(prefix="wavetracer-drivers-"))
 
 
 def system(listed, nvidia=False, pocl=False, zig=False, tools=(), **variables):
-    """What the package adds to the environment of a system with these drivers listed, packages installed and tools."""
+    """Returns the variables that the package adds to the environment of a system with these drivers listed, packages
+    installed and tools."""
     root = pathlib.Path(tempfile.mkdtemp(dir=work))
     for folder in ("vendors", "lib", "site", "bin", "cache"):
         (root / folder).mkdir()
@@ -66,13 +68,13 @@ root, added = system({}, pocl=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/site/pyopencl/.libs/libpocl-0.so"]
 assert added["OCL_ICD_VENDORS"].startswith(f"{root}/cache/wavetracer/")
 assert stat.S_IMODE(os.stat(added["OCL_ICD_VENDORS"]).st_mode) == 0o700
-# A driver that is there but not listed comes to those that are; PoCL comes beside a GPU's driver.
+# A driver that exists but is not listed is added to those that are; PoCL is added beside a GPU's driver.
 root, added = system(POCL, nvidia=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/lib/libnvidia-opencl.so.1", "libpocl.so.2.10.0"]
 root, added = system({"intel.icd": "libigdrcl.so\n"}, nvidia=True, pocl=True)
 assert drivers(added["OCL_ICD_VENDORS"]) == [f"{root}/lib/libnvidia-opencl.so.1",
                                              f"{root}/site/pyopencl/.libs/libpocl-0.so", "libigdrcl.so"]
-# What the user has named stays.
+# A value set by the user is kept.
 assert "OCL_ICD_VENDORS" not in system({}, pocl=True, OCL_ICD_VENDORS="/mine")[1]
 # Caches that cannot be written to, or that others can write to, are not used.
 for cache in ("/proc/nowhere", str(work / "open")):

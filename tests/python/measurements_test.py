@@ -192,7 +192,7 @@ def check_flourish(folder):
 
 
 def check_broken_bytes(folder, per_file=150):
-    """Whatever stands in a file, readers read it or say what is wrong with it."""
+    """Readers read a file of any bytes, or report what is wrong with it."""
     random = np.random.default_rng(11)
     for campaign, name in (("cost231", "METRO200.csv"), ("berlin", "sidelink.csv"), ("flourish", "vehNo_01_RxCAM_HP.log"),
                            ("flourish", "vehNo_01_tcpDump_HP.log")):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What the Python package is not made for, and says so: copies, pickles, forked processes, arguments of wrong types; and
-threads, which take turns.
+"""Tests uses that the Python package refuses with a message: copies, pickles, forked processes, arguments of wrong
+types; and threads, which take turns.
 
-PYTHONPATH names wavetracer, or it is installed, and WAVETRACER_LIBRARY what it calls. Exits with 77 without numpy or h5py.
+Needs wavetracer installed or in PYTHONPATH, and its library in WAVETRACER_LIBRARY. Exits with 77 without numpy or h5py.
 """
 import copy
 import gc
@@ -49,7 +49,7 @@ def same(paths, wanted):
 
 
 def check_copies(folder):
-    """What belongs to the library is refused with a word of what to take instead; what is values is copied."""
+    """Copies of objects of the library are refused with a hint what to copy instead; values are copied."""
     simulation = wavetracer.Simulation(CONFIG)
     frame = simulation.run_frame()
     copiers = (pickle.dumps, copy.copy, copy.deepcopy, lambda thing: pickle.dumps([thing], 2))
@@ -139,7 +139,7 @@ def check_forks():
         _shared.close()
 
     assert in_child(child) == 0
-    # While another thread has its turn, and by the end of the interpreter.
+    # Another thread uses it, until the interpreter ends.
     begun, go_on = threading.Event(), threading.Event()
 
     class Slow:

@@ -80,7 +80,7 @@ def run_document():
     """The two scripts of docs/from-sionna.md give the same channels."""
     root = pathlib.Path(__file__).resolve().parents[2]
     scripts = re.findall(r"^```python\n(.*?)^```$", (root / "docs/from-sionna.md").read_text(), re.M | re.S)
-    os.chdir(root)  # where a reader has configs/
+    os.chdir(root)  # readers have configs/ there
     theirs, ours = ({}, {})
     for script, names in zip(scripts, (theirs, ours), strict=True):
         exec(compile(script, "docs/from-sionna.md", "exec"), names)
@@ -99,7 +99,7 @@ def raises(part, scene):
 
 
 def check_scenes():
-    """What is carried over beside antennas, and what cannot be."""
+    """Tests the properties beside antennas that are carried over, and those that cannot be."""
     antenna = {"pattern": "iso", "polarization": "V"}
     scene = canyon(antenna, antenna)
     building = next(iter(scene.objects.values()))

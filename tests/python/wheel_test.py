@@ -15,7 +15,7 @@ python = environment / "bin/python"
 if not (environment / "installed.txt").exists():
     print(f"skipped: {environment} is not complete: ./dev test makes it from PyPI")
     sys.exit(77)
-# Nothing of this machine's but its loader of programs.
+# The environment has nothing of this machine's but its program loader.
 clean = {"PATH": f"{environment}/bin:/usr/bin:/bin", "HOME": os.environ.get("HOME", "/tmp"), "LC_ALL": "C.UTF-8"}
 
 
@@ -53,7 +53,7 @@ where = run(python, "-c", "import wavetracer; print(wavetracer.__file__, wavetra
 assert where == [str(next(environment.glob("lib/python3*/site-packages/wavetracer/__init__.py"))), version], where
 assert run("wavetracer", "--version").startswith(f"wavetracer {version}\n")
 assert run(python, "-m", "wavetracer", "--version").startswith(f"wavetracer {version}\n")
-# The command does not wait for NumPy; all that the package offers is there, and nothing that it does not have.
+# The command does not wait for NumPy; everything that the package offers exists, and nothing else.
 run(python, "-c", "import sys, wavetracer, wavetracer._program; assert 'numpy' not in sys.modules")
 run(python, "-c", """
 import wavetracer
@@ -61,7 +61,7 @@ from wavetracer import *
 assert all(getattr(wavetracer, name) is not None for name in dir(wavetracer)) and open is not wavetracer.open
 assert Simulation is wavetracer.Simulation and callable(view) and not hasattr(wavetracer, "nothing")
 """)
-# What the loader takes from outside of the wheel is of every Linux.
+# Libraries that the loader takes from outside of the wheel must be part of every Linux.
 own = next(environment.glob("lib/python3*/site-packages"))
 for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetracer.so"):
     for name, found in re.findall(r"(\S+) => (/\S+)", run("ldd", file)):
@@ -69,7 +69,7 @@ for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetra
 # The program says what is wrong with the exit code of its own, and reads its own files.
 wrong = subprocess.run(["wavetracer", "run", "-c", "nowhere.toml"], env=clean, cwd=folder, capture_output=True, text=True)
 assert wrong.returncode == 2 and "nowhere.toml" in wrong.stderr, wrong
-# It opens no GDAL of the system beside its own libraries, says what to do, and ends as it should.
+# It opens no GDAL of the system beside its own libraries, gives advice, and ends normally.
 (folder / "town.geojson").write_text('{"type": "FeatureCollection", "features": []}')
 gdal = subprocess.run(["wavetracer", "convert", "town.geojson", "-o", "town"], env=clean | {"LD_DEBUG": "files"},
                       cwd=folder, capture_output=True, text=True)
@@ -79,7 +79,7 @@ assert "file=libgdal" not in gdal.stderr, gdal
 run("wavetracer", "run", "-c", "my.toml", "-o", "out")
 run("wavetracer", "view", "out")
 assert (folder / "out/view.html").stat().st_size > 100_000
-# Types: of the package, and of what a user makes of it.
+# Types are checked for the package, and for a user's code.
 (folder / "typed.py").write_text("""import numpy
 import wavetracer as wt
 

@@ -47,7 +47,7 @@ struct ArrayWorld : World {
     out.world.links = {{0, 0}};
     return out;
   }
-  // Where an element is in the scene.
+  // Returns the position of an element in the scene.
   std::vector<glm::dvec3> elements(const RadioEnd& end) const {
     std::vector<glm::dvec3> out;
     for (const glm::dvec3& p : element_positions_m(config, end))

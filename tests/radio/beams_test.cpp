@@ -1,4 +1,4 @@
-// Beams: DFT codebooks by their directions, codebook files by what they say.
+// Beams: DFT codebooks by their directions, codebook files by their content.
 #include "radio/beams.hpp"
 
 #include "contains.hpp"

@@ -27,7 +27,7 @@ inline glm::dvec3 at_azimuth(double rho, double azimuth, double z) {
   return {rho * std::cos(azimuth), rho * std::sin(azimuth), z};
 }
 
-// At 5.9 GHz.
+// The permittivity is that at 5.9 GHz.
 inline WedgeFace concrete_face() { return {complex_permittivity(concrete(0.1), 5.9e9), 0.1}; }
 inline WedgeFace glass_face() {
   return {complex_permittivity(Material{"glass", 6.31, 0, 0.0036, 1.3394, 0.1, 100, 0.01}, 5.9e9), 0.01};
@@ -65,12 +65,12 @@ struct Corner {
   Complex spread(double length_m) const {
     return std::polar(1 / length_m, -2 * std::numbers::pi * length_m / wavelength_m);
   }
-  // Of a source that sends the part of moment that is across the direction of travel.
+  // Returns the field of a source that sends the part of moment that is perpendicular to the direction of travel.
   static CVector sent(const glm::dvec3& moment, const glm::dvec3& k) {
     return Complex{1} * (moment - glm::dot(moment, k) * k);
   }
 
-  // Where the straight line from a to b passes a face; false if it does not.
+  // Finds where the straight line from a to b passes a face; returns false if it does not.
   bool passes(const glm::dvec3& a, const glm::dvec3& b, size_t face, double& part) const {
     const double from = glm::dot(a, normal(face)), to = glm::dot(b, normal(face));
     if (from * to >= 0) return false;

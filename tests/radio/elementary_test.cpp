@@ -1,4 +1,4 @@
-// Elementary functions of our own against the host's library in extended precision, whose 64 bits tell an error of a
+// Our own elementary functions against the host's library in extended precision, whose 64 bits tell an error of a
 // double's last place to a thousandth; complex ones against their definitions.
 #include "wavetracer/device/elementary.h"
 
@@ -42,7 +42,7 @@ auto between(double low, double high) {
   return [low, high](std::mt19937_64& random) { return std::uniform_real_distribution(low, high)(random); };
 }
 
-// Of any size between two powers of two, and of either sign.
+// Returns a number of any size between two powers of two, of either sign.
 auto of_any_size(int low, int high) {
   return [low, high](std::mt19937_64& random) {
     const double size = std::exp2(std::uniform_real_distribution<double>(low, high)(random));

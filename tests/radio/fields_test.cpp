@@ -197,11 +197,10 @@ TEST_CASE("an antenna within 0.1 mm of a mirror or of the other antenna: those p
   CHECK(paths.size() == world.geometry.size() - 6);
   for (const double gain_db : paths.gain_db) CHECK(std::isfinite(gain_db));
   const auto name = [](uint32_t end) { return "end" + std::to_string(end); };
-  CHECK(
-      left_out_warning(left_out, name, name) ==
-      "6 paths are left out, because an antenna is at most 0.0001 m away from the surface that reflects there, or from "
-      "the other antenna: \"end0\" -> \"end0\" (2), \"end0\" -> \"end1\" (3), \"end1\" -> \"end1\" (1); move the "
-      "antenna");
+  CHECK(left_out_warning(left_out, name, name) ==
+        "6 paths are left out, because an antenna is at most 0.0001 m away from the surface that reflects there, "
+        "or from the other antenna: \"end0\" -> \"end0\" (2), \"end0\" -> \"end1\" (3), \"end1\" -> \"end1\" (1); "
+        "move the antenna");
 }
 
 TEST_CASE("what cannot be computed is an error") {
@@ -312,7 +311,7 @@ TEST_CASE("ends are where the state has them, turned as it says, to the last bit
   CHECK(paths.delay_s == expected.delay_s);
   CHECK(paths.gain_db == expected.gain_db);
   CHECK(paths.aoa_phi_rad == expected.aoa_phi_rad);
-  // 6, -2 and -4 m of leg, sqrt(56) m long: the ends come nearer by these parts of their speeds.
+  // 6, -2 and -4 m are the leg's components, sqrt(56) m its length: the ends approach by these parts of their speeds.
   CHECK(paths.doppler_hz[0] == test::near((30 * 6 - 20 * 2) / std::sqrt(56) / still.wavelength_m(), 1e-13));
 }
 

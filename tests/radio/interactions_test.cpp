@@ -1,5 +1,5 @@
-// Paths over two edges: against the sums of Kouyoumjian and Pathak's coefficients that they stand for.
-// A strip of two free edges, and a ridge of two wedges with a flat top, both of a perfect conductor.
+// Paths over two edges, compared with the sums of Kouyoumjian and Pathak's coefficients that they represent.
+// The cases are a strip of two free edges, and a ridge of two wedges with a flat top, both of a perfect conductor.
 #include "radio/fields.hpp"
 
 #include "radio/world.hpp"
@@ -48,7 +48,7 @@ std::complex<double> conductor_edge(double sign, double n, double phi, double ph
   return -std::polar(1 / (2 * n * std::sqrt(2 * std::numbers::pi * k)), -std::numbers::pi / 4) * sum;
 }
 
-// Its derivative by the azimuth of a face, phi, there.
+// Returns its derivative by phi, the azimuth of a face, there.
 std::complex<double> soft_slope(double n, double face, double phi_in, double k) {
   const double step = 1e-5, inside = face == 0 ? step : face - step;
   return conductor_edge(-1, n, inside, phi_in, k) / (inside - face);

@@ -1,5 +1,5 @@
-// What must not change a result: swapping the ends, turning the world, the order of discovery, the number of threads.
-// The world: four walls of different materials and directions, two polarised ends, paths up to order 3.
+// Changes that must not change a result: swapping the ends, turning the world, the order of discovery, the number of
+// threads. The world: four walls of different materials and directions, two polarised ends, paths up to order 3.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 

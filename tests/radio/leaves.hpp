@@ -1,4 +1,4 @@
-// Volumes of vegetation for tests, and how much of a leg is inside of all of them.
+// Volumes of vegetation for tests, and the length of a leg inside of all of them.
 #pragma once
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -154,15 +154,15 @@ TEST_CASE("what a link misses is estimated from its own paths; nothing where it 
   for (uint32_t i = 0; i < 4; ++i) paths.depth[i] = 1;
   paths.quarters = {0b1111, 0b0001, 0b0010, 0b1110};
   const std::vector<LinkFigures> links = link_figures(paths, 0, all_links(1, 3), carrier_hz);
-  // What one quarter of four found stands for (3/4)^4 / (1 - (3/4)^4) paths that none found, what three found for
-  // 1/255.
+  // A path that one quarter of four found stands for (3/4)^4 / (1 - (3/4)^4) paths that none found, one that three
+  // found for 1/255.
   const double once = 81.0 / 175, alike = (3.0 / 8 * 2 / once + 5) / 5;
   CHECK(links[0].missed_power_share == test::near(alike * 2 * once / 3, 1e-12));
   CHECK(links[1].missed_power_share == test::near(1.0 / 255, 1e-12));
   CHECK(std::isnan(links[2].missed_power_share));
 }
 
-// Of a two-ray ground: E = exp(-j k d1) / d1 + R exp(-j k d2) / d2, from the geometry alone.
+// This is a two-ray ground: E = exp(-j k d1) / d1 + R exp(-j k d2) / d2, from the geometry alone.
 TEST_CASE("two rays: path gain adds powers, narrowband gain adds fields, as in closed form") {
   const double c = 299792458.0, lambda = c / carrier_hz, pi = std::acos(-1.0);
   for (const double distance_m : {10.0, 33.3, 100.0, 517.0}) {

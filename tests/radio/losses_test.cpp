@@ -1,5 +1,6 @@
 // Air and vegetation: coefficients against tables of the recommendations, chords against closed forms and against
-// points that are inside or not, and what a path loses against A = g d. tests/radio/air_itur.py compares air with itur.
+// points that are inside or not, and the loss of a path against A = g d. tests/radio/air_itur.py compares air with
+// itur.
 #include <random>
 
 #include "radio/air.hpp"

@@ -1,4 +1,5 @@
-// Estimates of what was missed, against launches whose truth is known: drawn at random, over sequences of many sizes.
+// Estimates of missed paths, compared with launches whose truth is known: drawn at random, over sequences of many
+// sizes.
 #include "wavetracer/missed.hpp"
 
 #include <doctest/doctest.h>
@@ -17,7 +18,7 @@ struct Launch {
   uint64_t missed = 0;
   double missed_power = 0, power = 0;
 
-  // A path that these quarters found; 0: it is missed.
+  // Adds a path that these quarters found; 0: it is missed.
   void add(uint32_t depth, uint8_t quarters, double of_power) {
     if (quarters == 0) {
       ++missed;
@@ -40,7 +41,8 @@ Launch simulated(uint32_t count, double decades, uint32_t seed) {
   const auto power = [&] { return std::pow(10, -2 * uniform(random)); };
   out.add(0, 15, power());
   for (uint32_t i = 0; i < count; ++i) {
-    const double rays = std::pow(10, 1.5 - decades * uniform(random));  // that a quarter sends there in the mean
+    // Mean number of rays that a quarter sends there.
+    const double rays = std::pow(10, 1.5 - decades * uniform(random));
     uint8_t quarters = 0;
     for (int q = 0; q < 4; ++q) quarters |= static_cast<uint8_t>((uniform(random) > std::exp(-rays)) << q);
     out.add(2, quarters, power());
@@ -87,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE("where strong paths are easy to find, the power is that of paths which are as hard to find as the missed") {
-  // Powers fall with the chance to be found, as those of long paths do; the mean of all that is rare is too strong.
+  // Powers fall with the probability of being found, as those of long paths do; the mean over rare paths is too large.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
   int near = 0, launches = 0;
@@ -107,7 +109,8 @@ TEST_CASE("where strong paths are easy to find, the power is that of paths which
   }
   CAPTURE(near);
   CHECK(launches == 200);
-  CHECK(near >= 0.7 * launches);  // of the mean of all that one or two quarters found: a fifth of the launches
+  // Compared with the mean of all launches that one or two quarters found: a fifth of them.
+  CHECK(near >= 0.7 * launches);
 }
 
 TEST_CASE("the estimate of the formula, by hand") {

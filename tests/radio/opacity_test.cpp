@@ -1,4 +1,4 @@
-// Which surfaces let nothing through, and which numbers they have in a world.
+// Finds which surfaces let nothing through, and their numbers in a world.
 #include "radio/opacity.hpp"
 
 #include "radio/slab.hpp"

@@ -1,4 +1,4 @@
-// What the tests against the reference path lists share.
+// Helpers of the tests against the reference path lists.
 #pragma once
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>

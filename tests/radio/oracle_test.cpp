@@ -1,5 +1,5 @@
-// Coefficients against the reference path lists: their sequences of surfaces, solved here and compared as matrices.
-// The lists come from a float32 program: its points are off by millimetres, which turns a leg of a few centimetres by
+// Coefficients against the reference path lists: their sequences of surfaces, solved here and compared as matrices. The
+// lists come from a float32 program: its points have errors of millimetres, which turns a leg of a few centimetres by
 // degrees, and it evaluates fields at those directions. So fields are compared at its own points as well as at ours.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -116,7 +116,7 @@ bool solve(const Scene& scene, const glm::dvec3& tx, const glm::dvec3& rx, const
   }
 }
 
-// Of the gain (dB), and of the 2 x 2 matrix relative to its norm.
+// Errors of the gain (dB), and of the 2 x 2 matrix relative to its norm.
 struct Errors {
   std::vector<double> gain_db, matrix;
 

@@ -73,6 +73,6 @@ TEST_CASE("cells of volumes that overlap: together they are what both hold, and 
   CHECK(cubic_metres(cells, 1) == doctest::Approx(32));
   CHECK(cubic_metres(cells, 2) == doctest::Approx(8));
   scene.materials.push_back({.name = "dull", .vegetation = VegetationLaw{}});
-  scene.volumes[0].material = 1;  // which does not scatter, and still has the space
+  scene.volumes[0].material = 1;  // this material does not scatter, and still has the space
   CHECK(cubic_metres(make_cells(scene, 0.5, 100000), 1) == doctest::Approx(32));
 }

@@ -1,4 +1,4 @@
-// Pattern files: what a good one gives between its grid points, and what is said about a bad one.
+// Pattern files: the values of a valid one between its grid points, and the messages about invalid ones.
 // Files are written into the build folder.
 #include <doctest/doctest.h>
 

@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// What is left of the amplitude of the mirrored wave.
+// Returns the remaining share of the amplitude of the mirrored wave.
 double share_of(const Material& material) {
   device::wt_material record{};
   record.scattering = material.scattering;
@@ -232,7 +232,8 @@ TEST_CASE("the power of a plate's tiles converges to the integral over it, to se
     const Material material = rough(0.5, lobe, 0.1);
     scene.materials = {material};
     scene.surfaces = {{.normal = up, .triangle_count = 2}};
-    // Of an unpolarised wave of unit power a solid angle, into a unit area at rx; the integrand written out anew.
+    // An unpolarised wave of unit power per solid angle arrives at a unit area at rx; the integrand is written out
+    // again.
     const auto integrand = [&](const glm::dvec3& p) {
       const glm::dvec3 a = tx - p, b = rx - p;
       const double ra = glm::length(a), rb = glm::length(b), cos_a = a.z / ra, cos_b = b.z / rb;

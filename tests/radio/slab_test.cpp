@@ -22,7 +22,7 @@ bool finite(const SlabCoefficients& s) {
   return true;
 }
 
-// P.2040-3 as printed: good where nothing cancels or overflows.
+// P.2040-3 as printed is accurate where nothing cancels or overflows.
 SlabCoefficients textbook(Complex eta, double theta, double thickness_m) {
   const Complex root = std::sqrt(eta - std::pow(std::sin(theta), 2)), j{0, 1};
   const Complex te = (std::cos(theta) - root) / (std::cos(theta) + root);
@@ -177,7 +177,7 @@ TEST_CASE("extremes: finite, and no more power than comes in, for all that a mat
             REQUIRE(finite(s));
             const double te = std::norm(s.reflection_te) + std::norm(s.transmission_te);
             const double tm = std::norm(s.reflection_tm) + std::norm(s.transmission_tm);
-            REQUIRE(te <= 1 + 1e-8);  // where nearly nothing is there and grazed, 1 - cos^2 has lost half of its digits
+            REQUIRE(te <= 1 + 1e-8);  // if nearly nothing is there and grazed, 1 - cos^2 has lost half of its digits
             REQUIRE(tm <= 1 + 1e-8);
           }
 }

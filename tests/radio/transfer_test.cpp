@@ -1,5 +1,5 @@
-// The travelling field against reflections that can be worked by hand.
-// The mirror of a perfect conductor turns the tangential field round and keeps the normal one.
+// The travelling field compared with reflections computed by hand.
+// The mirror of a perfect conductor reverses the tangential field and keeps the normal one.
 #include "radio/transfer.hpp"
 
 #include <doctest/doctest.h>

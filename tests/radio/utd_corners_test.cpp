@@ -101,7 +101,7 @@ TEST_CASE("conducting corners and wedges have the exact field, the better the fa
 }
 
 // Both boundaries of a slight bend lie within its angle; their terms all but cancel. Neither digits nor the field may
-// be lost, however little it is bent.
+// be lost for any small bend.
 TEST_CASE("slight bends tend to the plane, also between their boundaries, to the last digits") {
   const double in = 1.1, rho_m = 100 * wave_m;
   for (double bent = 1e-3; bent > 1e-10; bent /= 10) {

@@ -57,7 +57,7 @@ double azimuth(const WedgeFrame& wedge, const glm::dvec3& away) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-// Of the gain, |a|^2 over all ports, in dB.
+// Returns differences of the gain, |a|^2 over all ports, in dB.
 std::vector<double> differences_db(const std::string& name, const std::filesystem::path& shared) {
   const Json reference = Json::parse(std::ifstream(shared / "oracle" / (name + ".json")));
   const std::string scene_name = reference["scene"];
@@ -81,8 +81,9 @@ std::vector<double> differences_db(const std::string& name, const std::filesyste
       const Material& material = scene.materials[wedge->materials[i]];
       faces[i] = {complex_permittivity(material, frequency_hz), material.thickness_m};
     }
-    // Where its heuristics have no say: both faces lit, so no incident shadow boundary, and no end along a face, where
-    // the reference, which weights all four terms, has a null.
+    // The comparison is made where the reference's heuristics do not matter: both faces are lit, so there is no
+    // incident shadow boundary, and no end lies along a face, where the reference, which weights all four terms, has a
+    // null.
     const double n_pi = wedge->frame.exterior_rad;
     const double in = azimuth(wedge->frame, -k_in), out = azimuth(wedge->frame, k_out);
     if (std::min(in, n_pi - in) < n_pi - std::numbers::pi) continue;

@@ -1,5 +1,5 @@
-// Wedge diffraction where it has to follow rules: reciprocity, limits, finite values, hints, faces that let waves pass.
-// Random geometry from fixed seeds.
+// Rules of wedge diffraction: reciprocity, limits, finite values, hints, faces that let waves pass. The geometry is
+// random, from fixed seeds.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -27,7 +27,7 @@ glm::dvec3 edge_direction(double azimuth, double beta0) {
   return at_azimuth(std::sin(beta0), azimuth, std::cos(beta0));
 }
 
-// Of a source and a receiver at these azimuths, the directions at beta0 to the edge.
+// Returns the coefficients for a source and a receiver at these azimuths, with directions at beta0 to the edge.
 Diffraction between(const Corner& corner, double in, double out, double beta0, double length_m,
                     const LitSides& lit = {}) {
   glm::dvec3 k_in = -edge_direction(in, beta0);
@@ -48,7 +48,7 @@ TEST_CASE("reciprocity: the coefficient the other way is the transpose, beta tur
         exterior, {concrete_face(), i % 3 ? glass_face() : perfect_conductor}, wavelength_m, i % 2 == 0};
     const Matrix2 there = between(corner, in, out, beta0, length_m).coefficient;
     const Matrix2 back = between(corner, out, in, pi - beta0, length_m).coefficient;
-    // Of sqrt(L), which is the coefficient of a whole wave: in corners the four terms may cancel.
+    // The scale is sqrt(L), the coefficient of a whole wave: in corners the four terms may cancel.
     CHECK(size({back[0] - there[0], back[1] + there[2], back[2] + there[1], back[3] - there[3]}) <
           1e-12 * std::sqrt(length_m));
   }
@@ -86,12 +86,12 @@ TEST_CASE("the numbering of faces does not matter") {
     const WedgeFrame other{{0, 0, -1}, corner.inward(1), corner.normal(1), exterior};
     const Diffraction e = diffract(other, {glass_face(), concrete_face()}, k_in, edge_direction(out, beta0), 3,
                                    wavelength_m, corner.transmits);
-    // The edge turned round turns all four vectors of the bases round, and the matrix stays.
+    // Reversing the edge reverses all four vectors of the bases, and the matrix stays the same.
     for (size_t j = 0; j < 2; ++j) {
       CHECK(glm::length(d.from[j] + e.from[j]) < 1e-14);
       CHECK(glm::length(d.to[j] + e.to[j]) < 1e-14);
     }
-    // Of a direction close to the edge, the azimuth has fewer digits.
+    // The azimuth of a direction close to the edge has fewer digits.
     for (size_t j = 0; j < 4; ++j)
       CHECK(std::abs(d.coefficient[j] - e.coefficient[j]) < 1e-12 * size(d.coefficient) / std::sin(beta0));
   }
@@ -107,7 +107,7 @@ TEST_CASE("two faces in one plane diffract nothing; nor does a conducting corner
           const Corner corner{pi / whole, {perfect_conductor, perfect_conductor}, wavelength_m};
           CHECK(size(between(corner, in * pi / whole, out * pi / whole, beta0, 5).coefficient) < 1e-12);
         }
-        // As the angle between the faces closes, what they diffract falls with it.
+        // If the angle between the faces goes to zero, so does their diffraction.
         const auto off_by = [&](double angle) {
           const double exterior = pi + angle;
           const Corner corner{exterior, {concrete_face(), concrete_face()}, wavelength_m};
@@ -157,7 +157,7 @@ TEST_CASE("hints decide the side where rounding cannot, and only there") {
     double out;
     LitSides yes, no;
   };
-  const double mirror_out = 2 * pi - 2.0;  // of a source at 2.0: face 1 reflects until 3 pi - pi - 2.0
+  const double mirror_out = 2 * pi - 2.0;  // for a source at 2.0: face 1 reflects until 3 pi - pi - 2.0
   for (const Case& c : {Case{in + pi, {true, {}}, {false, {}}}, Case{pi - in, {{}, {true, {}}}, {{}, {false, {}}}}}) {
     for (const double off : {-1e-9, 0.0, 1e-9}) {
       const Matrix2 yes = coefficient(c.out + off, c.yes), no = coefficient(c.out + off, c.no);

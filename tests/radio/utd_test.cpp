@@ -175,7 +175,7 @@ TEST_CASE("the total field is continuous at every shadow boundary, spherical wav
         for (const double height : {0.0, 7.0}) {
           for (const double part : {0.13, 0.41, 0.87}) {
             const glm::dvec3 source = at_azimuth(5, part * exterior, height);
-            const auto lit = [&](double out) {  // which geometrical waves there are
+            const auto lit = [&](double out) {  // tells which geometrical waves exist
               const glm::dvec3 receiver = at_azimuth(8, out, -2), moment{0.3, 0.5, 0.8};
               std::vector<bool> there;
               double unused;

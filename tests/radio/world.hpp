@@ -20,7 +20,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double radians = std::numbers::pi / 180;
 inline constexpr double wavelength_m = speed_of_light_m_s / 5.9e9;  // at 5.9 GHz
 
-// doctest's Approx adds 1 to the magnitude by default, which would make nonsense of nanoseconds. This one is relative.
+// doctest's Approx adds 1 to the magnitude by default, which is useless for nanoseconds. This one is relative.
 inline doctest::Approx near(double value, double relative) { return doctest::Approx(value).epsilon(relative).scale(0); }
 
 // ITU-R P.2040-3, Table 3.

@@ -19,7 +19,8 @@ using glm::dvec3;
 
 using Points = std::vector<dvec3>;
 
-constexpr double corner_tolerance = 1e-9;  // of coordinates: reflections so near to each other happen in one point
+// Relative to coordinates: reflections so near to each other happen in one point.
+constexpr double corner_tolerance = 1e-9;
 
 // Reflections in a row, as one end sees them. image[k]: the end mirrored by the first k surfaces.
 struct Chain {
@@ -48,8 +49,8 @@ std::vector<Chain> chains(const Scene& scene, const dvec3& end, size_t max_lengt
   return result;
 }
 
-// Does the point of a reflection lie in another surface's plane too, so that both reflect in a corner, one after the
-// other, with no leg between?
+// Tells whether the point of a reflection lies in another surface's plane too, so that both reflect in a corner, one
+// after the other, with no leg between.
 bool in_plane_too(const Scene& scene, uint32_t surface, const Vertex& next) {
   const Surface &here = scene.surfaces[surface], &there = scene.surfaces[next.number];
   return std::abs(height(here, next.point)) <= corner_tolerance * (1 + glm::length(next.point)) &&
@@ -81,8 +82,8 @@ std::optional<Path> joined(const Scene& scene, const Chain& from, const Path& be
   return path;
 }
 
-// Is there any direction in which a surface goes on from its point p in front of another surface, on the side of
-// `front`? Looked for a millimetre around p.
+// Tells whether there is a direction in which a surface continues from its point p in front of another surface, on the
+// side of `front`. It searches a millimetre around p.
 bool goes_on(const Scene& scene, uint32_t surface, const dvec3& p, const dvec3& front) {
   const dvec3 normal = scene.surfaces[surface].normal;
   const dvec3 u = glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? dvec3{1, 0, 0} : dvec3{0, 1, 0}));
@@ -94,7 +95,8 @@ bool goes_on(const Scene& scene, uint32_t surface, const dvec3& p, const dvec3& 
   return false;
 }
 
-// Reflection k of a path, seen from `before`: do all others in its corner go on in front of it?
+// For reflection k of a path, seen from `before`: tells whether all other surfaces in its corner continue in front of
+// it.
 bool corner_opens(const Scene& scene, const Path& bends, size_t k, const dvec3& before) {
   const Surface& surface = scene.surfaces[bends[k].number];
   const dvec3 front = height(surface, before) > 0 ? surface.normal : -surface.normal;
@@ -134,7 +136,7 @@ Stop stop_at(const Scene& scene, const Vertex& vertex, const dvec3& neighbour) {
   return {vertex.point, false, {wedge.surface[0], wedge.surface[1]}, front};
 }
 
-// The path with its transmissions, or nothing if it is none.
+// Returns the path with its transmissions, or nothing if there is none.
 std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec3& tx, const Path& bends,
                             const dvec3& rx) {
   if (bends.empty() && tx == rx) return std::nullopt;
@@ -142,7 +144,7 @@ std::optional<Path> checked(const Scene& scene, const Limits& limits, const dvec
   const auto stop = [&](size_t k, size_t neighbour) {
     return k == 0 || k > bends.size() ? Stop{point(k)} : stop_at(scene, bends[k - 1], point(neighbour));
   };
-  // Legs of no length, in corners, are passed over.
+  // Legs of length zero, in corners, are skipped.
   const auto same = [&](size_t j, size_t k) {
     return bends[j - 1].kind == reflection && bends[k - 1].kind == reflection &&
            glm::distance(point(j), point(k)) <= corner_tolerance * (1 + glm::length(point(k)));

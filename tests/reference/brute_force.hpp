@@ -1,5 +1,6 @@
 // The slow, obvious oracle: every sequence of surfaces and wedges is tried, every leg is tested against every triangle,
-// in double. Shares no code with the ray tracer; meant for scenes of up to about 60 surfaces and 3 interactions.
+// in double. It shares no code with the ray tracer, and is meant for scenes of up to about 60 surfaces and 3
+// interactions.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace wavetracer::reference {
 
-// Which paths are wanted. Line of sight always is.
+// The paths that are wanted; line of sight always is.
 struct Limits {
   uint32_t max_depth = 3;  // interactions a path, transmissions included
   bool reflection = true;
@@ -17,14 +18,14 @@ struct Limits {
   bool diffraction = false;
   uint32_t max_diffractions = 1;            // a path, 1 or 2; two follow each other, with no reflection between them
   bool free_edges = true;                   // wedges of one face diffract
-  double wavelength_m = 299792458 / 5.9e9;  // corners diffract where that is not faint (wedge_points.hpp)
+  double wavelength_m = 299792458 / 5.9e9;  // corners diffract unless that is too weak (wedge_points.hpp)
 };
 
 // All paths of reflections, transmissions and diffractions at Scene::wedges within the limits, by the image method and
 // Fermat's principle. Positions and vertices are recentred, as the scene is; numbers are those of PathGeometry. Rows
 // are sorted by tx, rx, number of interactions, then their kinds, then their surfaces and wedges.
 //
-// What counts as a path:
+// Rules for a path:
 // - a receiver at a transmitter has no line of sight;
 // - a sequence never names one surface or wedge twice in a row;
 // - each reflection point lies inside its surface, borders included (to 1e-9 of the triangle's size), and both

@@ -125,11 +125,11 @@ std::string kind_of(const Paths& paths, size_t i) {
   return names.empty() ? "specular" : names;
 }
 
-// Adds up what an Agreement says.
+// Sums for an Agreement.
 struct Tally {
   size_t reference = 0, extra = 0;
   double power_all = 0, power_found = 0, power_extra = 0;
-  std::vector<double> delay_errors, gain_errors, matrix_errors;  // of matched paths
+  std::vector<double> delay_errors, gain_errors, matrix_errors;  // errors of matched paths
 
   // Path j of the list, and path i of ours that matches it.
   void add_reference(const Paths& theirs, size_t j, const Paths& mine, std::optional<size_t> i) {

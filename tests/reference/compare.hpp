@@ -11,7 +11,7 @@
 
 namespace wavetracer::reference {
 
-// One reference file. Of the paths, the surfaces, the instances and the Doppler shifts are not known: they are 0.
+// One reference file. Surfaces, instances and Doppler shifts of the paths are unknown: they are 0.
 struct Case {
   std::string name, scene;
   double frequency_hz = 0;
@@ -24,14 +24,14 @@ struct Case {
 // Throws InputError when the file is missing or not a reference list.
 Case load_case(const std::filesystem::path& json_path);
 
-// How well paths, or those of one kind, agree with the list.
+// The agreement of paths, or of those of one kind, with the list.
 struct Agreement {
   size_t reference = 0, found = 0, mine = 0;  // paths in the list, those matched, paths compared with it
   double recall = 0;                          // found / reference
   double power_recall = 0;                    // the same, each path weighted by its sum of |a|^2
   size_t extra = 0;                           // paths of ours that match none in the list
   double extra_power_ratio = 0;               // their power over the list's
-  // Of the matched paths; NaN where there are none (or none with the list's port counts, for gain and matrix).
+  // For the matched paths; NaN if there are none (or none with the list's port counts, for gain and matrix).
   double delay_rel_err_max = 0;
   double gain_err_db_p50 = 0, gain_err_db_p99 = 0, gain_err_db_max = 0;
   double matrix_rel_err_p50 = 0, matrix_rel_err_p99 = 0;  // Frobenius norm of the difference over the list's
@@ -39,11 +39,11 @@ struct Agreement {
 
 struct Comparison : Agreement {
   size_t duplicates = 0;  // ours that repeat another: delay to 1e-13 s, vertices to 1e-4 m
-  // Those of either side, by the interactions besides reflection that their paths contain: "specular" (none),
-  // "transmission", "diffraction", "transmission + diffraction", ...
+  // Agreement of the paths of both sides, by their interactions besides reflection: "specular" (none), "transmission",
+  // "diffraction", "transmission + diffraction", ...
   std::map<std::string, Agreement> kinds;
   std::vector<size_t> missing;      // paths of the list that are not matched, as rows of Case::paths
-  std::vector<size_t> extra_paths;  // ours that are not
+  std::vector<size_t> extra_paths;  // our paths that are not matched
 };
 
 // paths: one frame, vertices in file coordinates. Each is matched once, the nearest first.

@@ -30,7 +30,8 @@ Scene top_edge_only(std::vector<Quad> others) {
   return with_wedges(others, {free_wedges(long_screen, 0)[top]});
 }
 
-// Where the straight line between both ends meets the edge x = 0, z = height once the edge's planes are unfolded.
+// Returns the point where the straight line between both ends meets the edge x = 0, z = height once the edge's planes
+// are unfolded.
 dvec3 split(const dvec3& a, const dvec3& b, double height) {
   const double from = std::hypot(a.x, a.z - height), to = std::hypot(b.x, b.z - height);
   return {0, (a.y * to + b.y * from) / (from + to), height};
@@ -45,7 +46,7 @@ size_t count(const PathGeometry& paths, size_t order, uint8_t kind) {
   return found;
 }
 
-// How far the path bends away from Keller's cone at its vertex k, as a difference of cosines.
+// Returns how far the path bends away from Keller's cone at its vertex k, as a difference of cosines.
 double off_cone(const PathGeometry& paths, size_t i, size_t k, const Wedge& wedge, const dvec3& tx, const dvec3& rx) {
   const dvec3 before = k == paths.first[i] ? tx : paths.vertex[k - 1];
   const dvec3 after = k + 1 == paths.first[i + 1] ? rx : paths.vertex[k + 1];

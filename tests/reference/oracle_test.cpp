@@ -1,5 +1,5 @@
 // Two oracles against each other: brute force on the copied scenes finds the paths of the reference lists.
-// Of specular lists only the orders that brute force reaches are compared; up to there those lists are complete.
+// For specular lists only the orders that brute force reaches are compared; up to there those lists are complete.
 #include <doctest/doctest.h>
 #include <tuple>
 #include "folders.hpp"
@@ -52,7 +52,7 @@ Comparison compare_all(const Case& reference, const Scene& scene, uint32_t max_d
   return compare_paths(reference, geometry_only(geometry, reference, scene));
 }
 
-// How many paths the list has with at most max_order interactions, reflections all.
+// Returns how many paths the list has with at most max_order interactions, which are all reflections.
 size_t specular_count(const Paths& paths, uint32_t max_order) {
   size_t count = 0;
   for (size_t i = 0; i < paths.size(); ++i) {

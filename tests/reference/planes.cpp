@@ -1,4 +1,4 @@
-// The geometry of the brute force: every question is put to every triangle.
+// The geometry of the brute force: every test looks at all triangles.
 // Assumes what planes.hpp says.
 #include "reference/planes.hpp"
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double border_tolerance = 1e-9;    // of a triangle's longest side
+constexpr double border_tolerance = 1e-9;    // relative to a triangle's longest side
 constexpr double parallel_tolerance = 1e-4;  // sine of the angle between planes that count as one
 
-constexpr double front_m = 5e-4;             // in front of what it is on a leg begins
-constexpr double position_tolerance = 1e-9;  // of coordinates: what an interaction is off by
+constexpr double front_m = 5e-4;             // a leg begins this far in front of the surface that it is on
+constexpr double position_tolerance = 1e-9;  // relative to coordinates: the error of an interaction's position
 
 bool inside_triangle(const std::array<dvec3, 3>& corner, const dvec3& point) {
   const dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
@@ -29,18 +29,18 @@ bool inside_triangle(const std::array<dvec3, 3>& corner, const dvec3& point) {
   return true;
 }
 
-// Does the plane of surface i hold the stop?
+// Tells whether the plane of surface i contains the stop.
 bool holds(const Scene& scene, const Stop& stop, uint32_t i) {
   const double reach_m = stop.antenna ? plane_distance_m : position_tolerance * (1 + glm::length(stop.point));
   return std::abs(height(scene.surfaces[i], stop.point)) <= reach_m;
 }
 
-// 0: neither.
+// 0 means on neither side.
 int side_of(const Scene& scene, const Stop& stop, uint32_t i) {
   return holds(scene, stop, i) ? 0 : height(scene.surfaces[i], stop.point) > 0 ? 1 : -1;
 }
 
-// Is the stop on surface i by what happens there?
+// Tells whether the stop is on surface i because of its interaction.
 bool is_on(const Scene& scene, const Stop& stop, uint32_t i) {
   return std::any_of(stop.on.begin(), stop.on.end(), [&](uint32_t own) {
     const glm::dvec3 &n = scene.surfaces[own].normal, &m = scene.surfaces[i].normal;

@@ -1,5 +1,5 @@
-// Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind.
-// Assumes exact planes: a surface's normal has unit length and its triangles lie in its plane.
+// Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind. Planes
+// must be exact: a surface's normal has unit length and its triangles lie in its plane.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -18,10 +18,10 @@ double height(const Surface& surface, const glm::dvec3& point);
 glm::dvec3 mirrored(const Surface& surface, const glm::dvec3& point);
 // Borders included, to 1e-9 of the triangle's size. The point is known to lie in the surface's plane.
 bool inside_surface(const Scene& scene, uint32_t index, const glm::dvec3& point);
-// Where the line from a to b meets the plane, if that is strictly between them.
+// Returns the point where the line from a to b meets the plane, if that is strictly between them.
 std::optional<glm::dvec3> crossing(const Surface& surface, const glm::dvec3& a, const glm::dvec3& b);
 
-// A surface that a leg passes, and where.
+// A surface that a leg passes, and the place.
 struct Passage {
   double distance_m = 0;  // from the start of the leg
   uint32_t surface = 0;
@@ -31,17 +31,17 @@ struct Passage {
 // The point where a leg begins or ends.
 struct Stop {
   glm::dvec3 point{0};
-  bool antenna = true;            // else an interaction
-  std::vector<uint32_t> on = {};  // the surfaces that it is on: of a reflection one, of a wedge two
-  glm::dvec3 front{0};            // of an interaction on surfaces: a unit vector from them towards the leg
+  bool antenna = true;            // false for an interaction
+  std::vector<uint32_t> on = {};  // the surfaces that it is on: one for a reflection, two for a wedge
+  glm::dvec3 front{0};            // for an interaction on surfaces: a unit vector from them towards the leg
 };
 
-// The surfaces between a and b, nearest to a first; `before` is the point before a on the path, or a. None that a or b
-// is on counts, nor, for an antenna, one whose plane is within plane_distance_m of it, nor, for an interaction, one
-// that lies within plane_distance_m of it in one plane with a surface that it is on. An interaction in the plane of any
-// other surface is on the side of `before`. Where the leg is inside of a surface is asked half a millimetre in front of
-// interactions. Surfaces that lie on one another, or side by side in one plane, are passed once: crossings of parallel
-// planes within same_vertex_m are one, of the first surface.
+// Returns the surfaces between a and b, nearest to a first; `before` is the point before a on the path, or a. Three
+// kinds do not count: a surface that a or b is on; for an antenna, one whose plane is within plane_distance_m of it;
+// for an interaction, one that lies within plane_distance_m of it in one plane with a surface that it is on. An
+// interaction in the plane of any other surface is on the side of `before`. The test whether the leg is inside of a
+// surface is made half a millimetre in front of interactions. Surfaces that lie on one another, or side by side in one
+// plane, are passed once: crossings of parallel planes within same_vertex_m are one, of the first surface.
 std::vector<Passage> passages(const Scene& scene, const Stop& before, const Stop& a, const Stop& b);
 
 // The same between two points that are on one surface each, or none, if no other is near them.

@@ -1,5 +1,5 @@
-// Scenes made of parallelograms, one surface each, and their wedges, for tests whose answers are closed forms.
-// No loader, no welding: what is written down is what the scene holds.
+// Scenes made of parallelograms, one surface each, and their wedges, for tests whose answers are closed forms. There is
+// no loader and no welding: the scene has exactly what is written.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>

@@ -1,4 +1,5 @@
-// Transmitted paths of the brute-force oracle: which surfaces a leg passes, where, in which order, and how many may be.
+// Transmitted paths of the brute-force oracle: the surfaces that a leg passes, their places, their order, and their
+// largest number.
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include "reference/brute_force.hpp"

@@ -22,7 +22,7 @@ double slope(const Wedge& wedge, double x_m, const dvec3& a) {
   return glm::dot(wedge.along, from) / glm::length(from);
 }
 
-// Where a growing function of x in [0, length_m] vanishes; the end next to that place if it does so outside.
+// Finds where a growing function of x in [0, length_m] vanishes; the nearer end if that is outside.
 template <typename Function>
 double vanishing(const Function& function, double length_m) {
   if (function(0.0) >= 0) return 0;
@@ -52,8 +52,8 @@ std::optional<dvec3> diffraction_point(const Wedge& wedge, const dvec3& a, const
 
 std::optional<std::array<dvec3, 2>> diffraction_points(const Wedge& first, const Wedge& second, const dvec3& a,
                                                        const dvec3& b) {
-  // With q at its best for each p, the derivative by p is that with q held (the envelope theorem). Where edges meet
-  // it does not exist, so ends are judged from a nanometre inside.
+  // If q is optimal for each p, the derivative by p is that with q fixed (the envelope theorem). It does not exist
+  // where edges meet, so ends are tested a nanometre inside.
   const auto total = [&](double at_m) {
     const double x_m = std::clamp(at_m, 1e-9, first.length_m - 1e-9);
     const double best_m = vanishing(slope_between(second, at(first, x_m), b), second.length_m);

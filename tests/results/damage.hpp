@@ -1,4 +1,4 @@
-// Damage to HDF5 files of runs that leaves them well formed but for the one thing.
+// Damages HDF5 files of runs so that they stay well formed except for one thing.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-// What write_outputs() writes, SavedRun reads; what is damaged is refused with words, never trusted.
-// Files are damaged through the HDF5 library, so that they are well formed but for the one thing.
+// SavedRun reads what write_outputs() writes; damaged files are refused with a message, never trusted.
+// Files are damaged through the HDF5 library, so that they are well formed except for one thing.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ struct Written {
   Written() { file = write_outputs(folder.path() / "run", sample.run(), sample.frames())[0]; }
 };
 
-// The refusal of the file, or an empty text where it is read whole.
+// Returns the refusal of the file, or an empty text if it is read completely.
 std::string refusal(const fs::path& file) {
   try {
     const SavedRun run(file);

@@ -1,4 +1,4 @@
-// What [response] has written, SavedResponses reads; what is damaged is refused with words, never trusted.
+// SavedResponses reads what [response] has written; damaged files are refused with a message, never trusted.
 #include "results/saved_responses.hpp"
 #include <doctest/doctest.h>
 #include "contains.hpp"

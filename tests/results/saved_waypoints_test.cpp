@@ -1,4 +1,4 @@
-// What output.waypoints has written, SavedWaypoints reads; what is damaged is refused with words, never trusted.
+// SavedWaypoints reads what output.waypoints has written; damaged files are refused with a message, never trusted.
 #include "results/saved_waypoints.hpp"
 #include <doctest/doctest.h>
 #include "output/sample_run.hpp"

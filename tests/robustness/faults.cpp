@@ -1,4 +1,4 @@
-// A library to load before the program (LD_PRELOAD): it lets calls of the system fail from a given one on.
+// A library to load before the program (LD_PRELOAD): it makes system calls fail from a given one on.
 // Each is off unless its variable is set: FAULT_LAUNCH=N and FAULT_BUFFER=N, the N-th launch of a kernel and all later
 // ones, the N-th device buffer and all later ones, FAULT_CODE what they return; FAULT_DISK=N, the N-th write to a file
 // and all later ones find the disk full; FAULT_MEMORY=BYTES, no allocation of the host may be as large.
@@ -19,7 +19,7 @@ long setting(const char* name) {
   return text ? std::atol(text) : 0;
 }
 
-// Whether this is the N-th call or a later one, N from the variable.
+// Tells whether this is the N-th call or a later one, with N from the variable.
 class Countdown {
  public:
   explicit Countdown(const char* variable) : from_(setting(variable)) {}

@@ -1,5 +1,5 @@
-// What happens when the machine gives out in the middle of a drive: the device is lost, its memory or the host's is
-// used up, the disk is full. Each is an error with a code and a word on what to do, and nothing that was done is lost.
+// The machine fails in the middle of a drive: the device is lost, its memory or the host's is used up, the disk is
+// full. Each is an error with a code and advice, and finished work is kept.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <cstdlib>
@@ -32,8 +32,8 @@ size_t temporaries(const fs::path& folder) {
   return count;
 }
 
-// The number, at least 1, from which on the fault strikes once some shards of the drive are written but not all.
-// Found by halving: how many calls a frame takes differs from device to device.
+// Returns the number, at least 1, from which on the fault occurs when some but not all shards of the drive are written.
+// It is found by halving: the number of calls of a frame depends on the device.
 long in_the_middle(const std::string& file, const Folder& folder, const std::string& variable) {
   long low = 1, high = 1 << 20;
   for (int attempt = 0; attempt < 24; ++attempt) {
@@ -165,7 +165,7 @@ TEST_CASE("with too little memory for the process every end has a code and a mes
     failed += outcome.code != 0;
     CHECK((outcome.code == 0 || outcome.code == 1 || outcome.code == 4));
     if (outcome.code == 0) continue;
-    CHECK(contains("\n" + outcome.err, "\nwavetracer: "));  // libraries may say something, too
+    CHECK(contains("\n" + outcome.err, "\nwavetracer: "));  // libraries may print something, too
     CHECK(contains(outcome.err, "memory"));
   }
   CHECK(failed > 0);

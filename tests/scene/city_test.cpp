@@ -24,7 +24,7 @@ uint64_t fnv1a(uint64_t hash, std::string_view bytes) {
   return hash;
 }
 
-// Of all files, in the order of their names.
+// Returns a hash of all files, in the order of their names.
 uint64_t hash_of(const std::filesystem::path& folder) {
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

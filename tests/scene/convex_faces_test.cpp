@@ -1,5 +1,5 @@
-// Convex faces: a point of a surface's plane is inside of all sides exactly where a triangle of it is; what is not a
-// convex polygon without holes has no sides.
+// Convex faces: a point of a surface's plane is inside of all sides exactly if it is inside of a triangle; a surface
+// that is no convex polygon without holes has no sides.
 #include "scene/convex_faces.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// Surfaces of several materials in one plane: the smaller one counts, once in every place, whatever the order of the
-// file. The oracle asks random points which meshes hold them.
+// Surfaces of several materials in one plane: the smaller one counts, once in every place, for every order of the file.
+// The oracle tests which meshes contain random points.
 #include "scene/covered_faces.hpp"
 
 #include <doctest/doctest.h>
@@ -181,7 +181,7 @@ TEST_CASE("what is covered scatters once") {
   for (const Scene& s : {build_painted({{ground, "soil"}, {patch, "asphalt"}}, 0.3),
                          build_painted({{patch, "asphalt"}, {ground, "soil"}}, 0.3)}) {
     CHECK(scattering_m2(s) == doctest::Approx(8000).epsilon(1e-9));
-    CHECK(s.report.warnings.size() == 1);  // and not one more of what lies on others
+    CHECK(s.report.warnings.size() == 1);  // and no more of the triangles that lie on others
   }
 }
 

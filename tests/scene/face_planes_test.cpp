@@ -1,4 +1,4 @@
-// Planes of surfaces that touch: roofs in pieces have one number, on the side where nothing parts them.
+// Planes of surfaces that touch: roofs in pieces have one number, on the side where nothing separates them.
 #include "scene/face_planes.hpp"
 
 #include <doctest/doctest.h>

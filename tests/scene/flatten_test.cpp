@@ -1,5 +1,5 @@
-// Planes whose coordinates were rounded or measured become planes again; steps, curves and thin plates stay.
-// The planes that meshes were made of are the truth: no test asks the fit for it.
+// Planes whose coordinates were rounded or measured become planes again; steps, curves and thin plates stay. The planes
+// from which meshes were made are the truth: no test uses the fit for it.
 #include "scene/flatten.hpp"
 
 #include <doctest/doctest.h>

@@ -200,7 +200,8 @@ TEST_CASE("morph targets by the weights of the mesh, or of the node; skins by th
       skinned.accessor<uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, "VEC4", 4);
   body["attributes"]["WEIGHTS_0"] =
       skinned.accessor<uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0, 255, 0, 0, 0}, "VEC4", 4, true);
-  skinned.mesh(body, {{"skin", 0}, {"translation", {1000, 0, 0}}, {"children", {1, 2}}});  // its own transform is void
+  // Its own transform is ignored.
+  skinned.mesh(body, {{"skin", 0}, {"translation", {1000, 0, 0}}, {"children", {1, 2}}});
   skinned.add("nodes", {{"translation", {-1000, 0, 10}}});
   skinned.add("nodes", {{"translation", {-1000, 0, 20}}});
   const size_t inverse = skinned.accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  //

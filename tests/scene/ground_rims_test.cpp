@@ -1,4 +1,4 @@
-// The rim of a ground, by scenes where one can say what a ground is; scenes come as files, as the user's do.
+// The rim of a ground in scenes where the ground is known; scenes are files, like a user's.
 #include "scene/ground_rims.hpp"
 
 #include <fstream>
@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// What a scene's loader keeps of all edges that diffract.
+// The edges that a scene's loader keeps of all edges that diffract.
 struct Kept {
   size_t free, rims;
 };
@@ -62,7 +62,7 @@ TEST_CASE("the rim of a ground does not diffract, its houses do") {
     CHECK(s.report.ground_rims >= 4);
     CHECK(s.wedges.size() >= 8);
   }
-  // A model is no world: the same sheet, as the floor of a vehicle, ends where it does.
+  // A model is no world: the same sheet, as the floor of a vehicle, ends at its rim.
   CHECK(free_count(build({ground})) == 4);
 }
 

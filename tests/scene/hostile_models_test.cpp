@@ -1,4 +1,5 @@
-// Short files that ask for much: names that repeat, groups of groups, parameters of parameters, copies of copies.
+// Short files that need much work or memory: names that repeat, groups of groups, parameters of parameters, copies of
+// copies.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sys/inotify.h>
@@ -22,7 +23,7 @@ namespace {
 class OpeningCount {
  public:
   explicit OpeningCount(const std::filesystem::path& path) : descriptor_(inotify_init1(IN_NONBLOCK)) {
-    // Equal events in a row are one: so each opening is parted from the next one by a closing.
+    // Equal events in a row are merged: so each opening is separated from the next one by a closing.
     REQUIRE(inotify_add_watch(descriptor_, path.c_str(), IN_OPEN | IN_CLOSE) >= 0);
   }
   ~OpeningCount() { close(descriptor_); }

@@ -1,4 +1,4 @@
-// Radio materials: the table, and who wins among alias, configuration, file and table.
+// Radio materials: the table, and the precedence of alias, configuration, file and table.
 // Values of the table are spot-checked against ITU-R P.2040-3 and P.2040-4, Table 3.
 #include <doctest/doctest.h>
 
@@ -98,8 +98,9 @@ TEST_CASE("laws that overlap: the narrower range, with a warning; each ordered s
   CHECK(warnings("glass", 150).empty());
   REQUIRE(warnings("glass", 300).size() == 1);
   CHECK(warnings("glass", 300)[0] ==
-        "ITU-R P.2040-4 has 2 laws of \"glass\" at 300 GHz (220 to 450 GHz, 100 to 400 GHz): that of 220 to 450 GHz is "
-        "used, because its range is narrower; a [[material]] with a, b, c and d takes another one");
+        "ITU-R P.2040-4 has 2 laws of \"glass\" at 300 GHz (220 to 450 GHz, 100 to 400 GHz): "
+        "that of 220 to 450 GHz is used, because its range is narrower; a [[material]] with a, b, "
+        "c and d takes another one");
   const std::vector<Material>& all = itu_materials("P.2040-4");
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t k = i + 1; k < all.size(); ++k) {
@@ -184,7 +185,7 @@ TEST_CASE("the configuration overrides table and file, field by field") {
   CHECK(m.a == 3.91);
   CHECK(m.c == 0.03);
   CHECK(m.d == 0.16);
-  // The file's own definition: its thickness yields to the configuration's, of its ITU type and of its own name.
+  // The file's own definition: the configuration's thickness overrides it, for its ITU type and its own name.
   RawMaterial facade = named("mat-facade");
   facade.itu_type = "concrete";
   facade.thickness_m = 0.3;
@@ -234,14 +235,14 @@ TEST_CASE("vegetation is refused what only a surface has, and a surface what onl
   bark.library = "wood";
   refuses(bark, no_surface);
   constexpr const char* no_leaves =
-      "[[material]] 'brick': attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or "
-      "\"deciduous\"";
+      "[[material]] 'brick': attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" "
+      "or \"deciduous\"";
   refuses(table("brick", {{&MaterialConfig::attenuation_db_m, 1}}), no_leaves);
   refuses(table("brick", {{&MaterialConfig::max_attenuation_db, 30}}), no_leaves);
   MaterialConfig bare = table("brick");
   bare.in_leaf = false;
   refuses(bare, no_leaves);
-  // What vegetation does take, the two keys of its scattering among them.
+  // Vegetation does use these keys, including the two of its scattering.
   CHECK(resolve(named("hedge"), {hedge({{&MaterialConfig::scattering, 0.6},
                                         {&MaterialConfig::scattering_cross_polar, 0.2},
                                         {&MaterialConfig::attenuation_db_m, 1}})})

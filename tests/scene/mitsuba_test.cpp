@@ -28,7 +28,7 @@ std::string square(const std::string& inside, const std::string& id = "mesh-squa
 const std::string twosided = "<bsdf type=\"twosided\" id=\"mat-itu_brick\"><bsdf type=\"diffuse\" id=\"x\"/></bsdf>";
 const std::string brick = "<ref name=\"bsdf\" id=\"mat-itu_brick\"/>";
 
-glm::dvec3 corner_after(const std::string& operations) {  // where (1, 1, 0) goes
+glm::dvec3 corner_after(const std::string& operations) {  // returns the image of (1, 1, 0)
   const Files files;
   const RawScene raw = read_mitsuba(
       files.scene(twosided + square(brick + "<transform name=\"to_world\">" + operations + "</transform>")));

@@ -144,7 +144,7 @@ TEST_CASE("models: errors and warnings") {
                        InputError);
   CHECK_THROWS_WITH_AS(load("deep.gltf", nodes(std::string(1000000, '[') + std::string(1000000, ']'))),
                        Contains("deep.gltf: its JSON is nested deeper than 100"), InputError);
-  // Of a format that assimp knows by its first bytes, and that nobody asked for.
+  // The file has a format that assimp knows by its first bytes, and that nobody asked for.
   CHECK_THROWS_WITH_AS(load("other.glb", "quick3Ds" + std::string(100, '\x7f')),
                        Contains("other.glb: is not a glTF file"), InputError);
   CHECK_THROWS_WITH_AS(load("none.gltf", "{\"nodes\":"), Contains("none.gltf: is not a glTF file"), InputError);

@@ -52,7 +52,7 @@ PlyMesh read(const std::string& content) {
   return read_ply(folder.write("mesh.ply", content));
 }
 
-double area(const PlyMesh& mesh) {  // of triangles on z = 0, signed
+double area(const PlyMesh& mesh) {  // signed area of triangles on z = 0
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const glm::dvec3 u = mesh.vertices[b] - mesh.vertices[a], v = mesh.vertices[c] - mesh.vertices[a];

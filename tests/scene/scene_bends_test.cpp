@@ -1,4 +1,4 @@
-// Bends and corners of meshes: what is bent diffracts on both sides, however little, but for right angles.
+// Tests bends and corners of meshes: whatever is bent diffracts on both sides, however little, except right angles.
 // Each wedge is also checked against all triangles around it.
 #include <doctest/doctest.h>
 

@@ -13,8 +13,8 @@ namespace wavetracer::test {
 
 // An ascii PLY file with the corners of a unit square on z = 0 (vertices) and these faces.
 inline std::string square_ply(std::string_view faces, int face_count) {
-  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nelement "
-         "face " +
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+         "element face " +
          std::to_string(face_count) +
          "\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + std::string(faces);
 }

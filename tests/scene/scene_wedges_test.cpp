@@ -1,5 +1,5 @@
-// Wedges of meshes whose edges are known by hand, each also checked against all triangles around it.
-// Scenes come as separate meshes, welded along or not, so that most edges have faces of several.
+// Tests wedges of meshes whose edges are known by hand; each is also checked against all triangles around it.
+// Scenes consist of separate meshes, welded along their sides or not, so that most edges have faces of several meshes.
 #include "scene/scene_wedges.hpp"
 
 #include <doctest/doctest.h>
@@ -61,7 +61,7 @@ TEST_CASE("boxes that share a wall: nothing at it, and edges run across both") {
 TEST_CASE("a wall that is doubled, overlaps or leaves a gap of millimetres is one wall") {
   struct Expected {
     double x;
-    size_t wedges;  // 12 where vertices are welded; else facades are two surfaces, and the long edges two wedges each
+    size_t wedges;  // 12 where vertices are welded; otherwise each facade is two surfaces and each long edge two wedges
   };
   for (const auto& [x, wedges] : {Expected{3.9991, 12}, {4.0009, 12}, {3.9985, 16}, {4.0015, 16}}) {
     CAPTURE(x);
@@ -118,7 +118,7 @@ TEST_CASE("a box on the ground: its feet do not diffract") {
   }
   const Scene open = build({quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0}), box({-3, -2, 0.05}, {2, 4, 5}, false)});
   CHECK(free_count(open) == 8);  // 5 cm above the ground the feet are edges in the air
-  // Half on the ground: a wall's foot is free where the ground ends.
+  // Half of the wall is on the ground: its foot is a free edge only where the ground ends.
   const Scene half = build({quad({0, -10, 0}, {20, 0, 0}, {0, 20, 0}), quad({-3, 0, 0}, {6, 0, 0}, {0, 0, 2})});
   check_contract(half);
   CHECK(diffracts(half, {-3, 0, 0}, {0, 0, 0}, 360));
@@ -142,7 +142,7 @@ TEST_CASE("coplanar quads of two materials: flat between them, their outlines st
   CHECK(s.wedges.size() == 6);
   CHECK(free_count(s) == 6);
   CHECK(diffracts(s, {0, 0, 0}, {10, 0, 0}, 360));
-  // The same, not welded along: the border is a piece of its own, flat.
+  // The same meshes, not welded along the side: the border is then a flat piece of its own.
   const Scene loose = build({quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0}), quad({10, 2, 0}, {5, 0, 0}, {0, 6, 0})}, {0, 1});
   check_contract(loose);
   CHECK(loose.report.flat_pieces == 1);
@@ -186,7 +186,7 @@ TEST_CASE("pieces in a row are one wedge, across vertices that only one mesh has
   CHECK(s.wedges.size() == 7);
   CHECK(diffracts(s, {0, 0, 3}, {10, 0, 3}, 270));
   CHECK(diffracts(s, {0, 5, 3}, {10, 5, 3}, 360));
-  // Another material from 4 m on: two surfaces, so two wedges.
+  // The material changes at 4 m: two surfaces, so two wedges.
   const RawMesh near = quad({0, 0, 3}, {4, 0, 0}, {0, 5, 0}), far = quad({4, 0, 3}, {6, 0, 0}, {0, 5, 0});
   const Scene two = build({wall, near, far}, {0, 0, 1});
   check_contract(two);
@@ -269,7 +269,7 @@ TEST_CASE("found again they are the same, and a stretched scene has the angles o
   find_wedges(s);
   REQUIRE(s.wedges.size() == before.size());
   for (size_t i = 0; i < before.size(); ++i) CHECK(s.wedges[i].start == before[i].start);
-  const dvec3 scale(std::sqrt(3.0), 1, 1);  // planes as well: dot(n, p) = d is dot(n / scale, scale p) = d
+  const dvec3 scale(std::sqrt(3.0), 1, 1);  // planes are scaled as well: dot(n, p) = d is dot(n / scale, scale p) = d
   for (dvec3& v : s.vertices) v *= scale;
   for (Surface& surface : s.surfaces) {
     const dvec3 normal = surface.normal / scale;
@@ -286,7 +286,7 @@ TEST_CASE("scene info counts edges that diffract and lists them") {
   const Scene s = build({quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0}), box({-3, -2, 0}, {2, 4, 5})}, {0, 1});
   const std::string text = describe_scene(s);
   CHECK(text.find("diffract   12 edges: 8 wedges, 4 free\n") != std::string::npos);
-  // The floor of the box is cut out of the ground: the borders of pieces of the ground are flat.
+  // The floor of the box is cut out of the ground, so the borders between pieces of the ground are flat.
   CHECK(text.find("left out: 8 pieces flat with another mesh, 6 in corners of right angles (feet of walls)") !=
         std::string::npos);
   CHECK(text.find("\ncovered    30 m2 of surfaces") != std::string::npos);

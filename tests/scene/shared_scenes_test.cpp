@@ -1,5 +1,5 @@
-// The scenes of Sionna RT, where the folder with them is there: counts, and the time that munich takes.
-// Expected counts of munich come from a separate count of its PLY files (exact positions rounded to the weld
+// Tests the scenes of Sionna RT, where the folder with them exists: counts, and the time that munich takes. The
+// expected counts of munich come from a separate count of its PLY files (exact positions rounded to the weld
 // tolerance).
 #include <doctest/doctest.h>
 
@@ -33,7 +33,7 @@ TEST_CASE("small shared scenes") {
   struct Expected {
     const char* name;
     size_t triangles, surfaces, free_edges;
-  };  // in the canyons six houses stand on the ground, out of which their floors are cut
+  };  // six houses stand on the ground of the canyons, and their floors are cut out of it
   constexpr Expected expected[] = {{"box", 12, 6, 0},
                                    {"box_one_screen", 14, 7, 4},
                                    {"box_two_screens", 16, 8, 8},
@@ -65,9 +65,9 @@ TEST_CASE("munich") {
   CHECK(scene.report.free_edges == 7373);
   CHECK(scene.report.nonmanifold_edges == 13);
   CHECK(scene.surfaces.size() > 17000);
-  CHECK(scene.surfaces.size() < 17432);  // what merging without the rule for slivers gives
+  CHECK(scene.surfaces.size() < 17432);  // number of surfaces without the rule for slivers
   CHECK(scene.materials.size() == 5);
-  REQUIRE(scene.report.warnings.size() == 1);  // marble facades and metal ones lie on each other
+  REQUIRE(scene.report.warnings.size() == 1);  // marble facades and metal ones coincide
   CHECK(scene.report.warnings[0].starts_with("surfaces of marble and metal lie on each other in one plane, on 442 m2"));
 }
 
@@ -83,7 +83,8 @@ TEST_CASE("edges of the shared scenes that diffract") {
   const Scene canyon = load("simple_street_canyon");
   CHECK(canyon.wedges.size() == 6 * 8);
   CHECK(canyon.report.ground_rims == 4);
-  CHECK(canyon.report.corner_pieces >= 6 * 4);  // in pieces where borders of what is cut meet the feet
+  CHECK(canyon.report.corner_pieces >=
+        6 * 4);  // edges are in pieces where borders of cut-out parts meet the feet of houses
   CHECK(load("box_one_screen").wedges.size() == 12 + 4);
   CHECK(load("floor_wall").wedges.size() == 4);  // the wall hangs above the floor
   // Buildings without floors: their feet are free edges of the mesh, and do not diffract where they meet the ground.

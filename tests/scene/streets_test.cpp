@@ -1,4 +1,5 @@
-// The streets of a generated city against its buildings and its traffic, which know nothing of them.
+// Compares the streets of a generated city with its buildings and its traffic, which are generated without these
+// streets.
 #include "scene/streets.hpp"
 
 #include <doctest/doctest.h>
@@ -37,7 +38,7 @@ TEST_CASE("vehicles of a generated city drive on its streets, and no house stand
     size_t corners = 0;
     for (const RawMesh& mesh : generate_city(options).meshes)
       for (const glm::dvec3& p : mesh.vertices)
-        if (p.z > 1) {  // of houses, which reach below the ground
+        if (p.z > 1) {  // the vertices of houses, which reach below the ground
           ++corners;
           CHECK_FALSE(on_street(streets, p));
         }

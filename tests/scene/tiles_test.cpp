@@ -1,5 +1,6 @@
-// Tiles of diffuse scattering: they cover the surfaces that scatter, exactly and no others, and none is too long.
-// Right isosceles triangles have counts in closed form: each bisection halves the area, and the longest side by sqrt 2.
+// Tests tiles of diffuse scattering: they cover exactly the surfaces that scatter, and none is too long. Right
+// isosceles triangles have counts in closed form: each bisection halves the area and divides the longest side by sqrt
+// 2.
 #include "scene/tiles.hpp"
 
 #include <doctest/doctest.h>
@@ -56,7 +57,7 @@ TEST_CASE("a square of 8 m: 16 tiles of 4 m, and four times as many each time th
   size_t expected = 16;
   for (const double tile_m : {4.0, 2.0, 1.0, 0.5, 0.25}) {
     CAPTURE(tile_m);
-    // Just above and below: a longest side of exactly tile_m stays, whatever its rounding.
+    // Just above and below the limit: a longest side of exactly tile_m is kept, however it is rounded.
     CHECK(make_tiles(scene, tile_m * (1 + 1e-9)).size() == expected);
     CHECK(make_tiles(scene, tile_m * (1 - 1e-9)).size() == 2 * expected);
     expected *= 4;

@@ -33,7 +33,7 @@ Scene load_boxes(const std::vector<std::pair<dvec3, dvec3>>& boxes) {
   return load_scene_file(folder.write("scene.xml", xml + "</scene>"), {});
 }
 
-// What every Scene promises, checked from its triangles.
+// Checks the promises of every Scene, from its triangles.
 void check_consistent(const Scene& s) {
   REQUIRE(s.triangle_surface.size() == s.triangles.size());
   REQUIRE(s.triangle_object.size() == s.triangles.size());
@@ -94,8 +94,8 @@ TEST_CASE("boxes that touch are welded: shared edges, one facade, one wall betwe
   CHECK(s.vertices.size() == 12);
   CHECK(s.report.free_edges == 0);
   CHECK(s.report.welded_vertices == 4);
-  // The two faces between the boxes coincide, diagonals included: one is kept, and its four sides meet two facades
-  // each.
+  // The two faces between the boxes coincide, with their diagonals: one is kept, and each of its four sides meets two
+  // facades.
   CHECK(s.report.duplicate_triangles == 2);
   CHECK(s.report.nonmanifold_edges == 4);
   CHECK(s.surfaces.size() == 7);
@@ -164,14 +164,14 @@ TEST_CASE("brute force agrees with the weld of random clusters") {
 
 TEST_CASE("degenerate and duplicate triangles are dropped and counted") {
   RawMesh a = quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
-  a.vertices.push_back({5, 1e-7, 0});     // 4: on the edge 0-1, so (0, 1, 4) has no height
-  a.vertices.push_back({10.0005, 0, 0});  // 5: welds with 1
+  a.vertices.push_back({5, 1e-7, 0});     // vertex 4 lies on the edge 0-1, so (0, 1, 4) has no height
+  a.vertices.push_back({10.0005, 0, 0});  // vertex 5 is welded with 1
   a.triangles.push_back({0, 1, 4});
   a.triangles.push_back({1, 5, 2});  // a side of zero after welding
   a.triangles.push_back({2, 1, 0});  // repeats the first, turned
   const Scene s = build({a, quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0})}, {0, 1});
   CHECK(s.report.degenerate_triangles == 2);
-  CHECK(s.report.duplicate_triangles == 1);  // those of another material are covered, or cover
+  CHECK(s.report.duplicate_triangles == 1);  // triangles of another material are covered, or cover others
   CHECK(s.report.welded_vertices == 5);
   REQUIRE(s.report.warnings.size() == 1);
   CHECK(s.report.warnings[0].starts_with("surfaces of brick and concrete lie on each other in one plane"));
@@ -194,7 +194,7 @@ TEST_CASE("surfaces end at materials, bends and gaps") {
              s.triangle_object[s.edge_faces[e.first_face]] != s.triangle_object[s.edge_faces[e.first_face + 1]];
     });
   };
-  CHECK(shared(two).flat);  // coplanar, though of two materials
+  CHECK(shared(two).flat);  // coplanar, although of two materials
   CHECK(build({floor, quad({10.01, 0, 0}, {5, 0, 0}, {0, 10, 0})}).surfaces.size() == 2);
   const Scene bent = build({floor, quad({10, 0, 0}, {5, 0, 0.01}, {0, 10, 0})});  // 2 mrad
   CHECK(bent.surfaces.size() == 2);
@@ -208,7 +208,8 @@ TEST_CASE("surfaces end at materials, bends and gaps") {
 
 TEST_CASE("a fine cylinder does not drift into one surface; a sliver joins its wall") {
   RawMesh tube;
-  const int sides = 3600;  // bends of 1.7 mrad, facets 35 mm wide: all corners of a neighbour within 2 mm
+  const int sides =
+      3600;  // bends of 1.7 mrad, facets 35 mm wide: all corners of a neighbour are within 2 mm of the plane
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * std::acos(-1.0) * i / sides;
     tube.vertices.push_back({20 * std::cos(angle), 20 * std::sin(angle), 0});
@@ -226,7 +227,7 @@ TEST_CASE("a fine cylinder does not drift into one surface; a sliver joins its w
   wall.triangles.push_back({3, 2, 4});
   const Scene s = build({wall});
   CHECK(s.surfaces.size() == 1);
-  CHECK(s.surfaces[0].normal == dvec3(0, 1, 0));  // of the large triangles, whatever the strip says
+  CHECK(s.surfaces[0].normal == dvec3(0, 1, 0));  // the normal of the large triangles, whatever the strip's is
 }
 
 TEST_CASE("normals do not depend on the winding, ids not on anything but the lowest triangle") {

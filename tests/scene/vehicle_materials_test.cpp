@@ -1,5 +1,5 @@
-// Materials of vehicles and people: skin against the Cole-Cole model that it was fitted to, names, ranges, the order in
-// which libraries are asked.
+// Tests materials of vehicles and people: skin against the Cole-Cole model that it was fitted to, names, ranges, and
+// the order in which libraries are searched.
 #include "scene/vehicle_materials.hpp"
 
 #include <doctest/doctest.h>

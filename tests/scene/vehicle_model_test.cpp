@@ -1,5 +1,5 @@
-// Vehicle models: closed and outward by their edges and volume, of the exact size, few planar surfaces, symmetric.
-// Volumes are compared with areas of the side views computed by hand.
+// Tests vehicle models: they are closed, face outward (by their edges and volume), have the exact size, few planar
+// surfaces and are symmetric. Volumes are compared with areas of the side views, computed by hand.
 #include <doctest/doctest.h>
 
 #include <algorithm>

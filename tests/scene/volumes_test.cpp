@@ -1,5 +1,5 @@
-// Volumes of vegetation: meshes whose faces are there more than once, volumes that are there more than once.
-// Every mesh must enclose what the plain box does, by the divergence theorem.
+// Tests volumes of vegetation: meshes that contain faces several times, and volumes that are listed several times. By
+// the divergence theorem, every mesh must enclose the same volume as the plain box.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -95,11 +95,12 @@ TEST_CASE("crowns that touch, in one mesh: the wall between them is no outside, 
   const RawMesh left = box_of_leaves({0, 0, 0}, {2, 2, 2}), right = box_of_leaves({2, 0, 0}, {5, 2, 2});
   const RawMesh both = joined(left, right);
   CHECK(enclosed(both).m3 == doctest::Approx(20));
-  CHECK(enclosed(both).repeated == 0);  // as it was read before
+  CHECK(enclosed(both).repeated == 0);  // the same as it was read before
   CHECK(enclosed(joined(both, both)).m3 == doctest::Approx(20));
   CHECK(enclosed(joined(both, turned(both))).m3 == doctest::Approx(20));
   const RawMesh apart = joined(left, box_of_leaves({3, 0, 0}, {4, 2, 2}));
-  CHECK(enclosed(joined(apart, turned(left))).m3 == doctest::Approx(12));  // one of two parts is there both ways
+  CHECK(enclosed(joined(apart, turned(left))).m3 ==
+        doctest::Approx(12));  // one of two parts is there in both orientations
 }
 
 TEST_CASE("boxes that meet: those before, and not those that touch") {

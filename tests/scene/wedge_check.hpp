@@ -63,7 +63,8 @@ inline RawMesh l_building() {
   return out;
 }
 
-// Meshes of materials given by index, one a mesh; vertices within the tolerance of a plane are moved onto it.
+// Builds a scene of meshes, whose materials are given by index, one for each mesh; vertices within the tolerance of a
+// plane are moved onto it.
 inline Scene build(std::vector<RawMesh> meshes, std::vector<uint32_t> material = {}, double tolerance_m = 0) {
   RawScene raw;
   raw.file = "test";
@@ -82,8 +83,8 @@ inline size_t free_count(const Scene& s) {
   return static_cast<size_t>(std::count_if(s.wedges.begin(), s.wedges.end(), is_free));
 }
 
-// The wedge between two points of the file, in either sense; nullptr if there is none or more than one. exterior_deg:
-// of so many degrees, if not 0.
+// Returns the wedge between two points of the file, in either direction; nullptr if there is none or more than one.
+// exterior_deg: the exterior angle it must have, if not 0.
 inline const Wedge* between(const Scene& s, const dvec3& a, const dvec3& b, double within_m = 1e-9,
                             double exterior_deg = 0) {
   const Wedge* found = nullptr;
@@ -104,7 +105,7 @@ inline bool diffracts(const Scene& s, const dvec3& a, const dvec3& b, double ext
   return between(s, a, b, 1e-9, exterior_deg) != nullptr;
 }
 
-// To a triangle, by its inside or its nearest side.
+// Returns the distance to a triangle: to its inside or its nearest side.
 inline double distance_m(const dvec3& p, const std::array<dvec3, 3>& t) {
   const dvec3 n = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
   bool inside = true;
@@ -128,7 +129,7 @@ inline double distance_m(const Scene& s, const dvec3& p, uint32_t surface = 0xFF
   return nearest;
 }
 
-// The contract of Wedge, by the distance of points around it from all triangles.
+// Checks the contract of Wedge by the distances of points around it from all triangles.
 inline void check_contract(const Scene& s, double touching_m = 1e-9) {
   for (const Wedge& w : s.wedges) {
     CAPTURE(w.start.x);
@@ -145,7 +146,7 @@ inline void check_contract(const Scene& s, double touching_m = 1e-9) {
     CHECK(w.exterior_rad <= 2 * pi);
     CHECK(is_free(w) == (w.exterior_rad == 2 * pi));
     const double radius_m = 0.01;
-    const dvec3 on_edge = w.start + w.along * (w.length_m * 0.37);  // where no other face crosses the edge
+    const dvec3 on_edge = w.start + w.along * (w.length_m * 0.37);  // no other face crosses the edge there
     const auto at = [&](double azimuth) {
       return on_edge + (w.face * std::cos(azimuth) + w.normal * std::sin(azimuth)) * radius_m;
     };

@@ -1,5 +1,5 @@
-// Arrays against tracing: every element is made an end of its own, and what is found there is what the path between the
-// centres says of these elements, as long as the sequences are the same.
+// Compares arrays with tracing of each element: every element becomes an end of its own, and the paths found there must
+// agree with those computed from the path between the centres, as long as the sequences are the same.
 #include "wavetracer/arrays.hpp"
 
 #include <map>
@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 namespace {
 
 using Complex = std::complex<double>;
-// What a path has met: kinds and surfaces, and of what is scattered which tile of a surface.
+// The interactions of a path: kinds and surfaces, and for a scattering the tile of its surface.
 using Sequence = std::vector<std::tuple<uint8_t, uint32_t, int64_t>>;
 
 Sequence sequence_of(const Paths& paths, size_t row) {
@@ -56,7 +56,7 @@ Config array_config(const std::filesystem::path& scene) {
   return config;
 }
 
-// The same with an end for every element.
+// Returns the same configuration with an end for every element.
 Config traced_config(Config config) {
   const auto split = [&](std::vector<RadioEnd>& ends) {
     const RadioEnd centre = ends[0];
@@ -98,7 +98,7 @@ Config drive_config(const std::filesystem::path& scene) {
   return config;
 }
 
-// The same with a mount for every element.
+// Returns the same configuration with a mount for every element.
 Config traced_mounts(Config config) {
   const MountConfig mount = config.mounts[0];
   RadioEnd end;
@@ -117,11 +117,11 @@ Config traced_mounts(Config config) {
 
 struct PhaseErrors {
   size_t compared = 0;   // pairs of elements, of all paths
-  size_t moving = 0;     // of them those that vehicles turn
-  double worst_rad = 0;  // of the phase of the delay at the carrier
+  size_t moving = 0;     // number of them that vehicles turn
+  double worst_rad = 0;  // largest error of the phase of the delay at the carrier
 };
 
-// kinds: of the interactions of the paths that are compared.
+// kinds: kinds of interactions on the paths that are compared.
 PhaseErrors compare(const Simulation& simulation, const FrameResult& arrays, const FrameResult& traced, uint8_t kinds) {
   const ElementModel model(simulation);
   std::map<std::tuple<uint32_t, uint32_t, Sequence>, size_t> rows;
@@ -172,8 +172,8 @@ TEST_CASE("an 8 x 8 panel and a 4 x 2 panel: spherical waves are as if every ele
   CHECK(all.worst_rad < 1e-6);
 }
 
-// What a plane leaves out of |r + d| is at most d^2 / (2 r) of a path of length r; d: by how much the elements of both
-// ends are away from their centres.
+// The error of a plane wave is at most d^2 / (2 r) for a path of length r: the part of |r + d| that is neglected; d:
+// distance of the elements of both ends from their centres.
 TEST_CASE("plane waves err by the curvature that they leave out, and no more") {
   const SceneFile scene = street();
   Config config = array_config(scene.path());
@@ -215,7 +215,7 @@ TEST_CASE("what is scattered, and what goes through walls, has the exact length 
   }
 }
 
-// The panel turns with its vehicle, and the mirror is another vehicle.
+// The panel turns with its vehicle, and another vehicle is the mirror.
 TEST_CASE("arrays on vehicles, and mirrors that are vehicles: as mounts for every element") {
   const SceneFile scene(std::vector<Part>{{{{{-100, -50, 0}, {200, 0, 0}, {0, 100, 0}}}, "concrete"}});
   const Config config = drive_config(scene.path());

@@ -1,6 +1,6 @@
-// Vehicles that come and go, in every way of launching: each frame has the paths of a cold plain launch of its own.
-// The street and its rays are such that every launch finds all paths: vehicles are antennas without bodies, walls
-// large.
+// Tests vehicles that come and go, with every way of launching: each frame has the paths of a plain launch of its own
+// that starts cold. Street and rays are chosen such that every launch finds all paths: vehicles are antennas without
+// bodies, and walls are large.
 #include <functional>
 
 #include "passes/triangles.hpp"
@@ -14,15 +14,15 @@ namespace {
 
 constexpr uint32_t frame_count = 12;
 
-// How many vehicles each frame has: one to begin with, then numbers that often differ by a factor of four, as levels of
-// a refined launch do.
+// Returns the number of vehicles in each frame: one at first, then numbers that often differ by a factor of four, as
+// levels of a refined launch do.
 std::vector<size_t> random_counts(Random& random) {
   std::vector<size_t> counts{1};
   while (counts.size() < frame_count) counts.push_back(size_t{1} << random.below(4));
   return counts;
 }
 
-// Vehicles arrive and leave at random, each once.
+// Makes vehicles arrive and leave at random, each once.
 Config traffic(const std::filesystem::path& scene, uint32_t seed, uint64_t rays) {
   Random random(seed);
   const std::vector<size_t> counts = random_counts(random);
@@ -52,7 +52,7 @@ Config traffic(const std::filesystem::path& scene, uint32_t seed, uint64_t rays)
 
 struct Mode {
   std::string name;
-  bool same_rays;  // as the plain launch: then also the same bytes
+  bool same_rays;  // the same rays as the plain launch: then the bytes are the same, too
   std::function<void(Config&)> set;
 };
 

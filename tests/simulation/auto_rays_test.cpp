@@ -21,7 +21,7 @@ TEST_CASE("what four million rays find, for a fraction of the rays") {
   CAPTURE(plain.paths.size());
   CAPTURE(refined.paths.size());
   CHECK(static_cast<double>(missing(plain.paths, refined.paths)) <= 0.01 * static_cast<double>(plain.paths.size()));
-  CHECK(refined.counts.rays < 2 * 200000);  // of both transmitters
+  CHECK(refined.counts.rays < 2 * 200000);  // rays of both transmitters
 }
 
 TEST_CASE("a launch that ends before its recall says so, and why, once a drive") {
@@ -31,7 +31,7 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
     return run(config).warnings;
   };
   CHECK(warnings_of(0.7).empty());
-  // Some of the sequences are met by one ray alone, but none of them leads to a receiver: what counts are paths.
+  // Some of the sequences are met by one ray only, but none of them leads to a receiver: only paths count.
   CHECK(warnings_of(0.99).empty());
   const std::vector<std::string> warnings = warnings_of(1);
   REQUIRE(warnings.size() == 1);
@@ -40,7 +40,7 @@ TEST_CASE("a launch that ends before its recall says so, and why, once a drive")
   CHECK(
       warnings[0].ends_with("% of the sequences found were met by only one ray, and its rays cannot come closer "
                             "to each other; give trace.rays a number to find more"));
-  // A frame that knows what earlier ones met does not tell by its own rays what is missed.
+  // A frame that knows the sequences of earlier frames cannot tell from its own rays what is missed.
   Config config = city({}, 4);
   config.trace.recall = 1;
   config.tracks = {{"a", "passenger", {{0, -60, -3.1, 0}, {2, -40, -3.1, 0}}}};
@@ -71,9 +71,9 @@ TEST_CASE("a launch that begins again, because its set of sequences had to grow,
   config.trace.recall = 0.9999;
   config.trace.max_rays = 80000;
   const FrameResult result = run(config);
-  CHECK(result.counts.sequences > 2 * 262144);  // more than the set begins with
+  CHECK(result.counts.sequences > 2 * 262144);  // more than the initial size of the set
   CHECK(result.counts.rays <= 8 * config.trace.max_rays);
-  CHECK(result.segments_per_depth[0] > result.counts.rays);  // what was traced, however often
+  CHECK(result.segments_per_depth[0] > result.counts.rays);  // segments are counted as often as they were traced
 }
 
 TEST_CASE("more recall takes more rays and loses no path") {
@@ -113,7 +113,7 @@ TEST_CASE("each transmitter finds what it would alone") {
   size_t of_second = 0;
   for (size_t i = 0; i < both.paths.size(); ++i) of_second += both.paths.tx[i] == 1;
   CHECK(alone.paths.size() > 30);
-  // Where one of them would have stopped, it goes on with the other.
+  // If one of them would have stopped, it continues with the other.
   CHECK(std::abs(static_cast<double>(alone.paths.size()) - static_cast<double>(of_second)) <=
         0.02 * static_cast<double>(of_second));
 }
@@ -128,7 +128,8 @@ TEST_CASE("no reflections, no depth, nothing in sight: lines of sight alone, and
     CHECK(result.counts.rays == 0);
     CHECK(result.warnings.empty());
   }
-  // A plate that no even launch would meet, far behind both: rays go through the window in which it appears.
+  // A plate that no uniform launch would meet, far from both ends: rays are launched through the window in which it
+  // appears.
   const SceneFile file({Quad{{-5000, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}}});
   const FrameResult alone = run(config_of(file.path(), {{10, 0, 0}}, {{20, 0, 5}}, {}, 3));
   CHECK(alone.paths.size() == 1);

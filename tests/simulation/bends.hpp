@@ -1,4 +1,4 @@
-// What the tests of diffraction share: small scenes with edges, and paths matched with those of brute force by their
+// Helpers of the tests of diffraction: small scenes with edges, and paths matched with those of brute force by their
 // interactions and the numbers of their surfaces and wedges. Coordinates are generic: no path runs through a corner.
 #pragma once
 #include <map>
@@ -106,7 +106,7 @@ inline TraceConfig diffracting(uint64_t rays, uint32_t max_depth) {
   return trace;
 }
 
-// The paths of a frame are those that there are, no more, no fewer, and at the same places. Returns how many diffract.
+// Checks that the paths of a frame are exactly those that exist, at the same places. Returns how many of them diffract.
 inline size_t check_complete(const std::filesystem::path& scene_file, const Points& transmitters,
                              const Points& receivers, const TraceConfig& trace) {
   Config config = config_of(scene_file, transmitters, receivers, trace.rays, trace.max_depth);

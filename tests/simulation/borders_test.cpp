@@ -1,5 +1,5 @@
-// No path twice, and none lost, where a reflection point lies on a border: of two patches, two triangles, two walls.
-// Coordinates are numbers that float32 holds, so that the points are on the border to the last bit or next to it.
+// Tests that no path is found twice or lost where a reflection point lies on a border: of two patches, two triangles,
+// two walls. Coordinates are numbers that float32 holds, so the points are on the border to the last bit or next to it.
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -7,7 +7,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Two-ray over two patches that meet at x = 0.
+// Returns the two-ray paths over two patches that meet at x = 0.
 Paths over_patches(const std::string& west, const std::string& east, const glm::dvec3& tx, const glm::dvec3& rx) {
   const SceneFile file(
       {Part{{{{-10, -10, 0}, {10, 0, 0}, {0, 20, 0}}}, west}, Part{{{{0, -10, 0}, {10, 0, 0}, {0, 20, 0}}}, east}});
@@ -24,7 +24,7 @@ TEST_CASE("on the shared edge of two patches of different material: one path") {
     CHECK(paths.depth == std::vector<uint32_t>{0, 1});
     CHECK(glm::distance(paths.vertex_position_m[0], glm::dvec3(0, 0.125, 0)) < 1e-12);
   }
-  // The same from the other side: the same patch answers, so gains are reciprocal.
+  // From the other side the same patch reflects, so gains are reciprocal.
   const Paths there = over_patches("metal", "concrete", {-2, 0.5, 1}, {2, -0.25, 1});
   const Paths back = over_patches("metal", "concrete", {2, -0.25, 1}, {-2, 0.5, 1});
   REQUIRE(there.size() == 2);
@@ -45,7 +45,7 @@ TEST_CASE("on the shared edge of two patches of one material, and on the diagona
 }
 
 TEST_CASE("two coincident walls: one path, of the smaller surface") {
-  // The larger one stays where the smaller one is not.
+  // The larger wall remains where the smaller one does not cover it.
   const SceneFile file({Part{{{{0, -5, -5}, {0, 10, 0}, {0, 0, 10}}}, "metal"},
                         Part{{{{0, -3, -4}, {0, 9, 0}, {0, 0, 8}}}, "concrete"}});
   Simulation simulation(config_of(file.path(), {{-3, 0.3, 0.2}}, {{-2, -0.4, 0.7}}, 20000, 4));

@@ -1,4 +1,5 @@
-// BoxTree: the boxes of a brute force search, for points inside, beside and far from them, and boxes of no thickness.
+// Compares BoxTree with a brute force search, for points inside, beside and far from the boxes, and for boxes of no
+// thickness.
 #include "simulation/box_tree.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,6 @@
-// Whole frames against brute force: identical sets of paths to order 3 in scenes of up to 60 surfaces, both directions.
-// Rays discover; what they may not do is miss a sequence or let one through that is no path.
+// Compares whole frames with brute force: the sets of paths must be identical up to order 3 in scenes of up to 60
+// surfaces, in both directions. Rays only discover sequences; they must not miss one or let one through that is no
+// path.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -28,7 +29,7 @@ Key key_of(uint32_t tx, uint32_t rx, const std::vector<uint8_t>& kinds, const st
 
 struct Difference {
   size_t found = 0, missed = 0, invented = 0;
-  double length_error = 0, vertex_error_m = 0;  // the former relative, of paths that are in both
+  double length_error = 0, vertex_error_m = 0;  // errors of paths that are in both; that of the length is relative
 };
 
 Difference compare(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
@@ -112,8 +113,8 @@ std::vector<Quad> town(int columns, int rows, uint32_t seed) {
   return quads;
 }
 
-// The quads on sloping ground, cut into cells whose corners are written with three decimals, as exporters do: hundreds
-// of bends of a milliradian, which must be the planes that they were.
+// Writes the quads on sloping ground, cut into cells whose corners have three decimals, as exporters write them: this
+// gives hundreds of bends of a milliradian, which the loader must turn back into the original planes.
 class RoundedFile {
  public:
   RoundedFile(const std::vector<Quad>& quads, double cell_m) {
@@ -196,7 +197,8 @@ TEST_CASE("a box with a screen, three reflectors: scenes of the reference lists,
 }
 
 TEST_CASE("towns of up to 11 buildings, order 3") {
-  // 31, 46 and 56 surfaces. One antenna in a street, one above the roofs; receivers anywhere, inside buildings too.
+  // The towns have 31, 46 and 56 surfaces. One antenna is in a street, one above the roofs; receivers are anywhere,
+  // also inside buildings.
   const std::tuple<int, int, uint32_t> towns[] = {{2, 3, 1}, {3, 3, 2}, {11, 1, 3}};
   for (const auto& [columns, rows, seed] : towns) {
     CAPTURE(seed);
@@ -216,7 +218,7 @@ TEST_CASE("a town of rounded cells, order 3: its walls are surfaces") {
     const std::vector<Quad> quads = town(2, 2, seed);
     const RoundedFile file(quads, 3);
     const Simulation simulation(config_of(file.path(), {{0.4, 14.1, 4.3}}, {{1, 2, 3}}, 1000, 1));
-    CHECK(simulation.scene().surfaces.size() == quads.size());  // of 1,200 triangles
+    CHECK(simulation.scene().surfaces.size() == quads.size());  // the scene has 1,200 triangles
     Random random(seed + 10);
     Points receivers;
     for (int i = 0; i < 12; ++i)
@@ -253,7 +255,8 @@ std::vector<Quad> terrace(const std::vector<double>& heights) {
   return quads;
 }
 
-// Every face twice: as it is, from another corner on, so that its diagonal is another one, and the middle of it.
+// Adds to every face the same face starting at another corner, so that its diagonal differs, and, with `middles`, a
+// part from its middle.
 std::vector<Quad> doubled(const std::vector<Quad>& quads, bool middles) {
   std::vector<Quad> out = quads;
   for (const Quad& q : quads) {

@@ -1,5 +1,5 @@
-// The rows of a ray cache's entries: against the counts of the frame, which other code keeps, and trees whose shape is
-// known. The scene is a street with a car.
+// Tests the rows of a ray cache's entries: against the counts of the frame, which other code keeps, and on trees whose
+// shape is known. The scene is a street with a car.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -69,7 +69,7 @@ TEST_CASE("rows are the entries that the frame counts, with all their answers") 
       // Two regions of one half each.
       for (size_t i = 0; i < rows.size(); ++i)
         CHECK(rows.region[i] == (rows.slot[i] < frame.cache.entries / 2 ? 0u : 1u));
-      CHECK(std::ranges::max(rows.age) == frame.frame);  // of the first frame, some still stand
+      CHECK(std::ranges::max(rows.age) == frame.frame);  // some entries of the first frame are still there
       CHECK(static_cast<uint64_t>(std::ranges::count(rows.age, 0u)) <= frame.cache.stored);
     }
   }
@@ -104,7 +104,7 @@ TEST_CASE("depths: one bucket is one tree, many buckets hold most entries themse
       CHECK(counts.contains(depth - 1));
       above = count;
     }
-    CHECK(counts.rbegin()->first > 10);  // of hundreds of entries
+    CHECK(counts.rbegin()->first > 10);  // there are hundreds of entries
   }
   config.cache.load_factor = 1;
   const std::vector<FrameResult> many = frames_of_cache(config, 1);

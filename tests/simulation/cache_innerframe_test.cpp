@@ -1,5 +1,6 @@
-// Coherence inside a frame: with exact keys paths are those of no cache, byte for byte, also where every ray is
-// launched twice; with quantised keys as many segments are traced as there are keys. The scene is a street with cars.
+// Tests coherence inside a frame: with exact keys paths are byte for byte those without a cache, also where every ray
+// is launched twice; with quantised keys exactly as many segments are traced as there are keys. The scene is a street
+// with cars.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ Config street_with_cars(const SceneFile& file, uint64_t rays) {
 
 FrameResult first_frame(const Config& config) { return Simulation(config).run_frame(0); }
 
-// Cells of directions that the unit sphere passes through.
+// Counts the cells of directions that the unit sphere passes through.
 uint64_t cells_of_sphere(uint32_t division) {
   uint64_t count = 0;
   const auto edge = [&](uint32_t cell) { return 2.0 * cell / division - 1; };
@@ -51,7 +52,7 @@ void check_counts(const CacheSummary& cache) {
 TEST_CASE("innerframe, exact keys: the paths of no cache, for every table, while vehicles move") {
   const SceneFile file(street());
   Config config = street_with_cars(file, 12000);
-  // Two transmitters at one place: the same rays, which are two groups all the same.
+  // Two transmitters at one place send the same rays, which nevertheless form two groups.
   config.transmitters.push_back(config.transmitters.front());
   config.transmitters.back().name = "twin";
   Simulation plain(config);
@@ -77,7 +78,7 @@ TEST_CASE("innerframe, exact keys: the paths of no cache, for every table, while
 TEST_CASE("innerframe: one ray of a cell is traced, and cells are as many as the sphere of directions meets") {
   const SceneFile file(street());
   Config config = street_with_cars(file, 50000);
-  config.tracks.clear();  // what left a car is traced alone
+  config.tracks.clear();  // rays that leave a car are traced alone
   config.cache.kind = "concurrent";
   config.cache.hit_point = "cached";
   for (const uint32_t division : {10u, 40u}) {
@@ -96,7 +97,7 @@ TEST_CASE("innerframe: one ray of a cell is traced, and cells are as many as the
     const uint64_t first_groups = 50000 - grouped.cache.shared_per_depth[0], cells = cells_of_sphere(division);
     CHECK(first_groups <= cells);
     CHECK(first_groups > cells * (division == 10 ? 85 : 80) / 100);
-    CHECK(grouped.cache.traced == grouped.cache.groups);  // nobody refuses
+    CHECK(grouped.cache.traced == grouped.cache.groups);  // no thread refuses an entry
     CHECK(grouped.cache.stored == grouped.cache.traced);  // no key is written twice
     CHECK(grouped.cache.traced < each.cache.traced / 3);
   }
@@ -116,7 +117,8 @@ TEST_CASE("innerframe, quantised keys: the same in every run and with every batc
     CHECK(once.cache.traced == again.cache.traced);
     CHECK(once.counts.hits == again.counts.hits);
     check_counts(once.cache);
-    CHECK((once.cache.traced > once.cache.groups) == (hit_point == "own"));  // some meet their plane outside
+    CHECK((once.cache.traced > once.cache.groups) ==
+          (hit_point == "own"));  // some rays meet the plane outside of its surface
   }
 }
 

@@ -1,5 +1,6 @@
-// Ray caches in a frame: with exact keys paths are those of no cache, byte for byte, whatever else is chosen; with
-// quantised keys they lose some, and more the coarser the key. The scene is a street with cars, some of them senders.
+// Tests ray caches in a frame: with exact keys paths are byte for byte those without a cache, whatever other options
+// are chosen; with quantised keys some paths are lost, and more the coarser the key. The scene is a street with cars,
+// some of which transmit.
 #include <array>
 #include <string>
 
@@ -73,7 +74,8 @@ TEST_CASE("exact keys: the paths of no cache, for every table, hash and order, w
   for (const Kind& kind : kinds)
     for (const OrderMethod order : std::to_array<OrderMethod>({"none", "H3DH"}))
       for (const uint32_t hash : {1u, 2u, 3u}) {
-        if (hash != 3 && (kind.kind != "concurrent" || order == "none")) continue;  // each is a program to compile
+        if (hash != 3 && (kind.kind != "concurrent" || order == "none"))
+          continue;  // each combination is a program to compile
         CAPTURE(kind.kind);
         CAPTURE(kind.locking);
         CAPTURE(hash);
@@ -87,10 +89,10 @@ TEST_CASE("exact keys: the paths of no cache, for every table, hash and order, w
         const CacheSummary& second = cached[1].cache;
         CHECK(second.on);
         CHECK(second.lookups == cached[1].counts.segments);
-        // The mast's rays come again, those of the car do not.
+        // The mast's rays repeat; those of the car do not.
         CHECK(second.hits_per_depth[0] > 0);
         CHECK(second.hits_per_depth[0] <= *config.trace.rays);
-        // Like rays crowd together with Morton codes, and not all of them find a place.
+        // Similar rays get nearby slots with Morton codes, and not all of them find a free one.
         if (kind.kind == "concurrent" && hash != 2) CHECK(second.hits_per_depth[0] == *config.trace.rays);
       }
 }
@@ -161,7 +163,7 @@ TEST_CASE("quantised keys: the finer, the fewer paths are lost") {
     const std::vector<FrameResult> cached = frames_of(config, 3);
     losses.push_back(lost(cached, plain));
     CHECK(cached[2].cache.hits > 0);
-    // What is found is exact: every path is one that more rays would find, or was found.
+    // Paths that are found are exact: each is one that more rays would find, or that was found before.
     CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);
   }
   CHECK(losses[0] > losses[1]);
@@ -172,7 +174,7 @@ TEST_CASE("position purging: entries stand while the transmitter stays in its ce
   const SceneFile file(street());
   Config config = drive(file, true);
   config.cache.kind = "concurrent";
-  config.cache.position_step_m = 1000;  // 4 s of 12 m/s stay in it
+  config.cache.position_step_m = 1000;  // 4 s at 12 m/s stay within the step
   CHECK(frames_of(config, 2)[1].cache.hits_per_depth[0] > *config.trace.rays * 3 / 2);
   config.cache.position_step_m = 0.1;  // the mast alone
   const uint64_t hits = frames_of(config, 2)[1].cache.hits_per_depth[0];
@@ -237,7 +239,7 @@ TEST_CASE("the thesis' tables as printed: warned of; answers of other keys lose 
   const std::vector<FrameResult> plain = frames_of(config, 3);
   config.cache.scope = "all";
   config.cache.hit_point = "cached";
-  config.cache.buffer_size = 300;  // many keys a slot
+  config.cache.buffer_size = 300;  // many keys per slot
   const auto warned = [&] {
     for (const std::string& text : Simulation(config).warnings())
       if (text.find("as A. Zhdanov's thesis prints it") != std::string::npos) return true;
@@ -260,7 +262,7 @@ TEST_CASE("the thesis' tables as printed: warned of; answers of other keys lose 
       refused += frame.cache.conflicts;
     }
     if (kind.locking == "mutex" && answered > refused) CHECK(lost(cached, plain) > plain[0].counts.paths / 10);
-    CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);  // what is found is solved exactly all the same
+    CHECK(lost(plain, cached) <= plain[0].counts.paths / 10);  // paths that are found are solved exactly nevertheless
     CHECK(warned());
   }
   config.cache.kind = "open";

@@ -1,4 +1,5 @@
-// Several carriers in one run are the runs of each: geometry once, and the same fields.
+// Tests that a run with several carriers equals a run for each carrier: geometry is computed once, and fields are the
+// same.
 #include "simulation/run.hpp"
 #include "wavetracer/error.hpp"
 

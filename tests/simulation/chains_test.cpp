@@ -1,4 +1,5 @@
-// Paths over three and more edges in whole frames: over screens and vehicles, both ways, in blocks and in drives.
+// Tests paths over three and more edges in whole frames: over screens and vehicles, in both directions, in blocks and
+// in drives.
 #include <cstdlib>
 
 #include "simulation/bends.hpp"

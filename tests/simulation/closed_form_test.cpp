@@ -1,5 +1,5 @@
-// Whole frames against closed forms: the image lattice of a box, parallel walls, the two-ray ground.
-// Meshes are exact, so lengths must be exact too: 1e-9 of themselves.
+// Compares whole frames with closed forms: the image lattice of a box, parallel walls, the two-ray ground.
+// Meshes are exact, so lengths must be exact as well: to 1e-9 of themselves.
 #include <algorithm>
 #include <utility>
 
@@ -70,7 +70,8 @@ TEST_CASE("the same box as small and as large as scenes may be") {
   check_box({0, 0, 0}, 9.99e5 / 8);
 }
 
-// A screen in the middle of a box hides what is behind it, whatever the size: rays are found and hidden as at 10 m.
+// A screen in the middle of a box hides what is behind it, whatever the size: as many rays are found and hidden as at
+// 10 m.
 TEST_CASE("a screen between two ends in boxes from 0.1 m to 100 km hides the same paths") {
   const auto kinds = [](double scale) {
     std::vector<Quad> quads = reference::box_walls({0, 0, 0}, scale * glm::dvec3{10, 8, 5});
@@ -104,8 +105,9 @@ TEST_CASE("a box with ends that mirror each other: paths through edges and corne
     const Paths paths = run(config_of(file.path(), {tx}, {rx}, 1000000, 5)).paths;
     CHECK(count_by_depth(paths, 0, 5) == std::vector<size_t>{1, 6, 18, 38, 66, 102});
     check_lengths(lengths(paths, 0), lattice_lengths(size, tx, rx, 5));
-    // A receiver beside that place hears the same: two reflections at one point are those of two points close by. (On
-    // metal. Dielectric walls turn the polarization by which of them comes first, and the place is where that changes.)
+    // A receiver beside that place has the same paths: two reflections at one point equal those of two points close by.
+    // (On metal. At dielectric walls the polarization depends on which of them comes first, and the order changes at
+    // this place.)
     const Paths beside = run(config_of(file.path(), {tx}, {rx + glm::dvec3(1e-5, 2e-5, -3e-5)}, 1000000, 5)).paths;
     std::vector<double> gains[] = {paths.gain_db, beside.gain_db};
     for (std::vector<double>& g : gains) std::sort(g.begin(), g.end());

@@ -1,4 +1,5 @@
-// trace.discover_every_s: frames of a millisecond between launches of rays, against frames that all launch them.
+// Tests trace.discover_every_s: compares frames every millisecond, some of which launch no rays, with frames that all
+// launch them.
 #include <map>
 
 #include "simulation/drive.hpp"
@@ -80,7 +81,7 @@ TEST_CASE("phases go on between launches: Doppler shifts are those of central di
   Config config = city(0.1, 0.001);
   config.trace.discover_every_s = 0.1;
   Simulation simulation(config);
-  // What tells a path from others of one world: ends, then surfaces with the vehicles that they belong to.
+  // This key distinguishes paths of one world: ends, then surfaces with the vehicles that they belong to.
   const auto rows = [](const Paths& paths) {
     std::map<std::vector<uint32_t>, size_t> out;
     for (size_t i = 0; i < paths.size(); ++i) {

@@ -1,5 +1,5 @@
-// A road drawn on the ground, both in one plane: the same paths whichever of the two comes first in the file, and what
-// the road alone would do.
+// Tests a road drawn on the ground, both in one plane: the paths are the same whichever of the two comes first in the
+// file, and they are those of the road alone.
 #include "simulation/run.hpp"
 #include "simulation/world_fixture.hpp"
 #include "simulation/world_models.hpp"

@@ -1,6 +1,6 @@
-// Scattering off vegetation: one crown in free space against an integral over its volume that is written here, against
-// the closed form of a thin one, and against the power that it takes; each path against the law; other crowns and walls
-// in the way; both ways alike; and nothing of it where it is off.
+// Tests scattering off vegetation: one crown in free space against an integral over its volume that is written here,
+// against the closed form of a thin crown, and against the power that it absorbs; each path against the law; other
+// crowns and walls in the way; both directions; and that nothing scatters where it is switched off.
 #include <limits>
 #include <numbers>
 
@@ -30,7 +30,8 @@ VegetationConfig crown(const dvec3& centre, const dvec3& size, const char* shape
 
 Config leaves(const SceneFile& scene, const Points& from, const Points& to, double db_m, double most_db, double s) {
   Config config = config_of(scene.path(), from, to, 1000, 1);
-  for (RadioEnd& end : config.transmitters) end.polarization = "V";  // receivers hear both: all of the power
+  for (RadioEnd& end : config.transmitters)
+    end.polarization = "V";  // receivers take both polarizations, so all of the power
   config.trace.scattering = true;
   MaterialConfig& material = config.materials.emplace_back();
   material.name = "vegetation";
@@ -50,14 +51,14 @@ double scattered_power(const Paths& paths, uint32_t rx = 0) {
   return sum;
 }
 
-// How far it is from p, inside of the spheroid, to where the way to the end leaves it.
+// Returns the distance from p, inside of the spheroid, to the point where the way to the end leaves it.
 double way_out_m(const dvec3& p, const dvec3& end, const dvec3& centre, const dvec3& half) {
   const dvec3 q = (p - centre) / half, v = (end - p) / half;
   const double a = glm::dot(v, v), b = glm::dot(q, v), c = glm::dot(q, q) - 1;
   return (-b + std::sqrt(b * b - a * c)) / a * glm::length(end - p);
 }
 
-// Of power, of dB per metre.
+// Returns the coefficient of the power for dB per metre.
 double per_metre(double db_m) { return db_m * std::numbers::ln10 / 10; }
 
 constexpr double without_end = std::numeric_limits<double>::infinity();
@@ -127,7 +128,7 @@ TEST_CASE("a ball of leaves scatters no more than it takes, and most of it where
     double mean = 0;
     for (uint32_t rx = 0; rx < around.size(); ++rx) mean += scattered_power(paths, rx) / 24;
     const double out = mean * 16 * pi * pi * far * far / (wavelength_m * wavelength_m);
-    double taken = 0;  // of what the transmitter sends, by the length of chords
+    double taken = 0;  // power taken from the transmitter's, by the lengths of chords
     const double widest = std::asin(radius / away);
     for (int i = 0; i < 10000; ++i) {
       const double alpha = widest * (i + 0.5) / 10000, aside = away * std::sin(alpha);

@@ -1,5 +1,5 @@
-// The checks of a device pass where its kernels are right, in every known frame; what is kept of them is used, and is
-// that of the same driver and kernels.
+// Tests that the checks of a device pass where its kernels are right, in every known frame; stored results are used
+// only for the same driver and kernels.
 #include "simulation/device_check.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// A device whose kernels are broken is refused, and the check that fails is the one of the broken kernel; one that has
-// passed is not checked again until driver, kernels or features are others.
+// Tests that a device whose kernels are broken is refused and that the check of the broken kernel fails; a device that
+// has passed is not checked again until its driver, kernels or features change.
 #include "simulation/device_proof.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ FailedChecks failed_checks(const CheckedFeatures& features = {}) {
   return out;
 }
 
-// Returns all of them, the first of which must be this one.
+// Returns all failed checks; the first of them must be `check`.
 std::string fails_first(const std::string& check, const CheckedFeatures& features = {}) {
   const FailedChecks failed = failed_checks(features);
   CAPTURE(failed.all);

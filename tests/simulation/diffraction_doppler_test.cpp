@@ -1,5 +1,5 @@
-// Doppler shifts of diffracted paths: against central differences of exact lengths, which the reference's bisection
-// finds on edges where a vehicle carries them, and against the delays of the same paths a little earlier and later.
+// Tests Doppler shifts of diffracted paths: against central differences of exact lengths, which the reference's
+// bisection finds on edges that a vehicle moves, and against the delays of the same paths a little earlier and later.
 #include "reference/wedge_points.hpp"
 #include "simulation/bends.hpp"
 

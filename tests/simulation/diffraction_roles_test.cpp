@@ -1,5 +1,6 @@
-// Who launches, and what moves: listeners, twins and masked links; edges of vehicles as instances and as static meshes;
-// drives that reuse sequences; launches, orders, batches and caches that change nothing.
+// Tests the ends that launch, and moving objects: listeners, ends in both roles and masked links; edges of vehicles as
+// instances and as static meshes; drives that reuse sequences; and launches, orders, batches and caches, which must not
+// change paths.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;
@@ -14,7 +15,8 @@ Config screens_config(const SceneFile& file, const Points& transmitters, const P
   return config;
 }
 
-// Row by row, the paths of the link (tx, rx) of one run are those of another link of another run, to the last bit.
+// Checks that the paths of link (tx, rx) of one run are, row by row and to the last bit, those of a link of another
+// run.
 void check_link(const Paths& a, uint32_t tx, uint32_t rx, const Paths& b, uint32_t other_tx, uint32_t other_rx) {
   const std::vector<Row> rows = rows_of(a, tx, rx);
   CHECK(rows.size() > 20);
@@ -170,7 +172,8 @@ TEST_CASE("a drive that reuses sequences finds frame by frame what cold frames f
     CAPTURE(frame);
     const FrameResult complete = cold.run_frame(frame);
     CHECK(found.counts.rays * 5 < complete.counts.rays);
-    CHECK(missing(found.paths, complete.paths) <= complete.paths.size() / 100);  // reuse remembers rays of all frames
+    CHECK(missing(found.paths, complete.paths) <=
+          complete.paths.size() / 100);  // reuse keeps sequences that rays of all frames found
     lost += missing(complete.paths, found.paths);
     all += complete.paths.size();
   }

@@ -1,5 +1,5 @@
-// Diffracted paths of whole frames against brute force: identical sets, numbers and places of all sequences of
-// reflections with one diffraction or two, with and without transmission.
+// Compares diffracted paths of whole frames with brute force: sets, numbers and places of all sequences of reflections
+// with one diffraction or two must be identical, with and without transmission.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;
@@ -67,7 +67,7 @@ TEST_CASE("two diffractions") {
 
 TEST_CASE("through walls as well: one transmission, and two with two diffractions") {
   for (Place place : places()) {
-    // Nothing passes metal, and brute force knows no materials.
+    // Nothing passes through metal, and brute force does not consider materials.
     for (Mesh& mesh : place.meshes) mesh.material = "concrete";
     for (const auto& [most, diffractions] : {std::pair{1u, 1u}, {2u, 2u}}) {
       CAPTURE(most);

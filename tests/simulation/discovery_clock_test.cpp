@@ -1,4 +1,4 @@
-// When frames launch rays, by times and by who is there.
+// Tests when frames launch rays, depending on times and on which ends are present.
 #include "simulation/discovery_clock.hpp"
 
 #include <doctest/doctest.h>
@@ -31,9 +31,9 @@ TEST_CASE("rays are launched when the interval has passed, to a rounding error, 
   }
   CHECK(launches == 11);
   CHECK(clock.due(world_at(8.05), true, last));
-  CHECK_FALSE(clock.due(world_at(8.1), false, last));  // counted from the cold one
+  CHECK_FALSE(clock.due(world_at(8.1), false, last));  // counted from the frame that started cold
   CHECK(clock.due(world_at(8.15), false, last));
-  CHECK(clock.due(world_at(2), false, last));  // time may go back
+  CHECK(clock.due(world_at(2), false, last));  // time may go backwards
 }
 
 TEST_CASE("intervals hold for times since 1970, which doubles keep to a fraction of a microsecond") {
@@ -75,7 +75,7 @@ TEST_CASE("who was not there when rays were launched makes them due, who leaves 
   world.time_s = 0.2;
   world.instances[0].present = false;
   CHECK_FALSE(clock.due(world, false, last));
-  world.links.push_back({2, 0});  // begins to send
+  world.links.push_back({2, 0});  // begins to transmit
   CHECK(clock.due(world, false, last));
   world.links = {{2, 0}};
   CHECK_FALSE(clock.due(world, false, last));

@@ -1,5 +1,6 @@
-// Doppler shifts against central differences of exact lengths, and closed forms: moving ends through whole runs, moving
-// reflectors through FieldModel. Two runs with the ends displaced see the same surfaces, so paths are matched by them.
+// Compares Doppler shifts with central differences of exact lengths, and with closed forms: moving ends through whole
+// runs, moving reflectors through FieldModel. Two runs with displaced ends see the same surfaces, so paths are matched
+// by them.
 #include <map>
 #include <optional>
 #include <random>
@@ -27,7 +28,7 @@ std::map<std::vector<uint32_t>, double> lengths_after(Config config, double seco
   return lengths;
 }
 
-// A plane that turns about a point and moves along with it; it stays where it was in the axes of its instance.
+// A plane that turns about a point and moves with it; in the axes of its instance it stays where it was.
 struct Mirror {
   glm::dvec3 pivot{0}, velocity{0}, spin{0};  // spin: rad/s
   glm::dmat3 rotation{1.0};
@@ -70,7 +71,7 @@ struct MovingWorld {
     return -(length(sequence, step_s) - length(sequence, -step_s)) / (2 * step_s) / wavelength_m;
   }
 
-  // Nothing where the planes have no such path: the legs at one of them would pass through it.
+  // Returns nothing if the planes have no such path, because legs at one of them would pass through it.
   std::optional<std::vector<glm::dvec3>> points(const std::vector<uint32_t>& sequence) const {
     std::vector<glm::dvec3> images{tx.position_m}, out(sequence.size());
     for (const uint32_t m : sequence) images.push_back(mirrors[m].image(images.back(), 0));
@@ -241,7 +242,7 @@ TEST_CASE("random worlds in which all moves and turns: every sequence that has a
   std::mt19937 random(17);
   std::uniform_real_distribution<double> number(-1, 1);
   const auto vector = [&](double size) { return size * glm::dvec3{number(random), number(random), number(random)}; };
-  std::vector<std::vector<uint32_t>> sequences{{}};  // no mirror twice in a row
+  std::vector<std::vector<uint32_t>> sequences{{}};  // no mirror occurs twice in a row
   for (size_t k = 0; k < sequences.size() && sequences[k].size() < 4; ++k)
     for (uint32_t m = 0; m < 4; ++m) {
       if (!sequences[k].empty() && sequences[k].back() == m) continue;

@@ -1,4 +1,4 @@
-// What the tests of moving worlds share: vehicles on straight ways, a street for them, the same vehicles baked into a
+// Helpers of the tests of moving worlds: vehicles on straight ways, a street for them, the same vehicles baked into a
 // scene file, and paths of two frames matched with each other.
 #pragma once
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ namespace wavetracer::test {
 constexpr uint32_t no_row = 0xFFFFFFFFu;
 constexpr double carrier_hz = 5.9e9;
 
-// Where row i of `paths` is in `among`: one transmitter, receiver and depth, delays to 1e-12 of themselves, and points
-// to a micrometre; no_row where it is not.
+// Returns for each row of `paths` its row in `among`: with the same transmitter, receiver and depth, delays equal to
+// 1e-12 of themselves, and points to a micrometre; no_row if there is none.
 inline std::vector<uint32_t> counterparts(const Paths& paths, const Paths& among) {
   std::vector<uint32_t> out(paths.size(), no_row);
   const auto link = [](const Paths& p, size_t i) { return std::pair{p.tx[i], p.rx[i]}; };

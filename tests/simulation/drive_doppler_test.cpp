@@ -1,5 +1,5 @@
-// Doppler shifts of a drive against central differences of the delays of the same paths, a tenth of a millisecond
-// earlier and later: antennas on vehicles, vehicles as mirrors, straight on and in a turn.
+// Compares Doppler shifts of a drive with central differences of the delays of the same paths, a tenth of a millisecond
+// earlier and later: antennas on vehicles, vehicles as mirrors, on straight ways and in a turn.
 #include <map>
 
 #include "simulation/drive.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double frame_step_s = 1e-4;
 
-// What tells a path from others of one world: ends, then surfaces with the vehicles that they belong to.
+// The key distinguishes paths of one world: ends, then surfaces with the vehicles that they belong to.
 std::map<std::vector<uint32_t>, size_t> rows_by_surfaces(const Paths& paths) {
   std::map<std::vector<uint32_t>, size_t> rows;
   for (size_t i = 0; i < paths.size(); ++i) {

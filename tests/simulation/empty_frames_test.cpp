@@ -1,6 +1,6 @@
-// Worlds in which there is nothing to do, with each feature on: nobody there, one vehicle alone, no link, nothing to
-// hit. First such frames and then full ones, and the other way round; drives, blocks, worlds that stand, live worlds.
-// A full frame is the same whatever came before it, where frames reuse nothing.
+// Tests worlds in which there is nothing to do, with each feature on: no ends, one vehicle alone, no link, nothing to
+// hit. Such frames come first and full ones then, and the other way round; in drives, blocks, fixed worlds and live
+// worlds. Where frames reuse nothing, a full frame is the same whatever frames came before it.
 #include <functional>
 #include <map>
 
@@ -32,7 +32,7 @@ void by_everything(Config& config) {
   config.trace.max_diffractions = 2;
 }
 
-// Whatever a frame may be asked to do, alone or together.
+// The options that a frame may have, alone or together.
 std::vector<Variant> variants() {
   return {
       {"reflection", [](Config&) {}},
@@ -72,7 +72,7 @@ std::vector<Variant> variants() {
   };
 }
 
-// Tables that threads fill as they come, so that another run may find other paths.
+// Threads fill such tables in any order, so another run may find other paths.
 bool varies(const Config& config) { return config.cache.kind != "none"; }
 
 // Two walls, the ground, a house with edges, a crown; all of them scatter.
@@ -99,8 +99,8 @@ std::vector<Part> walls() {
           {reference::box_walls({-4, -11, 0}, {5, -7, 6}), "glass"}};
 }
 
-// Frame 0: nobody; 1: a alone; 2: both, too far apart; 3: together, high above everything; 4 and 5: in the street; then
-// the same backwards.
+// Frame 0: no ends; 1: a alone; 2: both, too far apart; 3: together, high above everything; 4 and 5: in the street;
+// then the same backwards.
 constexpr uint32_t frame_count = 9;
 bool has_links(uint32_t frame) { return frame >= 3 && frame <= 5; }
 bool in_street(uint32_t frame) { return frame == 4 || frame == 5; }
@@ -126,11 +126,12 @@ void check_counts(const FrameResult& frame, uint32_t number, const Config& confi
   CAPTURE(number);
   CHECK(frame.world.links.size() == (has_links(number) ? 2 : 0));
   if (!has_links(number)) CHECK(frame.paths.size() == 0);
-  if (number == 3 && config.trace.reception == "exact") CHECK(frame.paths.size() >= 2);  // perhaps off the ground
+  if (number == 3 && config.trace.reception == "exact")
+    CHECK(frame.paths.size() >= 2);  // perhaps a reflection at the ground
   if (in_street(number)) CHECK(frame.paths.size() >= 2);
 }
 
-// The frames in this order, each of which is there once.
+// Computes the frames in this order; each number occurs once.
 std::map<uint32_t, FrameResult> frames_of(Simulation& simulation, const std::vector<uint32_t>& order) {
   REQUIRE(simulation.frame_count() == frame_count);
   std::map<uint32_t, FrameResult> out;
@@ -144,7 +145,7 @@ std::map<uint32_t, FrameResult> frames_of(Simulation& simulation, const std::vec
 
 const std::vector<uint32_t> empty_first{0, 1, 2, 3, 4, 5, 6, 7, 8}, full_first{4, 3, 2, 1, 0, 5, 8, 7, 6};
 
-// In blocks of one transmitter, of none and of all.
+// Checks blocks of one transmitter, of no transmitter and of all.
 void check_blocks(Simulation& simulation, const std::map<uint32_t, FrameResult>& whole) {
   if (!block_obstacle(simulation.config()).empty()) return;
   for (const uint32_t number : {0u, 2u, 4u, 1u}) {

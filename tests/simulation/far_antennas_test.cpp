@@ -1,5 +1,5 @@
-// Antennas far outside of the scene: drones, platforms, satellites and sites beside it find what many rays find, and
-// where few rays meet anything, nobody says that nothing was missed.
+// Tests antennas far outside of the scene: drones, platforms, satellites and sites beside it have the paths that many
+// rays find; and where few rays meet anything, the program does not claim that nothing was missed.
 #include "simulation/drive.hpp"
 
 using namespace wavetracer;

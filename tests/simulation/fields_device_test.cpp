@@ -1,5 +1,5 @@
-// Fields of a frame on the device against the same code on the host: every column, to the last bit, with all that a
-// path can meet: walls, edges, rough surfaces, vehicles, and antennas of every kind.
+// Compares the fields of a frame on the device with the same code on the host: every column, to the last bit, with
+// everything that a path can meet: walls, edges, rough surfaces, vehicles, and antennas of every kind.
 #include <map>
 #include <tuple>
 

@@ -1,5 +1,6 @@
-// Vehicles as instances against the same vehicles baked into one static scene at the same poses, and against all paths
-// that there are (brute force); vehicles that come and go; what a vehicle hides, and what its own antenna sees.
+// Compares vehicles as instances with the same vehicles baked into one static scene at the same poses, and with all
+// paths that exist (brute force); tests vehicles that come and go, paths that a vehicle blocks, and what its own
+// antenna sees.
 #include "reference/brute_force.hpp"
 #include "scene/load.hpp"
 #include "simulation/drive.hpp"
@@ -155,12 +156,12 @@ TEST_CASE("a truck hides one car's antenna from the other's, except through the 
   size_t hidden = 0, through_gap = 0;
   for (uint32_t frame = 0; frame < moving.frame_count(); ++frame) {
     const double time_s = moving.time_s(frame), y = -10 + 10 * time_s;
-    // Where the line meets the truck's middle, in its axes: both ends drift along x alike.
+    // The line of sight meets the truck there, in its axes: both ends move along x in the same way.
     const double ahead = 0.05 - y;
     if (std::abs(ahead - 1.8) < 0.1 || std::abs(ahead - 2.25) < 0.1 || std::abs(std::abs(ahead) - 4.5) < 0.1) continue;
     CAPTURE(ahead);
     const bool gap = ahead > 1.8 && ahead < 2.25, expected = gap || std::abs(ahead) > 4.5;
-    CHECK(moving.run_frame(frame).paths.size() == (expected ? 2 : 0));  // there and back
+    CHECK(moving.run_frame(frame).paths.size() == (expected ? 2 : 0));  // line of sight in both directions
     hidden += !expected;
     through_gap += gap;
   }
@@ -185,7 +186,7 @@ TEST_CASE("an antenna inside its own vehicle's body sees what it sees without th
     const Paths a = with.run_frame(frame).paths, b = without.run_frame(frame).paths;
     CHECK(missing(b, a) == 0);
     CHECK(b.size() > 12);
-    // What the body adds are its reflections of the mast's field to the receivers that stand.
+    // The body adds its reflections of the mast's field to the fixed receivers.
     for (size_t i = 0; i < a.size(); ++i) {
       const bool own = a.tx[i] == 1 || a.rx[i] == 3;
       if (own && a.depth[i] == 1) CHECK(a.vertex_instance[a.vertex_offset[i]] == no_instance);

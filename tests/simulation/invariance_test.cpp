@@ -1,5 +1,5 @@
-// The paths are the same bytes whatever the batches, the order of receivers, the company of transmitters, the run.
-// In a generated town, where rays do not find everything; in a box, where they do.
+// Tests that the paths are the same bytes whatever the batches, the order of receivers, the other transmitters, and the
+// run. In a generated town, where rays do not find everything, and in a box, where they do.
 #include "simulation/run.hpp"
 
 using namespace wavetracer;

@@ -22,13 +22,14 @@ class KernelsCopy {
   TemporaryFolder folder_;
 };
 
-// One for the whole program: sources name their files, so in another folder all would be compiled again.
+// There is one copy for the whole program: sources name their files, so a copy in another folder would be compiled
+// again.
 inline const KernelsCopy& kernels_copy() {
   static const KernelsCopy copy;
   return copy;
 }
 
-// While it lives a line of a file of the copy is another one.
+// While it exists, a line of a file of the copy is replaced.
 class BrokenLine {
  public:
   BrokenLine(const std::string& file, const std::string& right, const std::string& wrong)
@@ -46,7 +47,7 @@ class BrokenLine {
   std::string text_;
 };
 
-// Programs are made of the copy and kept in a folder of the test's own while it lives.
+// While it exists, programs are compiled from the copy and kept in a folder of the test's own.
 class CopyInUse {
  public:
   std::filesystem::path programs() const { return cache_.path() / "wavetracer" / "programs"; }

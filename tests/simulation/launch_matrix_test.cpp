@@ -1,6 +1,6 @@
-// Every option that decides what rays find, with every kind of links: the paths of a plain launch of ten times the
-// rays. Scenes and rays are such that a plain launch finds all there is. Only options that are documented to lose paths
-// may.
+// Tests every option that decides what rays find, with every kind of links: the paths must be those of a plain launch
+// of ten times the rays. Scenes and rays are chosen such that a plain launch finds all paths. Only options that are
+// documented to lose paths may do so.
 #include <functional>
 #include <span>
 #include <utility>
@@ -53,7 +53,7 @@ Config config_with(const Links& links, const std::filesystem::path& street_file)
   return config;
 }
 
-// Appends what tells paths apart.
+// Appends the columns that tell paths apart.
 void add(const Paths& more, Paths& all) {
   for (size_t i = 0; i < more.size(); ++i) {
     all.tx.push_back(more.tx[i]);
@@ -94,7 +94,7 @@ Paths blocks(const Config& config) {
   return found;
 }
 
-// The poses of the drive, sent by a client whose names are those of places; cold: each frame forgets.
+// Sends the poses of the drive as a client whose names are those of places; cold: each frame forgets earlier ones.
 Paths live(Config config, bool cold) {
   config.tracks.clear();
   const std::vector<Straight>& cars = config.scene.generate.empty() ? in_street : in_city;
@@ -155,7 +155,7 @@ const Option options[] = {
     {"first_depth", [](Config& c) { exact_cache(c), c.cache.first_depth = 2; }, drive},
 };
 
-// Documented to find less: never what is none.
+// These options are documented to find fewer paths, but never wrong ones.
 const Option losing[] = {
     {"max_rays", [](Config& c) { automatic(c), c.trace.max_rays = 500; }},
     {"cache scope all", [](Config& c) { c.cache = {.kind = "concurrent", .scope = "all"}; }, drive},
@@ -205,6 +205,6 @@ TEST_CASE("diffraction_rays: of ends that only receive; few of them find less, a
   CHECK(missing(few, expected) == 0);
   CHECK(50 * missing(expected, many) <= expected.size());
   CHECK(10 * missing(expected, few) > expected.size());
-  // Where all ends send, nobody listens.
+  // If all ends transmit, there is no listener.
   CHECK(identical(found_with(ends, rays, rays), found_with(ends, rays, 50)));
 }

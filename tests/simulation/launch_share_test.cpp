@@ -1,4 +1,4 @@
-// Which directions frames launch, and how deep their rays go: counted out, direction by direction.
+// The directions that frames launch, and the depth of their rays: counted direction by direction.
 #include "simulation/launch_share.hpp"
 
 #include <doctest/doctest.h>
@@ -52,7 +52,9 @@ TEST_CASE("a few warm frames in a row spread evenly over the directions that the
   std::ranges::sort(phases);
   uint64_t widest = phases.front() + 100 - phases.back();
   for (size_t i = 1; i < phases.size(); ++i) widest = std::max(widest, phases[i] - phases[i - 1]);
-  CHECK(widest <= 17);  // of 100, where 10 is even; three-gap theorem: the widest of golden steps is below 1.7 of it
+  // The sum is 100, and 10 would be uniform; by the three-gap theorem the widest gap of golden steps is below 1.7 times
+  // that.
+  CHECK(widest <= 17);
 }
 
 TEST_CASE("listeners launch fewer rays, and nobody follows or sorts them") {

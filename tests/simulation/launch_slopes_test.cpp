@@ -1,4 +1,4 @@
-// Which heights a launch gets for which world: streets, masts, rooms, drones, hills.
+// Tests the table of heights that a launch gets for a world: streets, masts, rooms, drones, hills.
 #include "simulation/launch_slopes.hpp"
 
 #include <doctest/doctest.h>
@@ -50,7 +50,7 @@ std::vector<float> table(const Scene& scene, const WorldState& world, uint32_t o
   return table_of(LaunchSlopes(Surroundings(scene), 0).tables(world, origins_of(world, listen)), origin);
 }
 
-// Of the directions, the share between these z.
+// Returns the share of the directions between these z.
 double share(const std::vector<float>& table, double from, double to) {
   const auto above = [&](double z) {
     for (uint32_t k = 1; k <= WT_HEIGHT_CELLS; ++k)
@@ -126,7 +126,7 @@ TEST_CASE("heights are above the ground there: vehicles on a hill, a mast on a p
   hill.receivers[0].instance = 1;
   CHECK(table(scene, hill) == street);
   hill.transmitters[0].instance =
-      no_instance;  // the vehicle alone knows its ground, and is asked: the lower one counts
+      no_instance;  // only the vehicle knows its own ground, and is asked: the lower one counts
   CHECK(share(table(scene, hill), -0.0175, 0) < share(street, -0.0175, 0));
 
   Scene plateau = ground(800);

@@ -80,7 +80,7 @@ TEST_CASE("every point of the box is in the window, from all sides and distances
       outside += !inside(*w, q - p);
       CHECK(glm::length(q - p) > w->ahead_m);
     }
-    // It is not much larger than what it is for: the solid angle of the sphere around the box.
+    // The window is not much larger than necessary: the solid angle of the sphere around the box.
     const double away_m = glm::length(p);
     if (away_m > 3000 && away_m < 1e6) CHECK(w->solid_angle() < 6 * std::pow(645 / (away_m - 645), 2));
   }
@@ -143,12 +143,12 @@ TEST_CASE("vehicles: within the window of the scene, in a larger one, or in a la
   CHECK(far.launchers[0].window);
   CHECK(far.launchers[1].window);
   CHECK(far.launchers[0].heights != far.launchers[1].heights);
-  // One vehicle flies beside the antenna: what goes to vehicles goes everywhere.
+  // One vehicle flies beside the antenna, so the rays for vehicles are launched in all directions.
   const Parts beside = parts_of(scene, vehicles_at({{10, 0, 20000}, {0, 0, 0}}), models, instances, high);
   REQUIRE(beside.launchers.size() == 2);
   CHECK(beside.launchers[0].window);
   CHECK_FALSE(beside.launchers[1].window);
-  // The vehicle that carries the antenna is not seen; who follows rays gets one launch.
+  // The vehicle that carries the antenna is not seen; with followed rays there is one launch.
   Launcher own = high;
   own.source = WT_OWN | 0;
   CHECK(parts_of(scene, vehicles_at({{10, 0, 20000}, {0, 0, 0}}), models, instances, own).launchers.size() == 1);

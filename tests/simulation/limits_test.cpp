@@ -1,5 +1,5 @@
-// Frames at the ends of what can be asked: no reflection, no depth, nothing to hit, ends in one place, many receivers.
-// Each is an answer, never a crash.
+// Tests frames at the limits of the options: no reflection, no depth, nothing to hit, ends at one place, many
+// receivers. Each must give a result and never crash.
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -40,7 +40,7 @@ TEST_CASE("a receiver at a transmitter: no line of sight, the echoes remain") {
   const FrameResult frame = run(config_of(file.path(), {{1, 2, 3}}, {{1, 2, 3}}, 10000, 3));
   REQUIRE(frame.paths.size() == 1);
   CHECK(frame.paths.delay_s[0] == doctest::Approx(6 / speed_of_light).epsilon(1e-12));
-  // And nothing at all where there is nothing to send one back.
+  // There is no path at all where no surface can reflect.
   const SceneFile away({{{100, 100, 0}, {1, 0, 0}, {0, 1, 0}}});
   CHECK(run(config_of(away.path(), {{1, 2, 3}}, {{1, 2, 3}}, 10000, 3)).paths.size() == 0);
 }

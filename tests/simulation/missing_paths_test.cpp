@@ -1,4 +1,5 @@
-// Why a link has no path: what its direct line meets, against walls that the tests place, and what is proposed.
+// Tests the reason why a link has no path: what its direct line meets, with walls that the tests place, and what the
+// message proposes.
 #include "simulation/missing_paths.hpp"
 
 #include "scene/load.hpp"
@@ -38,18 +39,16 @@ Texts texts(const std::vector<Part>& parts, const Config& config, const std::vec
 TEST_CASE("two walls of concrete: the first one, where, and how many transmissions pass them") {
   const std::vector<Part> parts{{{ground}}, {{wall(-4)}, "concrete"}, {{wall(3)}, "concrete"}};
   Config config = config_of("", left, right, 1, 3);
-  CHECK(
-      texts(parts, config) ==
-      Texts{
-          "tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 6 m; trace.transmission = true "
-          "lets it through 2 walls; what may lead around it: trace.diffraction = true, more than trace.max_depth = 3"});
+  CHECK(texts(parts, config) ==
+        Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 6 m; "
+              "trace.transmission = true lets it through 2 walls; what may lead around it: trace.diffraction = true, "
+              "more than trace.max_depth = 3"});
   config.trace.max_transmissions = config.trace.max_depth = 1;
   config.trace.diffraction = config.trace.transmission = true;
-  CHECK(
-      texts(parts, config) ==
-      Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 6 m; trace.max_transmissions "
-            "= 2 "
-            "and trace.max_depth = 2 lets it through 2 walls; what may lead around it: more than trace.max_depth = 1"});
+  CHECK(texts(parts, config) ==
+        Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 6 m; "
+              "trace.max_transmissions = 2 and trace.max_depth = 2 lets it through 2 walls; what may lead around it: "
+              "more than trace.max_depth = 1"});
 }
 
 TEST_CASE("metal lets nothing through; reflection that is off is named; a link that has a path is not") {
@@ -68,11 +67,9 @@ TEST_CASE("metal lets nothing through; reflection that is off is named; a link t
 TEST_CASE("out of a closed house only transmission helps, and out of one of metal nothing") {
   const auto house = reference::box_walls({-15, -5, 0}, {-5, 5, 6});
   const Config config = config_of("", left, right, 1, 3);
-  CHECK(
-      texts({{{ground}}, {house, "concrete"}}, config) ==
-      Texts{
-          "tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 5 m; trace.transmission = true "
-          "lets it through 1 wall"});
+  CHECK(texts({{{ground}}, {house, "concrete"}}, config) ==
+        Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 5 m; "
+              "trace.transmission = true lets it through 1 wall"});
   CHECK(texts({{{ground}}, {house}}, config) ==
         Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 5 m"});
 }

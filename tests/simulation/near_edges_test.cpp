@@ -1,5 +1,5 @@
-// Tests where the theory of diffraction ends: edges within a wavelength of an antenna, of another edge, and shorter
-// ones.
+// Tests the cases in which the theory of diffraction is not valid: edges within a wavelength of an antenna or of
+// another edge, and edges shorter than that.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;
@@ -7,7 +7,8 @@ using namespace wavetracer::test;
 
 namespace {
 
-// The number of paths beyond the theory, as the frame's warnings have it; nothing where there is no such warning.
+// Returns the number of paths outside the validity of the theory, from the frame's warnings; nothing if there is no
+// such warning.
 std::optional<int> near_edges(const FrameResult& frame, size_t* warnings = nullptr) {
   std::optional<int> out;
   for (const std::string& text : frame.warnings) {

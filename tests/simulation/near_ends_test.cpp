@@ -1,5 +1,6 @@
-// Antennas that touch a surface or each other: an answer at any gap, the same both ways, and a warning where a path is
-// left out. Gaps go from nothing past the rounding of double and of float32 to what both resolve.
+// Tests antennas that touch a surface or each other: there is a result at any gap, the same in both directions, and a
+// warning where a path is left out. Gaps range from zero, past the rounding of double and of float32, to lengths that
+// both resolve.
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <ranges>
@@ -12,7 +13,7 @@ using namespace wavetracer::test;
 namespace {
 
 const std::vector<double> gaps_m{0, 1e-15, 1e-13, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 9e-5, 1.1e-4, 1e-3};
-constexpr double limit_m = 1e-4;  // of radio/fields.hpp
+constexpr double limit_m = 1e-4;  // the limit of radio/fields.hpp
 
 // A ground of `size` with a wall whose foot runs along y = 20, and a slanted roof; all turned and moved as one.
 struct Place {
@@ -40,7 +41,7 @@ struct Ways {
   FrameResult there, back;
 };
 
-// From each near end to the far one, and back.
+// Finds paths from each near end to the far one, and back.
 Ways both_ways(const Place& place, const std::function<glm::dvec3(double gap_m)>& near, const glm::dvec3& far) {
   const SceneFile file = place.scene();
   Points ends;
@@ -49,8 +50,8 @@ Ways both_ways(const Place& place, const std::function<glm::dvec3(double gap_m)>
           run(config_of(file.path(), {place.at(far)}, ends, 20000, 3))};
 }
 
-// Same paths, as long, by the same surfaces in the other order, with the coefficients of the other direction. On an
-// edge, where points coincide, two orders of its surfaces are one path.
+// Checks that both directions have the same paths: of the same length, by the same surfaces in reversed order, with the
+// coefficients of the other direction. On an edge, where points coincide, two orders of its surfaces are one path.
 void check_reciprocal(const Ways& ways) {
   for (uint32_t near = 0; near < gaps_m.size(); ++near) {
     CAPTURE(gaps_m[near]);
@@ -77,7 +78,8 @@ void check_reciprocal(const Ways& ways) {
 
 bool reflects_first(const Row& row, uint32_t surface) { return !row.surfaces.empty() && row.surfaces[0] == surface; }
 
-// Of the surface that the near ends stand on: paths that leave it first where the gap is beyond the limit, none below.
+// Counts paths that first leave the surface that the near ends stand on: they exist if the gap is beyond the limit, and
+// not below it.
 void check_rule(const Ways& ways, size_t expected_others) {
   for (uint32_t near = 0; near < gaps_m.size(); ++near) {
     CAPTURE(gaps_m[near]);
@@ -86,7 +88,7 @@ void check_rule(const Ways& ways, size_t expected_others) {
       return static_cast<size_t>(
           std::ranges::count_if(rows, [&](const Row& r) { return !reflects_first(r, surface); }));
     };
-    // The surface underneath is the one whose reflection is as long as the line of sight, to some gaps.
+    // The surface underneath is the one whose reflected path is as long as the line of sight, to about two gaps.
     uint32_t underneath = 99;
     for (const Row& row : rows)
       if (row.surfaces.size() == 1 && (row.delay_s - rows[0].delay_s) * speed_of_light <= 2.1 * gaps_m[near])

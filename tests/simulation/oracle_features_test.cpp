@@ -1,6 +1,6 @@
-// Whole frames with diffraction and transmission against the reference path lists: every path, none twice, gains.
-// Of diffracted paths gains are only told: the lists weight the terms of a wedge otherwise, neither continuously nor
-// reciprocally (tests/radio/utd_oracle_test.cpp).
+// Compares whole frames with diffraction and transmission with the reference path lists: every path, no path twice,
+// gains. Gains of diffracted paths are only printed: the lists weight the terms of a wedge differently, neither
+// continuously nor reciprocally (tests/radio/utd_oracle_test.cpp).
 #include <algorithm>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -74,7 +74,7 @@ double distance_m(const dvec3& p, const dvec3& a, const dvec3& b) {
   return glm::distance(p, a + way * std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0));
 }
 
-// Is the point on a wedge with more than least_rad of free space?
+// Tells whether the point is on a wedge with more than least_rad of free space.
 bool on_wedge(const Scene& scene, const dvec3& p, double within_m, double least_rad) {
   return std::ranges::any_of(scene.wedges, [&](const Wedge& w) {
     return w.exterior_rad > least_rad && distance_m(p, w.start, w.start + w.along * w.length_m) <= within_m;
@@ -153,7 +153,7 @@ TEST_CASE("a street canyon with cars: every path of the list, and of its kinds")
   CHECK(c.kinds.at("diffraction").reference > 250);
   CHECK(c.kinds.at("transmission + diffraction").found > 0);
   CHECK(c.kinds.at("specular").extra == 0);
-  CHECK(c.kinds.at("transmission").extra_power_ratio < 1e-6);  // ours go through metal, too: nothing gets through
+  CHECK(c.kinds.at("transmission").extra_power_ratio < 1e-6);  // ours pass through metal, too, but without any power
 }
 
 TEST_CASE("munich, transmission: every path, no other") {
@@ -165,8 +165,9 @@ TEST_CASE("munich, transmission: every path, no other") {
   CHECK(c.kinds.at("transmission").reference > 0);
 }
 
-// Where buildings touch, the list has two wedges, one of each mesh. The faces of both together leave no sector wider
-// than 180 degrees there, so nothing but a corner diffracts: those paths are none. All others are there to be found.
+// If buildings touch, the list has two wedges, one for each mesh. The faces of both together leave no sector wider than
+// 180 degrees, so there is nothing but a corner that could diffract, and those paths do not exist. All others must be
+// found.
 TEST_CASE("munich, diffraction: every path whose edge is one when all faces there are counted") {
   const auto list = munich("munich_diffraction");
   if (!list) return;

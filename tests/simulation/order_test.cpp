@@ -1,5 +1,5 @@
-// Orders and launch shapes change time, never paths: the same bytes as without, at launch and before each depth.
-// "auto" chooses one of them, says why, and keeps its choice for the next run.
+// Tests that orders and launch shapes change time but never paths: the bytes are the same as without, at launch and
+// before each depth. "auto" chooses one of them, says why, and keeps its choice for the next run.
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -102,7 +102,7 @@ TEST_CASE("auto says what it chose and why, keeps it, and finds the same paths")
   CHECK(second.order().each_depth == first.order().each_depth);
   CHECK(second.order().launch_shape == first.order().launch_shape);
   CHECK(second.order().reason == first.order().reason + " (kept from an earlier run)");
-  config.trace.rays = 1000;  // another question
+  config.trace.rays = 1000;  // another set of options, so the choice does not apply
   CHECK(Simulation(config).order().reason.find("kept") == std::string::npos);
   if (before)
     ::setenv("XDG_CACHE_HOME", restored.c_str(), 1);

@@ -1,5 +1,5 @@
-// Air and vegetation from the configuration to paths: rays go on through leaves, fields lose what the laws say, the
-// device computes what the host does, and a scene without either runs and compiles nothing of it.
+// Tests air and vegetation from the configuration to paths: rays continue through leaves, fields lose what the laws
+// say, the device computes the same as the host, and a scene without either neither runs nor compiles any of it.
 #include <limits>
 #include <map>
 

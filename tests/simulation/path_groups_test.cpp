@@ -1,5 +1,5 @@
-// Gains of receivers that cross shadow boundaries in small steps: diffracted waves and those that end there are added
-// as fields, so nothing jumps; the plain sum of powers does.
+// Tests gains of receivers that cross shadow boundaries in small steps: diffracted waves and waves that end at the
+// boundary are added as fields, so the sum does not jump; the plain sum of powers does.
 #include "radio/links.hpp"
 #include "simulation/bends.hpp"
 

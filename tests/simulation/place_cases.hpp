@@ -1,4 +1,4 @@
-// What the tests of places share: a ground of 200 m, and texts about them.
+// Helpers of the tests of places: a ground of 200 m, and texts about them.
 #pragma once
 #include <ostream>
 #include <string>
@@ -11,7 +11,7 @@ namespace wavetracer::test {
 
 inline const reference::Quad ground{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}};
 
-// As a list that doctest can print.
+// A list that doctest can print.
 struct Texts : std::vector<std::string> {
   using std::vector<std::string>::vector;
   explicit Texts(std::vector<std::string> texts) : std::vector<std::string>(std::move(texts)) {}

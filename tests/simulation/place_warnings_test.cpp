@@ -1,5 +1,5 @@
-// Warnings about who stands or drives where nobody would: each by name, counted where they are many, none where all is
-// well. A house of 12 triangles on a ground of 200 m, and rooms.
+// Tests warnings about ends and vehicles at impossible places: each is named, many are counted, and there is none where
+// everything is right. The scene is a house of 12 triangles on a ground of 200 m, and rooms.
 #include "simulation/place_warnings.hpp"
 
 #include "scene/load.hpp"
@@ -55,8 +55,8 @@ TEST_CASE("each kind by name") {
                                            "transmitter \"tx1\" is 1.5 m below the ground there, \"part-0\"",
                                            "transmitter \"tx2\" is 3000 m outside of the scene's box",
                                            "receiver \"rx1\" is 291 m above the scene's box",
-                                           "receiver \"rx0\" lies on a surface of \"part-0\"; because of rounding, the "
-                                           "surface may hide it: move it away by 1 mm"});
+                                           "receiver \"rx0\" lies on a surface of \"part-0\"; because of rounding, "
+                                           "the surface may hide it: move it away by 1 mm"});
 }
 
 TEST_CASE("in a house that is the scene: a word only where a link goes out of it") {
@@ -119,8 +119,8 @@ TEST_CASE("vehicles: through a house from when on, below and above the ground; n
   // The ground ends at 100 m.
   const Texts off = warnings_of(town, drive({{0, 60, -3, 0}, {4, 100.5, -3, 0}, {8, 140, -3, 0}}));
   REQUIRE(off.size() == 1);
-  CHECK(off[0].find("1 of 1 vehicles drive off the ground, the first one \"ego\" at (100, -3) m from 4 s on: nothing "
-                    "reflects there") == 0);
+  CHECK(off[0].find("1 of 1 vehicles drive off the ground, the first one \"ego\" at (100, -3) m from 4 s on: "
+                    "nothing reflects there") == 0);
   CHECK(warnings_of({{house()}, {reference::box_walls({-90, -90, 0}, {-80, -80, 9})}},
                     drive({{0, 50, -3, 0}, {4, 90, -3, 0}}))
             .empty());  // no ground at all

@@ -1,5 +1,5 @@
-// Positions in degrees and heights above the ground: ends, mounts, tracks and trajectories, against numbers of pyproj
-// 3.7.2 (EPSG:4326 to EPSG:32632) and the plane that the ground is.
+// Tests positions in degrees and heights above the ground: ends, mounts, tracks and trajectories, against numbers of
+// pyproj 3.7.2 (EPSG:4326 to EPSG:32632) and the plane of the ground.
 #include <fstream>
 
 #include "scene/load.hpp"
@@ -14,7 +14,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Of 48.137 degrees north, 11.575 degrees east in UTM zone 32.
+// The UTM coordinates, zone 32, of 48.137 degrees north, 11.575 degrees east.
 constexpr double easting_m = 691567.326384, northing_m = 5334734.330482;
 constexpr double slope = 0.1;
 
@@ -80,8 +80,8 @@ TEST_CASE("a track in degrees follows the ground, an antenna above it too") {
   const World world = HillSide().world(
       fmt::format("{}[[track]]\nid = \"a\"\nwaypoints_wgs84 = [[0, 48.137, 11.575, 0], [10, 48.137, 11.576, 0]]\n"
                   "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\nrole = \"transmitter\"\n"
-                  "[[mount]]\nname = \"above\"\noffset_m = [1, 0, 1.6]\nabove = \"ground\"\nrole = "
-                  "\"transmitter\"\n[time]\nstep_s = 5\n",
+                  "[[mount]]\nname = \"above\"\noffset_m = [1, 0, 1.6]\nabove = \"ground\"\n"
+                  "role = \"transmitter\"\n[time]\nstep_s = 5\n",
                   receiver));
   REQUIRE(world.frame_count() == 3);
   REQUIRE(world.transmitters().size() == 2);
@@ -151,8 +151,8 @@ TEST_CASE("what has no place says which and why") {
   has(problem(receiver + tx + "position_wgs84 = [95, 11.575, 6]\n"),
       "test.toml:8:18: latitude 95 and longitude 11.575 are no place");
   has(problem(receiver + tx),
-      "[[transmitter]] has no position_m: give it three numbers from -1000000000 to 1000000000 (m), or give "
-      "position_wgs84");
+      "[[transmitter]] has no position_m: give it three numbers from -1000000000 to 1000000000 (m), "
+      "or give position_wgs84");
   has(problem(receiver + tx + "position_wgs84 = [48, 11, 6]\nposition_m = [0, 0, 0]\n"),
       "[[transmitter]] has both position_m and position_wgs84");
   Config city = HillSide().config(receiver + tx + "position_wgs84 = [48.137, 11.575, 6]\n");
@@ -165,8 +165,8 @@ TEST_CASE("what has no place says which and why") {
   Config map = HillSide().config(grid + "north_east_wgs84 = [48.138, 11.576]\n");
   map.scene = city.scene;
   CHECK_THROWS_WITH_AS(World(map, load_scene(map)),
-                       doctest::Contains("[[receiver_grid]] \"g\", north_east_wgs84: a position in degrees needs a "
-                                         "georeference.json"),
+                       doctest::Contains("[[receiver_grid]] \"g\", north_east_wgs84: a position in degrees needs "
+                                         "a georeference.json"),
                        ConfigError);
 }
 

@@ -1,5 +1,5 @@
-// Which quarters of a launch found a path, and what that says of those that none has found.
-// The oracle of the first is a launch of the rays of a quarter alone.
+// Tests the quarters of a launch that found a path, and the estimate of paths that none has found.
+// The reference of the first is a launch of the rays of a quarter alone.
 #include "radio/links.hpp"
 #include "simulation/drive.hpp"
 #include "simulation/frame.hpp"
@@ -24,7 +24,7 @@ Config radios(const SceneFile& file, uint64_t rays, uint32_t max_depth) {
   return config;
 }
 
-// What a launch of these directions alone finds.
+// Returns the paths that a launch of these directions alone finds.
 Paths found(const Config& config, DirectionShare share) {
   Setup s(config, "");
   const WorldState state = s.world.state(0);

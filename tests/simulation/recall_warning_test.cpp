@@ -1,4 +1,4 @@
-// When a refined launch that ended early is worth a warning, and what the warning tells the user to do.
+// Tests when a refined launch that ended early gives a warning, and what the warning advises.
 #include "simulation/recall_warning.hpp"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,8 @@ using namespace wavetracer;
 
 namespace {
 
-// Paths that all quarters of the launch found: nothing is missed, as far as anybody can tell. rare: such that one did.
+// well_known: number of paths that all quarters of the launch found, so that probably none is missed; rare: that only
+// one found.
 MissedCounts counts(uint64_t well_known, uint64_t rare) {
   MissedCounts out;
   out.frames = 1;
@@ -41,9 +42,9 @@ TEST_CASE("a launch that had nothing left to refine is news where a cold frame's
   for (const LaunchEnd end : {LaunchEnd::finest, LaunchEnd::nothing_rare}) {
     CHECK(warns(end, true, counts(10, 90)));
     CHECK_FALSE(warns(end, true, counts(100000, 0)));
-    CHECK_FALSE(warns(end, false, counts(10, 90)));  // earlier frames found paths that this one's rays need not
-    CHECK(warns(end, true, MissedCounts{}));         // nothing is known
-    CHECK(warns(end, true, counts(100000, 0), 1));   // all paths: that is never known
+    CHECK_FALSE(warns(end, false, counts(10, 90)));  // earlier frames found paths that this frame's rays need not find
+    CHECK(warns(end, true, MissedCounts{}));         // there are no counts
+    CHECK(warns(end, true, counts(100000, 0), 1));   // recall of all paths: it is never known
   }
 }
 
@@ -55,9 +56,8 @@ TEST_CASE("warnings say what ended the launch, how much is met once, and what to
     return recall_warning(counts_of(once, end), trace, true, {}).value_or("");
   };
   CHECK(text(LaunchEnd::max_rays, 0.25) ==
-        "trace.max_rays = 5000 ended the launch of rays = \"auto\" before it reached trace.recall = 0.999: 25% of the "
-        "sequences "
-        "found were met by only one ray");
+        "trace.max_rays = 5000 ended the launch of rays = \"auto\" before it reached trace.recall = 0.999: "
+        "25% of the sequences found were met by only one ray");
   CHECK(text(LaunchEnd::finest, 0.001).find("less than 1% of the sequences") != std::string::npos);
   CHECK(text(LaunchEnd::nothing_rare, 0.1).find("give trace.rays a number to find more") != std::string::npos);
 }
@@ -69,7 +69,7 @@ TEST_CASE("rays of which few met anything tell nothing; a thousand, or a fiftiet
     CAPTURE(hits);
     found.hits = hits;
     CHECK(few_met_warning(found, true).has_value() == warned);
-    CHECK_FALSE(few_met_warning(found, false).has_value());  // nothing is there to be met
+    CHECK_FALSE(few_met_warning(found, false).has_value());  // there is nothing to be met
   }
   found.rays = 1000;
   found.hits = 20;

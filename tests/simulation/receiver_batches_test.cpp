@@ -1,4 +1,5 @@
-// A frame in batches of receivers is the frame in one, bit for bit; and how receivers are cut.
+// Tests that a frame in batches of receivers equals the frame in one, bit for bit; and how receivers are divided into
+// batches.
 #include "simulation/receiver_batches.hpp"
 
 #include <cstdlib>
@@ -31,7 +32,7 @@ Config map_of(const SceneFile& file) {
   return config;
 }
 
-// So many candidates are listed at a time as long as this lives.
+// While it exists, this many candidates are listed at a time.
 class MostCandidates {
  public:
   explicit MostCandidates(const char* most) { setenv("WAVETRACER_MOST_CANDIDATES", most, 1); }
@@ -49,7 +50,7 @@ TEST_CASE("receivers are cut into ranges that hold each of them once") {
   };
   using Cut = std::vector<std::pair<uint32_t, uint32_t>>;
   const Cut whole{{0, no_end}};
-  CHECK(cut(1000000) == whole);  // who launches no rays keeps nothing
+  CHECK(cut(1000000) == whole);  // a receiver that launches no rays keeps nothing
   CHECK(receiver_batches(trace, 10, 6).size() == 2);
   CHECK(receiver_batches(trace, 6, 6).size() == 1);
   trace.diffraction = true;
@@ -75,7 +76,7 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     CAPTURE(batch);
     config.trace.batch_receivers = batch;
     bool within = true;
-    uint64_t least = 0, most = 0;  // of the steps that paths take
+    uint64_t least = 0, most = 0;  // range of the steps on paths
     uint64_t part = 0;
     Simulation simulation(config);
     simulation.observe([&](const FrameProgress& at) {
@@ -146,7 +147,7 @@ TEST_CASE("batches of receivers are halved where their lists are too long, and t
     });
   };
   CHECK_FALSE(told(whole));
-  const MostCandidates limit("20");  // less than one prefix of a transmitter has with those of all receivers
+  const MostCandidates limit("20");  // fewer than one prefix of a transmitter has with the endings of all receivers
   for (const std::optional<uint32_t> batch : {std::optional<uint32_t>(), std::optional<uint32_t>(30)}) {
     config.trace.batch_receivers = batch;
     Simulation simulation(config);

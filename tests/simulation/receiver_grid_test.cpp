@@ -1,5 +1,5 @@
-// Grids of receivers: where they stand, counted by hand; and what they hear, against closed forms.
-// Scenes are plates that the tests write; gains are those of isotropic antennas.
+// Tests grids of receivers: their places, counted by hand, and their gains, against closed forms.
+// Scenes are plates that the tests write; antennas are isotropic.
 #include "simulation/receiver_grid.hpp"
 
 #include <complex>

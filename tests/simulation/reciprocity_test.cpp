@@ -1,5 +1,6 @@
-// Reciprocity of every kind of path: with the ends exchanged the same path comes back, as long, its coefficients
-// transposed. The antennas are directive, doubly polarised and turned, so that nothing is symmetric by chance.
+// Tests reciprocity of every kind of path: with the ends exchanged the same path is found, of the same length, with its
+// coefficients transposed. The antennas are directive, doubly polarised and turned, so that nothing is symmetric by
+// chance.
 #include "simulation/bends.hpp"
 
 using namespace wavetracer;

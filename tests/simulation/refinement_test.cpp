@@ -1,5 +1,5 @@
-// The first level of refined launches as launchers come and go: every cell once for each launcher, whatever was
-// launched before, cold or warm.
+// Tests the first level of refined launches while launchers come and go: every cell is sampled once for each launcher,
+// whatever was launched before, cold or warm.
 #include "simulation/refinement.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ std::vector<Launcher> some_launchers(uint32_t count) {
   return out;
 }
 
-// Samples that are not (cell i % cells, launcher i / cells), and 1 where there are too few or too many.
+// Counts samples that are not (cell i % cells, launcher i / cells), plus 1 if there are too few or too many.
 size_t wrong_samples(const SampleList& list, uint32_t launchers) {
   if (list.count != list.cells() * launchers) return 1;
   const std::vector<uint32_t> cell = list.samples.read(0, list.count);

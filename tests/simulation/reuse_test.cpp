@@ -1,5 +1,6 @@
-// trace.reuse: sequences of earlier frames, solved again. Nothing but true paths, nearly all of them for a tenth of the
-// rays, the same bits whenever the same frames are asked for, and a set of sequences that does not grow for ever.
+// Tests trace.reuse: sequences of earlier frames are solved again. This gives only true paths, nearly all of them for a
+// tenth of the rays, the same bits whenever the same frames are computed, and a set of sequences whose size stays
+// bounded.
 #include "simulation/drive.hpp"
 
 using namespace wavetracer;
@@ -89,7 +90,7 @@ TEST_CASE("without reuse a frame is the same to the last bit, whatever was run b
 }
 
 TEST_CASE("a frame with far more than the one before is as complete as if it came first") {
-  // Thirty more cars at once: lists are several times as long as foreseen (passes/counters.hpp).
+  // Thirty more cars appear at once: lists are several times as long as predicted (passes/counters.hpp).
   for (const bool reuse : {false, true}) {
     CAPTURE(reuse);
     Config config = city(20000, 3, 2, 0.2);

@@ -1,4 +1,4 @@
-// What the end-to-end tests share: scene files made of parallelograms, configurations in code, comparisons of paths.
+// Helpers of the end-to-end tests: scene files made of parallelograms, configurations in code, comparisons of paths.
 // Scenes go through the loader like any other: welded, recentred, coplanar neighbours of one material merged.
 #pragma once
 #include <doctest/doctest.h>
@@ -88,7 +88,7 @@ inline Config config_of(const std::filesystem::path& scene, const Points& transm
 
 inline FrameResult run(const Config& config) { return Simulation(config).run_frame(0); }
 
-// Every number of every path, to the last bit.
+// Compares every number of every path, to the last bit.
 inline bool identical(const Paths& a, const Paths& b) {
   return a.rx_ports == b.rx_ports && a.tx_ports == b.tx_ports && a.frame == b.frame && a.tx == b.tx && a.rx == b.rx &&
          a.depth == b.depth && a.delay_s == b.delay_s && a.gain_db == b.gain_db && a.a == b.a &&
@@ -98,7 +98,8 @@ inline bool identical(const Paths& a, const Paths& b) {
          a.vertex_surface == b.vertex_surface && a.vertex_instance == b.vertex_instance;
 }
 
-// The paths of one link as comparable rows: delay, coefficients, surfaces. For runs whose ends are numbered otherwise.
+// The paths of one link as comparable rows: delay, coefficients, surfaces. Used for runs that number their ends
+// differently.
 struct Row {
   double delay_s;
   std::array<std::complex<double>, 4> a;

@@ -1,4 +1,5 @@
-// The plane between two edges is one, whatever surfaces it is made of: the same house in pieces has the same field.
+// Tests that the plane between two edges counts as one plane, whatever surfaces it consists of: the same house in
+// pieces has the same field.
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>

@@ -1,6 +1,5 @@
-// trace.reception = "sphere" against closed forms: how many rays a sphere catches, how long its paths are, which paths
-// it loses and which it makes up. Directions are independent, so that what is caught is binomial. With a ray cache,
-// against what is received without one.
+// Compares trace.reception = "sphere" with closed forms (rays caught, lengths, paths lost, false paths), and with a ray
+// cache against without. Directions are independent, so counts are binomial.
 #include <array>
 #include <iterator>
 #include <map>
@@ -25,12 +24,13 @@ Config sphere_config(const SceneFile& file, const Points& transmitters, const Po
   return config;
 }
 
-// Something must be there; this is out of everybody's way.
+// A scene must contain something; this is far from everything.
 const Quad pebble{{-1, -1, -900}, {2, 0, 0}, {0, 2, 0}};
 
 double length_m(const Paths& paths, size_t i) { return paths.delay_s[i] * speed_of_light; }
 
-// Rays that meet a plane of area 1 m^2 across the path, after D metres from the transmitter or its image.
+// Returns the number of rays that meet 1 m^2 of a plane across the path, at this distance from the transmitter or its
+// image.
 double density(uint64_t rays, double distance_m) {
   return static_cast<double>(rays) / (4 * std::numbers::pi * distance_m * distance_m);
 }
@@ -97,7 +97,7 @@ TEST_CASE("one mirror: paths are too long by what their rays miss the receiver b
       if (paths.depth[i] != 1) continue;
       const glm::dvec3 p = paths.vertex_position_m[paths.vertex_offset[i]], rx = receivers[paths.rx[i]];
       const double exact_m = glm::distance(mirrored, rx), r1 = glm::distance(mirrored, p);
-      // How far the straight ray from the image passes the receiver.
+      // The straight ray from the image passes the receiver at this distance.
       const glm::dvec3 d = (p - mirrored) / r1;
       const double b = glm::distance(rx, mirrored + glm::dot(rx - mirrored, d) * d);
       const double expected_m = r1 + std::sqrt(std::pow(std::sqrt(exact_m * exact_m - b * b) - r1, 2) + b * b);
@@ -129,7 +129,7 @@ TEST_CASE("one mirror: paths are too long by what their rays miss the receiver b
 TEST_CASE("behind the edge of a screen a sphere hears what it should not, as far in as its radius") {
   const SceneFile file({{{0, -60, -60}, {0, 60, 0}, {0, 0, 120}}});
   const glm::dvec3 tx{-10, 0, 0.3};
-  // 1 m and 3 m into the shadow, and in the light.
+  // Receivers are 1 m and 3 m inside the shadow, and in the light.
   const Points receivers{{10, -1, 0}, {10, -3, 0}, {10, 1, 0}};
   const Paths exact = run(config_of(file.path(), {tx}, receivers, 100000, 1)).paths;
   CHECK(count_by_depth(exact, 0, 1)[0] == 0);
@@ -190,7 +190,7 @@ TEST_CASE("a box: of the exact paths, spheres find those that a ray of that dens
       variance += lost * (1 - lost);
       found += heard.contains(key);
     }
-    // Where a path passes an edge closer than the radius, a part of its rays takes another sequence.
+    // If a path passes an edge closer than the radius, a part of its rays takes another sequence.
     CHECK(std::abs(found - expected) < 4 * std::sqrt(variance) + 0.01 * static_cast<double>(exact.size()));
     const double recall = found / static_cast<double>(exact.size());
     CHECK(recall > recall_before);
@@ -231,7 +231,8 @@ TEST_CASE("cache.scope = \"all\", nothing moves: a second frame receives from th
       CHECK(second.cache.hits == second.cache.lookups);
       CHECK(second.cache.lookups == 2 * 10000 * (max_depth + 1));
       CHECK(second.cache.stale == 0);
-      // A ray that goes to and fro leaves a wall in one direction twice, and is answered by its own first time.
+      // A ray that goes to and fro leaves a wall in one direction twice, and the cache answers the second time with the
+      // first.
       CHECK((first.cache.hits > 0) == (max_depth > 2));
       if (first.cache.hits > 0) continue;
       CHECK(identical(first.paths, plain.paths));
@@ -284,8 +285,9 @@ TEST_CASE("a receiver that moves: what a cache of everything goes on to receive,
     }
     CHECK(fixed[2].cache.hits > *config.trace.rays / 2);
     if (kind == "open") continue;  // rays that share a slot replace each other
-    // Segments that still pass the receiver stand; those that it has left are traced again; those that it has come
-    // into are answered by what was so before (fault 11), so that it is not heard where it has gone.
+    // Segments that still pass the receiver remain right; those that no longer pass it are traced again; those that
+    // newly pass it are answered with the earlier result (fault 11), so the receiver does not receive them at its new
+    // place.
     const std::vector<FrameResult> all = heard(kind, "all", "quantised");
     CHECK(received(all[0].waypoints) == there[0]);
     CHECK(received(all[1].waypoints) == common(there[0], there[1]));

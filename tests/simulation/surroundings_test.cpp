@@ -1,4 +1,4 @@
-// What is around a place: against brute force over all triangles, and bodies whose inside is known.
+// Finds the surroundings of a place: compared with brute force over all triangles, and bodies whose inside is known.
 // Scenes are parallelograms that the tests write.
 #include "simulation/surroundings.hpp"
 

@@ -1,5 +1,5 @@
-// Transmission from rays to paths: what split rays find, that nothing but time depends on how they are batched, ordered
-// or cached, and the paths of a box with a screen against brute force and the reference list.
+// Tests transmission from rays to paths: what split rays find, that batches, order and cache change only the time, and
+// the paths of a box with a screen against brute force and the reference list.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ struct Ends {
   glm::dvec3 transmitter, receiver;
 };
 
-// Discovery, candidates, solve and transmissions; what is blocked is left out.
+// Runs discovery, candidates, solve and transmissions; blocked paths are left out.
 std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const Ends& at) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 100);
   Discovery discovery(context(), uploaded, config);
@@ -110,7 +110,7 @@ std::vector<PathRow> paths(const Scene& scene, const TraceConfig& config, const 
   return rows;
 }
 
-// Every sequence of reflections by the image method, with what its legs pass.
+// Tries every sequence of reflections by the image method; returns also what the legs pass through.
 std::map<std::vector<uint32_t>, std::vector<glm::dvec3>> brute_force(const std::vector<Quad>& quads,
                                                                      const TraceConfig& config, const Ends& at) {
   const Scene scene = reference::scene_of_quads(quads);
@@ -139,13 +139,13 @@ TEST_CASE("rays split at each of 20 screens find the last one, and no further th
     const Found all = discover(scene, config);
     CHECK(all.sequences == single_surfaces(20));
     CHECK(all.counts.segments_per_depth[0] == rays);
-    // All that a screen reflects flies out; of what it lets through, the next one meets a part.
+    // All rays that a screen reflects leave the scene; a part of those that it lets through meets the next one.
     for (size_t k = 1; k < 20; ++k) CHECK(all.counts.segments_per_depth[k] > 0);
   }
   CHECK(discover(scene, transmitting(20, 4, rays)).sequences == single_surfaces(5));
   CHECK(discover(scene, transmitting(4, 19, rays)).sequences == single_surfaces(4));
   CHECK(discover(scene, transmitting(20, 0, rays)).sequences == single_surfaces(1));
-  // Without reflection rays are wanted for what they see alone, and then see on through walls.
+  // Without reflection rays are needed only for the surfaces that they see, and then continue through walls.
   TraceConfig seeing = transmitting(6, 19, rays);
   seeing.reflection = false;
   CHECK(discover(scene, seeing).sequences.empty());
@@ -227,7 +227,7 @@ TEST_CASE("paths through walls: all that brute force finds, and no other") {
           transmitted += (row.steps[k] & WT_STEP_KIND) == WT_STEP_TRANSMISSION;
         }
       }
-      CHECK(transmitted > 5);  // the test would say nothing otherwise
+      CHECK(transmitted > 5);  // otherwise the test would show nothing
     }
 }
 

@@ -1,5 +1,5 @@
-// Bodies as files have them: materials and nodes of a GLB that trimesh wrote (files/make_car.py), nodes of built-in
-// bodies, antennas at them, and vehicles that are parked.
+// Tests bodies from files: materials and nodes of a GLB that trimesh wrote (files/make_car.py), nodes of built-in
+// bodies, antennas at them, and parked vehicles.
 #include <map>
 
 #include "folders.hpp"
@@ -51,8 +51,8 @@ TEST_CASE("an antenna at a node of the mesh, which goes with the body where that
   config.mounts[0].offset_m = {1, 0.5, 0.25};
   check_near(roof_of(config), {10 - 0.125 - 0.5, 20 - 0.75 + 1, 1.8125}, 1e-6);
   config.mounts[0].offset_m = {0, 0, 0};
-  config.vehicle_types[0].length_m = 8.8;  // of 4.4
-  config.vehicle_types[0].width_m = 3.6;   // of 1.8
+  config.vehicle_types[0].length_m = 8.8;  // twice 4.4
+  config.vehicle_types[0].width_m = 3.6;   // twice 1.8
   check_near(roof_of(config), {10 - 0.25, 20 - 1.5, 1.5625}, 1e-6);
 }
 
@@ -144,9 +144,8 @@ TEST_CASE("a parked vehicle of no known type, or of a name that is taken, is an 
 TEST_CASE("what is left out of the file of a vehicle is told, once for all that have it; so is one of kilometres") {
   const TemporaryFolder folder;
   const std::string box =
-      "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 "
-      "7 "
-      "6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
+      "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 0 0 1\nv 4 0 1\nv 4 2 1\nv 0 2 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
+      "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
   Config config = ego();
   config.materials.clear();
   config.vehicle_types = {{.name = "passenger", .model = folder.write("car.obj", box).string()}};

@@ -1,5 +1,5 @@
-// output.waypoints: which rays are sampled, where they go, and what they hear, whatever order rays are traced in.
-// In a box, where every ray goes on to the last depth, and over a ground, which half of them miss.
+// Tests output.waypoints: the sampled rays, their points, and the receivers that they pass, for every order of tracing.
+// The scenes are a box, where every ray continues to the last depth, and a ground, which half of the rays miss.
 #include <algorithm>
 #include <array>
 
@@ -56,7 +56,7 @@ TEST_CASE("samples are spread evenly, and their rays are mirrored from wall to w
     const glm::dvec3 in = rows.position_m[i] - rows.position_m[i - 1];
     const glm::dvec3 out = rows.position_m[i + 1] - rows.position_m[i];
     const double apart = glm::distance(glm::abs(glm::normalize(in)), glm::abs(glm::normalize(out)));
-    wrong += apart > 1e-5 / std::min(glm::length(in), glm::length(out));  // of points that are right to some 1e-6
+    wrong += apart > 1e-5 / std::min(glm::length(in), glm::length(out));  // the points are right to some 1e-6
     int turned = 0;
     for (int axis = 0; axis < 3; ++axis) turned += in[axis] * out[axis] < 0;
     wrong += turned != 1;

@@ -1,4 +1,4 @@
-// What the tests of the world share: FCD files of vehicles whose centres move on circles and lines known exactly, and
+// Helpers of the tests of the world: FCD files of vehicles whose centres move on circles and lines known exactly, and
 // configurations that drive them.
 #pragma once
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// World: links against counted pairs, what it refuses, how far it reaches, and traffic that it generates.
+// Tests the links of a world against counted pairs, what is refused, how far links reach, and generated traffic.
 #include "simulation/world_links.hpp"
 #include "simulation/name_pattern.hpp"
 #include "simulation/world_fixture.hpp"

@@ -1,5 +1,5 @@
-// Predicates on rows of caches, each with rows that make it true and rows that make it false; then the claims of
-// figures 6.2 to 6.17 that are made of them.
+// Tests predicates on rows of caches, each with rows that make it true and rows that make it false; then the claims of
+// figures 6.2 to 6.17 that consist of them.
 #include "study/cache_claims.hpp"
 #include <doctest/doctest.h>
 #include <array>
@@ -13,7 +13,7 @@ using namespace cache_verdicts;
 
 namespace {
 
-// Of one world at one number of rays: seconds per frame and metres of the centroid.
+// Makes a row of one world at one number of rays: seconds per frame and metres of the centroid.
 CacheRow row(const std::string& setting, uint64_t rays, double seconds, double off_m = 0,
              const std::string& drive = "fixed") {
   CacheRow out{.drive = drive, .setting = setting, .rays = rays};
@@ -95,7 +95,7 @@ TEST_CASE("figures 6.2, 6.3, 6.6 and 6.7: writes, reads and tracing of a segment
   const std::string no_regions = "not measured";
   CHECK(verdicts_of("figure-6.6", {50000}, same, times(30, 20, 1, 0)) ==
         Verdicts{"confirmed for all", "not confirmed for any", "confirmed for all", no_regions, no_regions, "confirmed",
-                 "not confirmed"});  // reads take as long in both
+                 "not confirmed"});  // reads take equally long in both
   CHECK(verdicts_of("figure-6.6", {50000}, same, times(60, 20, 7, 0))[1] == "confirmed for all");
   CHECK(verdicts_of("figure-6.6", {50000}, same, times(60, 20, 7, 0))[2] == "not confirmed for any");
   CHECK(verdicts_of("figure-6.7", {50000}, same, times(300, 20, 1, 210)) ==
@@ -214,7 +214,7 @@ TEST_CASE("figures 6.14 and 6.16: claims on time by hash") {
         "precision 0.0125 uniform", 0.9, 1.1);
   check("figure-6.16", "by precision, the mixed hash is faster than no cache, up to 37,000 rays",
         "precision 0.0125 mixed", 0.9, 1.1);
-  // Ours is not one of the thesis'.
+  // This setting is ours, not one of the thesis.
   CHECK(verdict_of("figure-6.16", "caches by position, and by precision with Morton codes, save no time", {1000},
                    only("concurrent", 0.5)) == in_both(always));
 }

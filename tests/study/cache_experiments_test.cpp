@@ -1,5 +1,5 @@
-// Experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
-// Numbers are chosen so that verdicts can be said by hand.
+// Tests experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
+// Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <cstdlib>
@@ -235,21 +235,21 @@ TEST_CASE("figure-6.5: no gain outside of the window and one inside is what the 
   CAPTURE(claimed);
   CHECK(contains(claimed, "one of them saves time at 4,096,000 rays."));
   CHECK(contains(claimed,
-                 "| no gain below 2,560,000 and beyond 10,240,000 rays | reproduced | confirmed |\n| a gain from "
-                 "2,560,000 to 10,240,000 rays | reproduced | confirmed |"));
+                 "| no gain below 2,560,000 and beyond 10,240,000 rays | reproduced | confirmed |\n"
+                 "| a gain from 2,560,000 to 10,240,000 rays | reproduced | confirmed |"));
   CHECK(contains(claimed, "At 20,480,000 rays, against the same rays without a cache:"));
   const std::string never = words_of("figure-6.5", {1000, 4096000}, [](const std::string&, uint64_t) {
     return std::pair{1.0, 0.0};
   });
   CHECK(contains(never,
-                 "below 2,560,000 and beyond 10,240,000 rays | reproduced | confirmed |\n| a gain from 2,560,000 to "
-                 "10,240,000 rays | refuted | not confirmed |"));
+                 "below 2,560,000 and beyond 10,240,000 rays | reproduced | confirmed |\n"
+                 "| a gain from 2,560,000 to 10,240,000 rays | refuted | not confirmed |"));
   const std::string few = words_of("figure-6.5", {1000, 2000}, [](const std::string& setting, uint64_t) {
     return std::pair{setting == "chained uniform" ? 0.5 : 1.0, 0.0};
   });
   CHECK(contains(few,
-                 "below 2,560,000 and beyond 10,240,000 rays | refuted | not confirmed |\n| a gain from 2,560,000 to "
-                 "10,240,000 rays | not judged | not measured |"));
+                 "below 2,560,000 and beyond 10,240,000 rays | refuted | not confirmed |\n"
+                 "| a gain from 2,560,000 to 10,240,000 rays | not judged | not measured |"));
   CHECK(contains(few, "| chained uniform | 50% less time |"));
 }
 
@@ -259,8 +259,8 @@ TEST_CASE("figure-6.8: verdicts beyond 50,000 rays only") {
   };
   const std::string text = words_of("figure-6.8", {1000, 64000, 128000}, late);
   CHECK(contains(text,
-                 "| a gain beyond 50,000 rays | reproduced | confirmed |\n| the mixed hash is the fastest beyond "
-                 "50,000 rays | reproduced | confirmed |"));
+                 "| a gain beyond 50,000 rays | reproduced | confirmed |\n"
+                 "| the mixed hash is the fastest beyond 50,000 rays | reproduced | confirmed |"));
   CHECK(contains(words_of("figure-6.8", {1000}, late), "| a gain beyond 50,000 rays | not judged | not measured |"));
 }
 
@@ -276,8 +276,8 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
                  "| 10% less time if purged by position, for small and medium numbers of rays | in part | fixed "
                  "transmitter: at 1,000 rays; "));
   CHECK(contains(times,
-                 "| 17% less time if purged by precision, for many rays | refuted | fixed transmitter: at none of the "
-                 "numbers of rays; "));
+                 "| 17% less time if purged by precision, for many rays | refuted | fixed transmitter: "
+                 "at none of the numbers of rays; "));
   CHECK(contains(times, "| fixed transmitter | position mixed | 5.0% less time |"));
   CHECK(contains(errors, "| off by 2 m at most if purged by position | in part | fixed transmitter: at 5,000 rays; "));
   CHECK(contains(

@@ -1,5 +1,5 @@
-// Figures of caches as `wavetracer bench` draws them: their tables agree with the words and with themselves.
-// What needs a device is skipped, saying so, where there is none.
+// Tests figures of caches as `wavetracer bench` draws them: their tables must agree with the words and with themselves.
+// Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <map>
 #include "study/experiment_program.hpp"

@@ -38,7 +38,7 @@ inline std::string verdict_of(const std::string& name, const std::string& words,
   return judgement_of(name, words, rays, cost).words;
 }
 
-// Of one setting seconds and metres, of all others a second and nothing.
+// Returns the seconds and metres of one setting; all others have a second and no error.
 inline CacheCost only(const std::string& setting, double seconds, double off_m = 0) {
   return [=](const std::string& one, uint64_t) {
     return one == setting ? std::pair{seconds, off_m} : std::pair{1.0, 0.0};
@@ -50,7 +50,7 @@ inline CacheCost errors(const std::string& a, double a_m, const std::string& b, 
   return [=](const std::string& one, uint64_t) { return std::pair{1.0, one == a ? a_m : one == b ? b_m : 0.0}; };
 }
 
-// In the worlds of figures 6.14 to 6.17, and of 6.10 to 6.12.
+// Returns the words for the worlds of figures 6.14 to 6.17, and of 6.10 to 6.12.
 inline std::string in_both(const std::string& words) {
   return "fixed transmitter: " + words + "; moving transmitters, reception by spheres: " + words;
 }

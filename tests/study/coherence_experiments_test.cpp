@@ -1,5 +1,5 @@
-// coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
-// Numbers of the paragraphs are chosen so that they can be said by hand.
+// Tests coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
+// The numbers are chosen so that the paragraphs are known by hand.
 #include <doctest/doctest.h>
 #include <algorithm>
 #include "contains.hpp"
@@ -112,7 +112,7 @@ TEST_CASE("coherence-frames: pairing by ray or by place") {
   CHECK(pairs[0].frame == 3);
   CHECK(pairs[0].found.points.component.y == doctest::Approx(1));
   CHECK(pairs[0].found.pairs == 6);
-  // By place: 0 1 0 1 0 1 with 1 0 1 0 1 0.
+  // By place, 0 1 0 1 0 1 is compared with 1 0 1 0 1 0.
   CHECK(pairs[0].by_place > 0.9);  // a length, which hides that they are opposite
   CHECK(pairs[0].found.points.pooled > 0.9);
 }
@@ -126,8 +126,9 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
   const std::string text = squeezed(words_text(lag_words(find_experiment("coherence-rays"), rows, "the device")));
   CAPTURE(text);
   CHECK(contains(text,
-                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n| hit points correlate, fibonacci | -0.40 | "
-                 "-0.30 |\n| hit points correlate, random | 0.00 | 0.02 |"));
+                 "| hit points correlate, hilbert | 0.90 | 0.80 |\n"
+                 "| hit points correlate, fibonacci | -0.40 | -0.30 |\n"
+                 "| hit points correlate, random | 0.00 | 0.02 |"));
   CHECK(contains(text, "| lag at which that falls below a half, hilbert | 2 | none measured |"));
   CHECK(contains(text, "first hits correlate most, by 0.93 at lag 2"));
   CHECK(contains(text, "surface, hilbert | 0.95 | 0.70 |"));

@@ -1,5 +1,5 @@
-// Frames made by hand, whose coherence can be said in advance, and what the printed formulas say of them.
-// Printed: equations 6.3 and 6.4 of the thesis, over outputs in which every list holds hits only.
+// Tests frames made by hand, whose coherence is known, and what the printed formulas give for them. Printed: equations
+// 6.3 and 6.4 of the thesis, over outputs in which every list holds hits only.
 #include "study/coherence.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
@@ -77,7 +77,7 @@ TEST_CASE("correlate: one component agrees, one does not, one is constant") {
   CHECK(found.component.x == doctest::Approx(1));
   CHECK(std::abs(found.component.y) < 1e-12);
   CHECK(std::isnan(found.component.z));
-  CHECK(found.total == doctest::Approx(std::sqrt(0.5)));  // of the two that are defined
+  CHECK(found.total == doctest::Approx(std::sqrt(0.5)));  // over the two that are defined
   CHECK(found.pooled == doctest::Approx(36.0 / 40));      // 4 * 9 of 4 * (9 + 1)
 }
 

@@ -1,4 +1,4 @@
-// Entries of a table whose groups can be counted by hand, and hits that a random generator spreads.
+// Tests entries of a table whose groups can be counted by hand, and hits that a random generator spreads.
 #include "study/entry_summary.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
@@ -29,7 +29,7 @@ CacheEntryRows rows_of(const std::vector<Entry>& entries) {
   return out;
 }
 
-// Of 20,000 entries in a row, their hits from `hits_of` their slot.
+// Makes 20,000 entries in a row, whose hits are `hits_of` their slot.
 template <class HitsOf>
 EntrySummary spread(HitsOf hits_of) {
   std::vector<Entry> entries;
@@ -68,7 +68,7 @@ TEST_CASE("buckets that take longer, and tables that cannot say") {
   CHECK(writes_longer_in_buckets(with(300, 200)) == true);
   CHECK(writes_longer_in_buckets(with(200, 300)) == false);
   CHECK_FALSE(reads_longer_in_buckets(with(0, 0)).has_value());    // no clock
-  CHECK_FALSE(reads_longer_in_buckets(with(300, 0)).has_value());  // nothing below answered
+  CHECK_FALSE(reads_longer_in_buckets(with(300, 0)).has_value());  // no entry further down answered
   CHECK_FALSE(reads_longer_in_buckets(summary_of({})).has_value());
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("hits by chance: both numbers are near 1; more even: less; crowded ent
   std::poisson_distribution<uint32_t> poisson(3);
   const EntrySummary chance = spread([&](uint32_t) { return poisson(random); });
   CHECK(chance.dispersion == doctest::Approx(1).epsilon(0.05));
-  CHECK(chance.clustering == doctest::Approx(1).epsilon(0.6));  // of 50 runs: a standard deviation of 0.2
+  CHECK(chance.clustering == doctest::Approx(1).epsilon(0.6));  // there are 50 runs: a standard deviation of 0.2
   CHECK(are_even(chance) == true);
   CHECK(is_without_clusters(chance) == true);
   const EntrySummary alike = spread([](uint32_t) { return 2u; });

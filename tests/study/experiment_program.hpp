@@ -1,4 +1,4 @@
-// What tests of `wavetracer bench` share: a street for its config file, its tables, its errors.
+// Helpers of the tests of `wavetracer bench`: a street for its config file, its tables, its errors.
 #pragma once
 #include <doctest/doctest.h>
 #include <cstdlib>

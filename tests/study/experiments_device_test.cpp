@@ -1,5 +1,5 @@
-// `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Small ranges only.
-// What needs a device is skipped, saying so, where there is none.
+// Tests `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Ranges are small.
+// Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -133,7 +133,7 @@ TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree"
     const auto rows = table(folder.path("out/" + name + ".csv"));
     REQUIRE(rows.size() == (frames ? 2 * 200 * 2 : 3 * 2 * 1000));  // two depths
     const std::string report = contents(folder.path("out/" + name + ".md"));
-    std::map<std::string, std::string> first_of_last;  // of coherence-frames, by depth
+    std::map<std::string, std::string> first_of_last;  // rows of coherence-frames, by depth
     for (const auto& row : rows) {
       CHECK(number(row.at("same_surface")) >= 0);
       CHECK(number(row.at("same_surface")) <= 1);

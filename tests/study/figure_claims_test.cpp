@@ -1,5 +1,5 @@
-// Claims of single figures of caches, each with rows that make it true and rows that make it false.
-// Numbers are chosen so that verdicts can be said by hand.
+// Tests claims of single figures of caches, each with rows that make it true and rows that make it false.
+// Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>
 #include <cmath>
 #include "study/cache_claims.hpp"
@@ -21,7 +21,7 @@ CacheCost taking(const std::vector<std::pair<std::string, double>>& seconds) {
   };
 }
 
-// Of one setting: seconds at 1,000 rays, and at all other numbers of them.
+// Returns seconds of one setting at 1,000 rays, and at all other numbers of rays.
 CacheCost growing(const std::string& setting, double few_s, double many_s) {
   return [=](const std::string& one, uint64_t rays) {
     return std::pair{one == setting ? (rays == 1000 ? few_s : many_s) : 1.0, 0.0};

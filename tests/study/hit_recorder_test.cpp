@@ -1,5 +1,5 @@
-// The recorder against the scene itself: points on their surfaces, distances, and the law of reflection.
-// Assumes that some rays leave the scene, so that queues are compacted; skipped where there is no device.
+// Compares the recorder with the scene itself: points on their surfaces, distances, and the law of reflection. Assumes
+// that some rays leave the scene, so that queues are compacted; skipped where there is no device.
 #include "study/hit_recorder.hpp"
 #include <doctest/doctest.h>
 #include <cmath>

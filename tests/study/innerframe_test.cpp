@@ -1,5 +1,5 @@
-// Coherence inside a frame: the control equation against counted cells and rays, and each claim with rows that make it
-// true and rows that make it false.
+// Tests coherence inside a frame: the control equation against counted cells and rays, and each claim with rows that
+// make it true and rows that make it false.
 #include <doctest/doctest.h>
 #include <cmath>
 #include <random>

@@ -1,4 +1,5 @@
-// Outcomes of claims, on cases that can be said by hand: a claim that holds, one that does not, and what is between.
+// Tests outcomes of claims on cases that are known by hand: a claim that holds, one that does not, and those in
+// between.
 #include "study/judgement.hpp"
 #include <doctest/doctest.h>
 #include "study/cache_verdicts.hpp"

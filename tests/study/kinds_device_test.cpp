@@ -1,5 +1,6 @@
-// Every experiment, and every kind of configuration: a figure without holes, or a message that names the experiment or
-// the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is asked about what it refuses alone.
+// Tests every experiment with every kind of configuration: each gives a figure without gaps, or a message that names
+// the experiment or the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is only tested for
+// what it refuses.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <sstream>
@@ -30,7 +31,7 @@ const std::string mount = "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n"
 
 struct Kind {
   std::string name, text;
-  // What is answered instead of a figure; empty: a figure.
+  // The error that is expected instead of a figure; empty: a figure.
   std::string of_experiments, of_series, of_drives, of_caches;
 };
 
@@ -83,9 +84,9 @@ bool stands_for_its_study(const Experiment& experiment) {
   return false;
 }
 
-// In which kinds an experiment draws its figure here: caches and experiments launch many rays, so in one each, and
-// figure-6.1 has a dozen series. The other figures of orders are drawn in every third kind each, so that every kind has
-// a third of them: they share what is done with a kind.
+// Tells in which kinds an experiment draws its figure here: caches and experiments launch many rays, so in one each,
+// and figure-6.1 has a dozen series. The other figures of orders are drawn in every third kind each, so that every kind
+// has a third of them: they share what is done with a kind.
 bool drawn(const Kind& kind, const Experiment& experiment) {
   if (experiment.name == "figure-6.1") return kind.name == "vehicles alone, in later frames";
   if (experiment.as<OrderFigure>() || experiment.name == "figure-6.13")
@@ -112,7 +113,7 @@ TEST_CASE("every experiment, and every kind of configuration: a figure, or a mes
     for (const Experiment& experiment : wavetracer::study::experiments()) {
       CAPTURE(experiment.name);
       const std::string& refused = answer(kind, experiment);
-      // What is refused is refused by one rule for all experiments with a study: one of them stands for the others.
+      // Refusals follow one rule for all experiments with a study: one of them stands for the others.
       if (experiment.study() && !refused.empty() && experiment.name != "figure-6.5") continue;
       if (refused.empty() && !drawn(kind, experiment)) continue;
       const Outcome run = bench(experiment, folder, config);

@@ -1,5 +1,5 @@
-// The paragraphs against rows whose gains are known in advance.
-// Factors are chosen so that what is reached, and in which order, can be said by hand.
+// Tests the paragraphs on rows whose gains are known in advance.
+// Factors are chosen so that the results and their order are known by hand.
 #include "study/order_claims.hpp"
 #include <doctest/doctest.h>
 #include <cmath>
@@ -40,8 +40,8 @@ TEST_CASE("figure-6.1: claims reached and the expected ranks") {
                  "| H3DH takes 23% less time than WS at 1,000 rays | exceeded | reached with the sort not paid, "
                  "reached with it paid |"));
   CHECK(contains(text,
-                 "| H3DH is 2.5 times as fast as WS at 49,000 rays | in part | reached with the sort not paid, not "
-                 "reached with it paid |"));
+                 "| H3DH is 2.5 times as fast as WS at 49,000 rays | in part | reached with the sort not paid, "
+                 "not reached with it paid |"));
   // The fastest first, those without a sort without brackets.
   const size_t born = text.find("| born ordered | 5.00 | 5.00 | 5.00 |\n"), h3dh = text.find("| H3DH | 3.00"),
                hz = text.find("| HZ | 2.97");
@@ -49,8 +49,8 @@ TEST_CASE("figure-6.1: claims reached and the expected ranks") {
   CHECK(h3dh < hz);
   CHECK(hz != std::string::npos);
   CHECK(contains(text,
-                 "| H3DH and HZ are the fastest of the six orders, at 1,000,000 rays | reproduced | yes with the sort "
-                 "not paid, yes with it paid |"));
+                 "| H3DH and HZ are the fastest of the six orders, at 1,000,000 rays | reproduced | yes with "
+                 "the sort not paid, yes with it paid |"));
   CHECK(contains(
       text,
       "| WS is the slowest, at every number of rays | reproduced | yes with the sort not paid, yes with it paid |"));

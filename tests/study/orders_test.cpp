@@ -1,4 +1,4 @@
-// Experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
+// Tests experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
 // Expected values are written out or computed another way.
 #include <doctest/doctest.h>
 #include <algorithm>
@@ -140,7 +140,7 @@ TEST_CASE("a series launches all rays of its transmitters, every frame, and noth
     CHECK_FALSE(point.trace.diffraction);
     CHECK(point.cache.kind.word() == "none");
   }
-  // What sends in the frames of a drive is what the configuration says, and what it does not want does not.
+  // The transmitters in the frames of a drive are those that the configuration wants.
   const Config moving = point_config(*find_experiment("figure-6.18").as<OrderFigure>(), config, 20);
   CHECK(moving.mounts.size() == 2);
   CHECK(moving.transmitters.size() == 1);

@@ -1,4 +1,4 @@
-// Frames of paths made by hand, whose errors can be said in advance.
+// Tests frames of paths made by hand, whose errors are known in advance.
 // Lengths are chosen in nanoseconds of light, so that delays are round.
 #include "study/path_error.hpp"
 #include <doctest/doctest.h>
@@ -102,7 +102,8 @@ TEST_CASE("spreads of Doppler shifts differ by what the powers make of them") {
   add(reference, 0, 0, 100, 3, {}, {}, reflection, no_instance, 100);
   add(reference, 0, 0, 100, 1, {3}, {}, reflection, no_instance, -100);
   add(paths, 0, 0, 100, 3, {}, {}, reflection, no_instance, 100);
-  CHECK(path_error(reference, paths).doppler_spread_hz == doctest::Approx(60));  // of 0.9 and 0.1 of the power
+  // The spread of 0.9 and 0.1 of the power.
+  CHECK(path_error(reference, paths).doppler_spread_hz == doctest::Approx(60));
   CHECK(path_error(reference, reference).doppler_spread_hz == 0);
 }
 
@@ -120,7 +121,7 @@ TEST_CASE("one surface more or another link is another path") {
   CHECK(error.links == 1);
   CHECK(error.links_lost == 1);
   CHECK(error.links_spurious == 1);
-  CHECK(error.power_max_db == 0);  // of the link that both have
+  CHECK(error.power_max_db == 0);  // the error of the link that both have
   CHECK(std::isnan(error.delay_ns));
 }
 

@@ -1,5 +1,5 @@
-// The list of stages: sums over parts, names once, and what is not listed.
-// That every stage of a frame is listed, all tests of frames show, since a frame with another one fails.
+// Tests the list of stages: sums over parts, unique names, and unlisted stages.
+// All tests of frames show that every stage is listed, since a frame with another stage fails.
 #include "wavetracer/stages.hpp"
 #include <doctest/doctest.h>
 #include <set>

@@ -1,4 +1,4 @@
-// Correlation, autocorrelation and running means against closed forms.
+// Compares correlation, autocorrelation and running means with closed forms.
 // Bounds on random series are five of their standard errors; seeds are fixed.
 #include "study/statistics.hpp"
 #include <doctest/doctest.h>
@@ -64,7 +64,7 @@ TEST_CASE("pearson: independent noise is uncorrelated; a mixture has its share")
 }
 
 TEST_CASE("pearson: a far offset costs no digits") {
-  // Sums of squares less squared sums have nothing left of a spread of 1e-3 at 1e6 in double but 1e-3 of noise.
+  // With sums of squares minus squared sums, nothing remains in double of a spread of 1e-3 at 1e6 but noise of 1e-3.
   const std::vector<double> x = noise(1000, 1);
   std::vector<double> far, far_up;
   for (const double value : x) {

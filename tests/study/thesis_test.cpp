@@ -1,5 +1,5 @@
-// The thesis' page without a device: its figures, its picture, its HTML.
-// Tags are balanced by a small stack of their names; void elements and gnuplot's self-closing ones close themselves.
+// Tests the thesis' page without a device: its figures, its picture, its HTML.
+// Tags are balanced with a small stack of their names; void elements and gnuplot's self-closing ones close themselves.
 #include "study/thesis.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string unbalanced(const std::string& html) {
   return open.empty() ? "" : open.back();
 }
 
-// As gnuplot writes it.
+// This is the form that gnuplot writes.
 const std::string drawing =
     "<?xml version=\"1.0\" encoding=\"utf-8\"  standalone=\"no\"?>\n<svg \n width=\"400\" height=\"300\"\n "
     "xmlns=\"http://www.w3.org/2000/svg\"\n xmlns:xlink=\"http://www.w3.org/1999/xlink\"\n>\n<g id=\"gnuplot_canvas\">"

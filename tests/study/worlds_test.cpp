@@ -1,5 +1,5 @@
-// The worlds of experiments that move, without a device: what sends, what receives, and where it is in which frame.
-// Places are computed by hand, from a transmitter's velocity.
+// Tests the worlds of experiments that move, without a device: what transmits, what receives, and where it is in which
+// frame. Places are computed by hand, from a transmitter's velocity.
 #include "study/worlds.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
@@ -105,8 +105,8 @@ TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/
 
 TEST_CASE("of stations the first is driven, all of them listen where they stand, and no other sends") {
   const Config standing = parse_config(blocks + car +
-                                           "[[station]]\nname = \"rsu\"\nposition_m = [0, -50, 6]\n[[station]]\nname = "
-                                           "\"far\"\nposition_m = [0, 90, 6]\n",
+                                           "[[station]]\nname = \"rsu\"\nposition_m = [0, -50, 6]\n[[station]]\n"
+                                           "name = \"far\"\nposition_m = [0, 90, 6]\n",
                                        "a.toml");
   const Config config = driven(standing, 10);
   CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
@@ -147,7 +147,7 @@ TEST_CASE("a drive is of a transmitter on a vehicle, in frames in which it is th
   const Drive five = world.drive(100, 2);  // as many as there are
   CHECK(five.transmitter == 2);
   CHECK(five.frames() == 5);
-  CHECK(MadeWorld{{"xxxx"}, {false}}.drive(3, 2).frames() == 3);  // what stands, where nothing drives
+  CHECK(MadeWorld{{"xxxx"}, {false}}.drive(3, 2).frames() == 3);  // the fixed end, where no end moves
   CHECK_THROWS_WITH_AS(MadeWorld({{"x.x."}, {true}}).drive(3, 2),
                        doctest::Contains("a.toml: no transmitter is there in 2 frames that follow each other (4 "),
                        ConfigError);

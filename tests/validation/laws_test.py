@@ -31,7 +31,7 @@ def check_edge():
 def check_energy():
     rows = room.energy(room.MATERIALS["concrete, half space"], orders=3, points=9)
     assert abs(rows[0]["arrives_w"] - 1) < 0.01, rows[0]
-    for row in rows[:-1]:  # what the program reflects is what Fresnel says of what arrived
+    for row in rows[:-1]:  # the program's reflection is what Fresnel's formula gives for the arriving wave
         assert abs(row["program_returns_w"] / row["returns_w"] - 1) < 0.01, row
     for row, later in zip(rows, rows[1:]):  # and what leaves one wall arrives at the others
         assert abs(later["arrives_w"] / row["program_returns_w"] - 1) < 0.02, (row, later)

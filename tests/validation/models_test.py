@@ -24,8 +24,8 @@ def near(got, wanted, tolerance, what):
 
 
 def check_3gpp():
-    # The expected powers of ns-3's own tests, three-gpp-propagation-loss-model-test-suite.cc: 5 GHz, 10 m and 1.5 m high
-    # (UMi), 1.6 m (vehicles); they are less accurate than printed, hence ns-3's tolerance.
+    # These are the expected powers of ns-3's own tests, three-gpp-propagation-loss-model-test-suite.cc: 5 GHz, 10 m and
+    # 1.5 m high (UMi), 1.6 m (vehicles); they are less accurate than printed, hence ns-3's tolerance.
     for distance, los, nlos in ((10, 69.8591, 76.7563), (100, 88.4122, 107.9432), (1000, 119.3114, 143.1886)):
         near(tr38901.path_loss(5, distance, 10, 1.5, "los"), los, 0.05, f"UMi, LOS, {distance} m")
         near(tr38901.path_loss(5, distance, 10, 1.5, "nlos"), nlos, 0.05, f"UMi, NLOS, {distance} m")

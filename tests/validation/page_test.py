@@ -22,7 +22,7 @@ def main():
         sys.exit("docs/validation.md is not what bench/validation/results make: python3 bench/validation/validate.py --page")
     for figure in page.FIGURES:
         assert (docs / "figures" / figure).exists() and f"(figures/{figure})" in text, figure
-    # A result that says otherwise is another page.
+    # A different result gives a different page.
     changed = validate.results()
     changed["edges"]["double"][0]["v_db"] += 9
     assert page.text(changed) != text, "the page does not follow its results"

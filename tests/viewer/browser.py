@@ -126,7 +126,8 @@ class Page:
         return np.arange(int(offsets[frame]), int(offsets[frame + 1]))
 
     def index(self, row):
-        """Where the page has a path of the file in the frame that it shows: its delay tells it from the others."""
+        """Returns the index of a path of the file in the frame that the page shows; its delay tells it from the others.
+        """
         delays = np.array(self.js("return Array.from(wavetracer.state.frame.delay_s)"))
         found = np.nonzero(np.abs(delays - self.file["paths/delay_s"][row]) < 1e-13)[0]
         assert len(found) > 0, row

@@ -9,7 +9,7 @@ from browser import By, Page
 
 page = Page(sys.argv[1], "coverage", dark=False)
 loaded_s = (page.js("return wavetracer.ready_ms")) / 1000
-# Until the picture is there: reading a pixel waits for it. Chromium draws with the processor here.
+# Waits until the picture is drawn: reading a pixel waits for it. Chromium draws with the processor here.
 drawn = page.js("""
 const times = [], gl = wavetracer.renderer.getContext();
 for (let i = 0; i < 9; ++i) {
@@ -30,7 +30,7 @@ assert len(page.find("receiver").find_elements(By.TAG_NAME, "option")) == 2  # a
 assert page.visible() == 4 and "click the map" in page.text("count"), page.text("count")  # those of the car
 assert "3 antennas, map map of 300 \u00d7 300 receivers" in page.text("summary"), page.text("summary")
 
-# What the file says of each cell: of the strongest transmitter, powers added.
+# The file's value of each cell is that of the strongest transmitter, with powers added.
 paths = page.file["paths"]
 tx, rx = paths["tx"][...], paths["rx"][...]
 power = np.zeros((2, 90001))

@@ -56,7 +56,7 @@ def distance(at, polyline):
 
 seen = []
 for row, polyline in segments:
-    # A place on the path that no other one comes near.
+    # Finds a place on the path that no other path comes near.
     for t in np.linspace(0.1, 0.9, 17):
         k = len(polyline) // 2 - 1
         at = polyline[k] * (1 - t) + polyline[k + 1] * t

@@ -7,7 +7,8 @@ from browser import Page
 page = Page(sys.argv[1], "large")
 assert page.visible() == 100000
 assert page.js("return wavetracer.world.vehicles.children.filter((v) => v.visible).length") == 100
-# Without the pixels: the page's own work. Chromium draws with the processor here, a graphics card does not wait.
+# Measures the page's own work without the pixels. Chromium draws with the processor here; a graphics card would not
+# wait.
 measured = page.js("""
 const median = (action) => {
   const times = [];

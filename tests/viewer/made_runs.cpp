@@ -57,7 +57,7 @@ void add_path(Paths& paths, uint32_t frame, const Link& link, const EndState& fr
   paths.quarters.push_back(k % 2 ? 1 : 15);
 }
 
-// Of all the paths of a frame.
+// Adds counts of all the paths of a frame.
 void add_counts(FrameResult& frame) {
   frame.counts.paths = frame.paths.size();
   frame.missed = missed_counts(frame.paths, 0, frame.paths.size());

@@ -1,5 +1,5 @@
-// Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths that have their places in it.
-// Gains, delays and angles are functions of the geometry, so that what the page says can be computed again.
+// Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths with their places in it. Gains,
+// delays and angles are functions of the geometry, so that the numbers on the page can be computed again.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@ namespace wavetracer::test {
 struct MadeRun {
   uint32_t vehicles = 2, frames = 11, paths_a_link = 6;
   std::string scene = "generate = \"--seed 1 --blocks 2x2\"";  // of the configuration
-  std::string prefix = {};                                     // of all names
+  std::string prefix = {};                                     // prefix of all names
 };
 
 // Writes paths.h5 and the rest into the folder. One road-side unit sends, every vehicle sends and receives.

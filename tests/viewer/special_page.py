@@ -24,7 +24,7 @@ for radio in range(3):
 assert page.js("return window.hacked") is None and page.js("return document.images.length") == 0
 page.check_clean()
 
-# No paths: said so, nothing fails.
+# A run without paths: the page says so, and nothing fails.
 page = Page(folder, "empty")
 assert page.visible() == 0 and "no paths" in page.text("warnings"), page.text("warnings")
 assert not page.find("player").is_displayed() and not page.find("charts").is_displayed()
@@ -32,7 +32,7 @@ page.click(200, 200)
 page.screenshot("empty")
 page.check_clean()
 
-# One frame: no time to play.
+# A run of one frame: there is no time to play.
 page = Page(folder, "single")
 assert page.visible() == 3 and not page.find("player").is_displayed()
 page.js("wavetracer.select(arguments[0])", page.index(2))
@@ -41,7 +41,7 @@ assert "Ports 0 to 1" in page.text("details")
 assert page.find("charts").is_displayed() and not page.find("gain_figure").is_displayed()
 page.check_clean()
 
-# Thousands of frames: each at hand, counts those of the file.
+# Thousands of frames: each can be chosen, and its counts are those of the file.
 page = Page(folder, "long")
 offsets = page.file["frames/path_offset"][...]
 assert len(offsets) == 3001
@@ -54,7 +54,7 @@ took = page.js("const start = performance.now(); for (let i = 0; i < 1000; ++i) 
 print(f"long: {took:.2f} ms per frame of 3000")
 page.check_clean()
 
-# No scene file: the rest, and why.
+# The scene file is missing: the page shows the rest and says why.
 page = Page(folder, "missing")
 assert "/nowhere/gone.xml" in page.text("warnings") and page.visible() == 24
 vehicles = page.js("return wavetracer.world.vehicles.children.length")
@@ -70,7 +70,7 @@ kept = np.concatenate([page.js("wavetracer.setFrame(arguments[0]); return Array.
 assert np.allclose(np.sort(kept), np.sort(gain)[-50:], atol=0.011), (np.sort(kept)[:3], np.sort(gain)[-50:][:3])
 page.check_clean()
 
-# A narrow window: nothing wider than it, the picture still there.
+# A narrow window: nothing is wider than it, and the picture is still there.
 page = Page(folder, "drive", width=390, height=844, dark=False)
 assert page.js("return document.documentElement.scrollWidth") <= 390
 size = page.find("world").size

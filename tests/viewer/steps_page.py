@@ -32,7 +32,7 @@ def pixels_of(link):
         "return [p.point(frame.transmitter_m, arguments[0]), p.point(frame.receiver_m, arguments[1])]", *link), float)
 
 
-# What was missed: of the run, and of a link.
+# The missed power is shown for the run, and for a link.
 said = page.text("missed")
 assert f"missed about {missed['paths']['estimate']:.0f} of 264 paths" in said, said
 assert f"({missed['paths']['low']:.0f} to {np.ceil(missed['paths']['high']):.0f})" in said, said
@@ -131,7 +131,7 @@ body.send_keys(Keys.ESCAPE)
 assert page.visible() == 24 and not page.find("charts").is_displayed() and "Click a path" in page.text("details")
 assert page.find("transmitter").get_attribute("value") == "-1"
 
-# A vehicle that is followed stays where it is in the picture.
+# A followed vehicle stays at its place in the picture.
 page.js("wavetracer.setFrame(0)")
 page.choose("follow", 1)
 at = lambda: np.array(page.js("const {frame} = wavetracer.state; const k = frame.pose_instance.indexOf(1);"
@@ -162,7 +162,8 @@ assert page.js("return wavetracer.lines.faded") == 5 and "5 of them faded" in pa
 page.check("fade_clutter", False)
 assert page.js("return wavetracer.lines.faded") == 0
 
-# Flat roofs: of a house that shares no vertex with its walls, not the ground, not a pitched roof, not the floor below.
+# Tests flat roofs: that of a house that shares no vertex with its walls is one; the ground, a pitched roof and the
+# floor below are none.
 roofs = page.js("""
 const vertices = [], triangles = [], triangle_surface = [];
 const quad = (corners, surface) => {

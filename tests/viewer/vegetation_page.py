@@ -24,7 +24,7 @@ def greenness(pixels):
     return (pixels[..., 1] - (pixels[..., 0] + pixels[..., 2]) / 2).mean()
 
 
-# Where nothing but the street was, it is greener, and a part of what was there shines through.
+# The places of the street are greener now, and the street shines through in part.
 page.check("show_labels", False)
 bare, crown = looks(False, False), looks(True, False)
 assert greenness(crown) > greenness(bare) + 5, (greenness(crown), greenness(bare))
@@ -32,7 +32,7 @@ far = page.pixels(*project([-26, -7, 0]), 3)
 page.check("show_vegetation", False)
 assert np.array_equal(far, page.pixels(*project([-26, -7, 0]), 3))  # beside it nothing changes
 
-# Paths are to be seen as well as without it, in front of it and in it, whether or not houses hide them.
+# The paths in front of the vegetation and in it must be as visible as without it, whether or not houses hide them.
 for hidden in (True, False):
     page.check("show_hidden", hidden)
     drawn = [np.abs(looks(v, True, f"vegetation_{v}") - looks(v, False)).max(axis=2) > 20 for v in (True, False)]

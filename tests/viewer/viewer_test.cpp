@@ -1,5 +1,5 @@
-// Pages without a browser: their parts, limits and errors; and the pages that the tests in a browser open.
-// Pages stand in BUILD/tests/viewer/NAME/view.html beside the paths.h5 that they show.
+// Tests pages without a browser: their parts, limits and errors; writes the pages that the tests in a browser open.
+// Pages are in BUILD/tests/viewer/NAME/view.html beside the paths.h5 that they show.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <filesystem>
@@ -120,10 +120,10 @@ TEST_CASE("the strongest rows, by count and by bytes") {
   };
   CHECK(kept(100, 1000) == "xxxxxxxx");
   CHECK(kept(1, 1000) == ".....x..");
-  CHECK(kept(4, 1000) == ".x.x.xx.");  // of the equal ones the first
+  CHECK(kept(4, 1000) == ".x.x.xx.");  // the first of the equal ones
   CHECK(kept(100, 50) == ".x.xxxx.");
   CHECK(kept(100, 69) == "xx.xxxx.");
-  CHECK(kept(7, 1000) == "xxxxxxx.");  // of no power: in their order
+  CHECK(kept(7, 1000) == "xxxxxxx.");  // none has power: kept in their order
   CHECK(kept(0, 1000) == "........");
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("figures of links count the paths that output limits have left out") {
     CHECK(rows[k].paths == 100 + k);
     CHECK(rows[k].path_gain_db == -50.0 - static_cast<double>(k));
     CHECK(rows[k].los);
-    CHECK(std::isfinite(rows[k].rms_delay_spread_s));  // of the paths that are there, as the table has none
+    CHECK(std::isfinite(rows[k].rms_delay_spread_s));  // computed from the paths, as the table does not have it
   }
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("a hundred vehicles, a hundred thousand paths per frame") {
   MESSAGE(
       fmt::format("page of 2 x 100000 paths and 100 vehicles: {:.1f} MB", static_cast<double>(page.html.size()) / 1e6));
 
-  // What does not fit is left out, strongest first, and said.
+  // Paths that do not fit are left out, the weakest first, and the page says so.
   const ViewPage small = make_view(SavedRun(folder / "large"), {.max_bytes = 12'000'000});
   CHECK(small.html.size() < 12'000'000);
   CHECK(small.html.size() > 11'500'000);

@@ -28,7 +28,7 @@ class Boundary:
         self.normal = np.concatenate([p[1] for p in parts])
         self.weight = np.concatenate([p[2] for p in parts])
         self.side_of = np.repeat(np.arange(len(parts)), [len(p[2]) for p in parts])
-        self.bend = 0.0  # of the boundary, in 1/m
+        self.bend = 0.0  # bend of the boundary, in 1/m
         self.window = np.ones(len(self.weight))
         if fade:
             for end in (corners[0], corners[-1]):

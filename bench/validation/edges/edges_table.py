@@ -5,9 +5,9 @@ Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE]; --ed
 one path. Two minutes on two cores. References: cases.py, and for solid bodies the CSV files beside this one, which
 `solids.py bench/validation/edges` makes anew in some minutes.
 
-Errors are those of the level, ours less the reference. Of screens, whose reference knows no polarisation, it is the mean of
-the levels of V and H. Where a way bends by more than STEEP_DEG, the references other than those of solid bodies no longer
-hold to a fraction of a dB, so those cases have rows of their own.
+Errors are those of the level, ours less the reference. For screens, whose reference has no polarisation, our level is
+the mean of the levels of V and H. Where a path bends by more than STEEP_DEG, the references other than those of solid
+bodies no longer hold to a fraction of a dB, so those cases have rows of their own.
 """
 import argparse
 import csv

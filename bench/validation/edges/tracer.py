@@ -64,8 +64,9 @@ def configuration(f_hz, shape, material, edges, tx, rx, trace):
 
 
 def sums(paths, shape, tx, rx, f_hz):
-    """The fields over free space by pair of ends, {(tx, rx): complex array (2,)}. Where the profile lies, wave V is that of
-    theta; where it stands, that of phi, which the two ends of a straight path see with opposite signs."""
+    """The fields over free space by pair of ends, {(tx, rx): complex array (2,)}. If the profile lies flat, wave V is
+    the theta component; if it stands upright, it is the phi component, which the two ends of a straight path see with
+    opposite signs."""
     out = {}
     height, along = (1, 2) if shape == "corner" else (2, 1)
     offset, position = paths.vertex_offset, paths.vertex_position_m

@@ -1,20 +1,20 @@
-// A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms to where it is.
-// z is up. Everything is in metres and radians, relative to the centre of the page's coordinates.
+// A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms towards the
+// pointer. z is up. Everything is in metres and radians, relative to the centre of the page's coordinates.
 "use strict";
 
 class OrbitCamera {
-  // changed: called whenever the picture is no longer what the camera sees.
+  // changed: called when the picture no longer shows the camera's view.
   constructor(element, changed) {
     this.camera = new THREE.PerspectiveCamera(45, 1, 1, 10000);
     this.camera.up.set(0, 0, 1);
     this.target = new THREE.Vector3();
     this.distance = 100;
-    this.azimuth = -Math.PI / 2;  // from the target to the camera: from the south
+    this.azimuth = -Math.PI / 2;  // from the target to the camera, which looks from the south
     this.elevation = 1.05;
     this.element = element;
     this.changed = changed;
     this.pointers = new Map();
-    this.dragged = false;  // whether the last press moved, so that it was no click
+    this.dragged = false;  // the pointer moved during the last press, so that it was no click
     element.addEventListener("pointerdown", (event) => this.press(event));
     element.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"])
@@ -39,7 +39,7 @@ class OrbitCamera {
     if (!last) return;
     const dx = event.clientX - last[0], dy = event.clientY - last[1];
     this.travelled += Math.abs(dx) + Math.abs(dy);
-    if (this.travelled < 4) return;  // the hand shakes when it clicks
+    if (this.travelled < 4) return;  // ignores small movements during a click
     this.dragged = true;
     const spread = this.spread();
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
@@ -53,7 +53,7 @@ class OrbitCamera {
     }
   }
 
-  // Pixels between the first two pointers.
+  // Distance of the first two pointers in pixels.
   spread() {
     const [a, b] = this.pointers.values();
     return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
@@ -65,7 +65,7 @@ class OrbitCamera {
     this.apply();
   }
 
-  // By pixels: what is under the pointer stays there, on the level of the target.
+  // Moves by pixels: the point under the pointer stays there, on the level of the target.
   pan(dx, dy) {
     const metres = 2 * this.distance * Math.tan(this.camera.fov * Math.PI / 360) / this.element.clientHeight;
     const forward = dy * metres / Math.max(Math.sin(this.elevation), 0.25), right = -dx * metres;
@@ -75,7 +75,7 @@ class OrbitCamera {
     this.apply();
   }
 
-  // x, y: a pixel whose place on the level of the target stays where it is; without them the target does.
+  // x, y: a pixel whose point on the level of the target stays fixed; without them the target stays fixed.
   zoom(factor, x, y) {
     const distance = Math.min(Math.max(this.distance * factor, 1), 1e6);
     const fixed = x === undefined ? null : this.level_point(x, y);
@@ -84,7 +84,7 @@ class OrbitCamera {
     this.apply();
   }
 
-  // From the camera through a pixel.
+  // Returns a ray from the camera through a pixel.
   raycaster(x, y) {
     const caster = new THREE.Raycaster();
     const {clientWidth: width, clientHeight: height} = this.element;
@@ -92,7 +92,7 @@ class OrbitCamera {
     return caster;
   }
 
-  // Where a pixel meets the level of the target; null for the sky and for what is far behind the target.
+  // Returns the point of a pixel on the level of the target; null for the sky and far behind the target.
   level_point(x, y) {
     const {origin, direction} = this.raycaster(x, y).ray, away = (this.target.z - origin.z) / direction.z;
     return away > 0 && away < 5 * this.distance ? origin.clone().addScaledVector(direction, away) : null;
@@ -103,19 +103,19 @@ class OrbitCamera {
     this.apply();
   }
 
-  // Turns around this point, from nearer by.
+  // Turns around this point and moves nearer.
   focus(point) {
     this.target.copy(point);
     this.distance = Math.max(this.distance * 0.4, 5);
     this.apply();
   }
 
-  // Shows the box and what is around it, from where the camera looks.
+  // Shows the box and its surroundings from the camera's present direction.
   fit(lower, upper) {
     this.show(lower, upper, this.elevation, this.azimuth, 1.8);
   }
 
-  // Shows the box (arrays of three) from the south, above. margin: of its size.
+  // Shows the box (arrays of three) from the south, above. margin: relative to its size.
   show(lower, upper, elevation = 1.05, azimuth = -Math.PI / 2, margin = 1) {
     const size = Math.max(Math.hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]), 20);
     this.target.set((lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2);

@@ -1,5 +1,5 @@
 // Charts of one link: power delay profile, azimuths of departure and arrival, path gain over time.
-// Each remembers where its values lie, so that a click or a test can ask; colours are those of power.
+// Each stores the positions of its values for clicks and tests; colours are those of power.
 "use strict";
 
 class Chart {
@@ -7,7 +7,7 @@ class Chart {
     this.canvas = control(id);
   }
 
-  // The pen, cleared, in pixels of the layout; null while the chart is not shown.
+  // Returns the cleared drawing context, in pixels of the layout; null while the chart is not shown.
   begin() {
     const {clientWidth: width, clientHeight: height} = this.canvas, ratio = devicePixelRatio || 1;
     if (!width || !height) return null;
@@ -21,7 +21,7 @@ class Chart {
     return pen;
   }
 
-  // Axes of a diagram; x and y: [lowest, highest]. Sets this.x and this.y, from values to pixels.
+  // Draws the axes of a diagram; x and y: [lowest, highest]. Sets this.x and this.y, which map values to pixels.
   axes(pen, x, y, x_unit, y_unit) {
     const left = 44, bottom = this.height - 30, right = this.width - 10, top = 16;
     const scale = ([low, high], from, to) => (value) => from + (value - low) / (high - low) * (to - from);
@@ -54,13 +54,13 @@ class Chart {
 
 const tick_text = (value) => signed(String(+value.toPrecision(6)));
 
-// The time that the axis of times counts from: the first one, where the digits of ticks would not tell times apart.
+// Returns the zero of the time axis: the first time, if the digits of ticks could not tell times apart otherwise.
 function axis_zero() {
   const first = meta.frames[0][1] || 0, last = meta.frames[meta.frames.length - 1][1] || 0;
   return Math.abs(first) > (last > first ? 1e4 * (last - first) : 1e9) ? Math.floor(first) : 0;
 }
 
-// Round numbers from low to high, `most` or so.
+// Returns about `most` round numbers from low to high.
 function ticks(low, high, most) {
   const raw = (high - low) / most, power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= raw) || 1;
@@ -69,7 +69,7 @@ function ticks(low, high, most) {
   return out;
 }
 
-// From the lowest to the highest of the values, at least `least` wide, with a margin.
+// Returns the range of the values with a margin, at least `least` wide.
 function span_of(values, least) {
   let low = Infinity, high = -Infinity;
   for (const value of values) if (Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
@@ -188,7 +188,7 @@ class Charts {
     }
   }
 
-  // The gain of the link in every frame that asked for it; -Infinity where there was no path.
+  // Returns the gain of the link in every frame that computed it; -Infinity if it has no path.
   gains(tx, rx) {
     const key = `${tx} ${rx}`;
     if (this.series.key === key) return this.series;

@@ -1,8 +1,8 @@
-// The path that was chosen, found again in other frames: the one of the same link over the same surfaces and edges.
-// The frame's number of a path means nothing in another frame, its sequence does.
+// Finds the chosen path in other frames: the one of the same link over the same surfaces and edges. The number of a
+// path has no meaning in another frame, but its sequence has.
 "use strict";
 
-// Whether paths i and j, of frames that may differ, have one link and one sequence.
+// Tells whether paths i and j, of frames that may differ, have one link and one sequence.
 function same_sequence(one, i, other, j) {
   const order = order_of(one, i);
   if (one.tx[i] !== other.tx[j] || one.rx[i] !== other.rx[j] || order !== order_of(other, j)) return false;
@@ -29,7 +29,7 @@ class ChosenPath {
     return this.frame ? [this.frame.tx[this.row], this.frame.rx[this.row]] : null;
   }
 
-  // Its row in another frame, -1 where it is not; of several the one of the most similar delay.
+  // Returns its row in another frame, or -1; if there are several, the one with the most similar delay.
   find(frame) {
     let best = -1;
     if (!this.frame) return best;

@@ -1,10 +1,10 @@
-// Maps: the cells of receiver grids in the colours of what they receive, and which cell is under the pointer.
-// A cell that no path reaches stays without a colour. Of several transmitters a cell shows the strongest.
+// Maps colour the cells of receiver grids by their reception, and find the cell under the pointer.
+// A cell without a path has no colour. With several transmitters a cell shows the strongest.
 "use strict";
 
 const no_row = -1;
 
-// Corners of cells in the mean height of the cells that meet there; a flat grid needs its four corners only.
+// The height of a corner is the mean of the cells that meet there; a flat grid only needs its four corners.
 function map_geometry(grid) {
   const {columns, rows, z_m, first_m: [x0, y0], step_m: [dx, dy]} = grid;
   const flat = z_m.every((z) => z === z_m[0]);
@@ -23,14 +23,14 @@ function map_geometry(grid) {
   return geometry;
 }
 
-// Values at two shares of all, in order: a few extreme cells would take the colours of the others.
+// Returns the values at two shares of all, in order: a few extreme cells would take the colours of the others.
 function quantiles(values, low, high) {
   const sorted = values.filter(Number.isFinite).sort();
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
   return sorted.length ? [at(low), at(high)] : [0, 1];
 }
 
-// What maps can show: words, unit, the value of a row of `links`, and the lowest and highest colour.
+// The quantities of maps: words, unit, the value of a row of `links`, and the lowest and highest colour.
 const Quantities = {
   gain: {words: "Path gain of the map, dB", value: (k) => links.gain_db[k]},
   spread: {words: "Delay spread of the map, ns", value: (k) => links.rms_delay_spread_s[k] * 1e9},
@@ -48,13 +48,13 @@ function colour_ranges() {
 }
 
 class Coverage {
-  // largest: pixels of a side that the browser can draw; 0 without WebGL.
+  // largest: side in pixels that the browser can draw; 0 without WebGL.
   constructor(largest) {
     this.object = new THREE.Group();
     this.maps = [];
     this.problems = [];
     this.quantity = "gain";
-    this.rows = new Int32Array(meta.receivers.length).fill(no_row);  // of `links`, what each cell receives best
+    this.rows = new Int32Array(meta.receivers.length).fill(no_row);  // row of `links` with the best reception of each cell
     if (!grids.length) return;
     colour_ranges();
     for (const grid of grids) {
@@ -73,7 +73,7 @@ class Coverage {
     }
   }
 
-  // Colours all maps anew; tx: of that transmitter alone, -1: of the strongest.
+  // Colours all maps; tx: only this transmitter, -1: the strongest.
   paint(frame_row, tx, quantity) {
     if (!this.maps.length) return;
     this.quantity = quantity;
@@ -97,7 +97,7 @@ class Coverage {
     }
   }
 
-  // The colour of a row of `links`.
+  // Sets the colour of each row of `links`.
   colours() {
     if (this.quantity === "los") {
       const [direct, around] = theme().los.map(rgb);
@@ -110,7 +110,7 @@ class Coverage {
     };
   }
 
-  // The receiver whose cell the ray meets first, -1 where it meets none that has a colour.
+  // Returns the receiver whose cell the ray meets first, or -1 if it meets none with a colour.
   probe(raycaster) {
     if (!this.maps.length || !this.object.visible) return -1;
     for (const {object, uv} of raycaster.intersectObjects(this.maps.map(({mesh}) => mesh))) {

@@ -1,5 +1,5 @@
-// The run as the page holds it: metadata in `meta`, frames and scenes decoded from their blocks when they are asked for.
-// Coordinates are float32, in metres, relative to meta.centre_m in the coordinates of the scene file.
+// The run's data on the page: metadata in `meta`, frames and scenes decoded from their blocks on demand. Coordinates
+// are float32, in metres, relative to meta.centre_m in the coordinates of the scene file.
 "use strict";
 
 const meta = JSON.parse(document.getElementById("meta").textContent);
@@ -12,7 +12,7 @@ const shown_kinds = [...path_kinds.keys()].filter((kind) => path_kinds[kind].sho
 const code_of = (interaction) => path_kinds.find((kind) => kind.interaction === interaction).code;
 const words_of_kind = (kind) => path_kinds[kind].word.replace(/_/g, " ");
 
-// Places of a live world where no vehicle is have no names.
+// Empty places of a live world have no names.
 const is_taken = ([name]) => name !== "" || !meta.reload_s;
 
 function block(name) {
@@ -25,10 +25,10 @@ function block(name) {
 
 // Cells of grids are receivers like others. The page holds their heights alone: names and places follow from the grid.
 const grids = meta.grids.map((grid, number) => ({...grid, z_m: new Float32Array(block("grid_" + number))}));
-const own_receivers = [];  // indices of those that are no cells
+const own_receivers = [];  // indices of receivers that are no cells
 const cell_count = grids.reduce((sum, {columns, rows}) => sum + columns * rows, 0);
 const cell_m = new Float32Array(3 * (meta.receivers.length + cell_count));
-const grid_of = new Int16Array(cell_m.length / 3).fill(-1);  // of each receiver, -1: it is on its own
+const grid_of = new Int16Array(cell_m.length / 3).fill(-1);  // grid of each receiver, or -1 for none
 meta.receivers = (() => {
   const all = [];
   grids.forEach(({name, first, columns, rows, first_m, step_m, z_m, antenna, polarization}, number) => {
@@ -48,7 +48,7 @@ meta.receivers = (() => {
   return all;
 })();
 
-// Columns of a buffer, one after the other.
+// Reads the columns of a buffer, one after the other.
 class Columns {
   constructor(buffer) {
     this.buffer = buffer;
@@ -95,10 +95,10 @@ function decode_frame(row) {
 
 const first_vertex = (frame, i) => (i === 0 ? 0 : frame.vertex_end[i - 1]);
 const order_of = (frame, i) => frame.vertex_end[i] - first_vertex(frame, i);
-// Of a column of angles, in degrees.
+// Returns an angle of a column in degrees.
 const degrees = (column, i) => column[i] * 180 / 32767;
 
-// An index into path_kinds, by the most special interaction.
+// Returns an index into path_kinds, by the most special interaction.
 function path_kind(frame, i) {
   let met = 0;
   for (let k = first_vertex(frame, i); k < frame.vertex_end[i]; ++k) met |= frame.vertex_interaction[k];
@@ -107,7 +107,7 @@ function path_kind(frame, i) {
   return kind;
 }
 
-// The last few frames that were asked for.
+// The last few frames that were used.
 const decoded = new Map();
 function frame_data(row) {
   const known = decoded.get(row);
@@ -132,7 +132,7 @@ function decode_scene(description) {
 
 const city = decode_scene(meta.scene);
 const models = meta.models.map(decode_scene);
-// Of each material of vegetation its name and the corners of its triangles.
+// The name of each vegetation material and the corners of its triangles.
 const vegetation = (() => {
   const from = new Columns(block("vegetation"));
   return meta.vegetation.map(([name, triangles]) => [name, from.take(Float32Array, 9 * triangles)]);
@@ -141,7 +141,7 @@ const streets = {
   vertices: new Float32Array(block("street_vertices")), triangles: new Uint32Array(block("street_triangles")),
 };
 
-// Links of all frames, sorted by frame, transmitter, receiver. What the page's paths leave out counts here.
+// Links of all frames, sorted by frame, transmitter, receiver. They include paths that the page leaves out.
 const links = (() => {
   const from = new Columns(block("links"));
   return {
@@ -153,7 +153,7 @@ const links = (() => {
   };
 })();
 
-// Rows of `links` that belong to a frame: from the first to before the second.
+// Returns the rows of `links` of a frame: first, and one after the last.
 function links_of_frame(row) {
   const first = (wanted) => {
     let low = 0, high = links.frame.length;
@@ -166,7 +166,7 @@ function links_of_frame(row) {
   return [first(row), first(row + 1)];
 }
 
-// The row of a link in a frame, -1 where there is none.
+// Returns the row of a link in a frame, or -1.
 function link_row(row, tx, rx) {
   let [low, high] = links_of_frame(row);
   const end = high;
@@ -177,7 +177,7 @@ function link_row(row, tx, rx) {
   return low < end && links.tx[low] === tx && links.rx[low] === rx ? low : -1;
 }
 
-// What a vertex of a path lies on, in words.
+// Describes the place of a path's vertex in words.
 function place_of(frame, k) {
   const instance = frame.vertex_instance[k], number = frame.vertex_surface[k];
   const [id, , model] = instance === no_instance ? ["", "", -1] : meta.instances[instance];

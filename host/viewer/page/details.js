@@ -1,4 +1,4 @@
-// What is known of a path or an end that was clicked, as text.
+// Shows as text what is known of a clicked path or end.
 // Names come from files: they are only ever set as text, never as markup.
 "use strict";
 
@@ -20,7 +20,7 @@ function rows_table(rows) {
   return table;
 }
 
-// 0.021 is "2.1 %", 3e-7 is "3\u00b710\u207b\u2077".
+// Turns 0.021 into "2.1 %", 3e-7 into "3\u00b710\u207b\u2077".
 function share_text(share) {
   if (!Number.isFinite(share)) return "unknown";
   if (share === 0 || share >= 0.001) return `${+(100 * share).toPrecision(2)} %`;
@@ -28,7 +28,7 @@ function share_text(share) {
   return `${+(share / 10 ** power).toPrecision(1)}\u00b710\u207b${[...String(-power)].map((c) => digits[Number(c)]).join("")}`;
 }
 
-// What rays may have missed in the run, in words; empty where that is not known.
+// Describes what rays may have missed in the run; empty if unknown.
 function missed_text() {
   if (!meta.missed) return "";
   const {paths: [paths, low, high], power_share: [share, least, most]} = meta.missed;
@@ -37,7 +37,7 @@ function missed_text() {
     + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}).`;
 }
 
-// What the link budget of the run makes of a gain; nothing without one.
+// Returns rows of the run's link budget for a gain; none without one.
 function budget_rows(gain_db) {
   const {transmit_power_dbm: sent, noise_dbm: noise} = meta.link_budget;
   if (sent === null) return [];
@@ -45,7 +45,7 @@ function budget_rows(gain_db) {
   return [["Received", `${fixed(received, 2)} dBm${noise === null ? "" : `, SNR ${fixed(received - noise, 2)} dB`}`]];
 }
 
-// Row k of `links` as rows of a table.
+// Returns row k of `links` as rows of a table.
 function link_figures(k) {
   if (k < 0) return [["Path gain", "this link was not computed, or is not on the page"]];
   if (!links.paths[k]) return [["Path gain", "no path"]];
@@ -61,7 +61,7 @@ function link_figures(k) {
   ];
 }
 
-// Gain and phase of the coefficient between every pair of ports.
+// Returns gain and phase of the coefficient between every pair of ports.
 function port_rows(frame, i) {
   const rows = [], ports = meta.rx_ports * meta.tx_ports;
   for (let port = 0; port < ports; ++port) {
@@ -101,7 +101,7 @@ function show_path(parent, frame, i) {
 
 const most_rows = 50;
 
-// A cell of a map; k: the row of `links` that the map shows there, -1 without a path.
+// Shows a cell of a map; k: the row of `links` that the map shows there, -1 without a path.
 function show_cell(parent, frame, rx, k) {
   const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]];
   if (k >= 0)
@@ -109,7 +109,7 @@ function show_cell(parent, frame, rx, k) {
   parent.replaceChildren(element("h2", name_of(meta.receivers, rx)), rows_table([...rows, ...link_figures(k)]));
 }
 
-// radio: of radios_of; choose(tx, rx): shows a link.
+// radio: one of radios_of(); choose(tx, rx): shows a link.
 function show_radio(parent, frame, radio, choose) {
   const rows = [["Position", `${position_text(radio.m, 0)} m`]];
   const [, antenna, polarization] = radio.tx >= 0 ? meta.transmitters[radio.tx] : meta.receivers[radio.rx];

@@ -1,14 +1,14 @@
-// Which paths are shown: by transmitter, receiver, order, kind and power. Reads and writes the controls of the page.
-// A filter is plain data, so that its test costs a few comparisons a path.
+// Decides which paths are shown: by transmitter, receiver, order, kind and power. It reads and writes the controls of
+// the page. A filter is plain data, so that testing a path costs a few comparisons.
 "use strict";
 
 const control = (id) => document.getElementById(id);
 
-// rx2 comes before rx10.
+// Sorts rx2 before rx10.
 const by_name = new Intl.Collator("en", {numeric: true});
 const name_of = (ends, i) => ends[i][0] || `number ${i}`;
 
-// More than that, and a list is no help: the others are found by their names.
+// A longer list would not help: other ends are found by their names.
 const most_options = 400;
 
 function fill_select(select, ends, indices) {
@@ -20,7 +20,7 @@ function fill_select(select, ends, indices) {
   select.lastChild.disabled = true;
 }
 
-// Chooses an end that may not be in the list, as a cell of a map.
+// Chooses an end that may not be in the list, such as a cell of a map.
 function set_select(select, ends, i) {
   if (i >= 0 && ![...select.options].some(({value}) => value === String(i)))
     select.append(new Option(shortened(name_of(ends, i), 60), String(i)));
@@ -69,7 +69,7 @@ class Filters {
     this.changed();
   }
 
-  // Indices of ends, -1 for all.
+  // tx, rx: indices of ends, -1 for all.
   set_link(tx, rx, link_chosen = true) {
     set_select(control("transmitter"), meta.transmitters, tx);
     set_select(control("receiver"), meta.receivers, rx);
@@ -89,7 +89,7 @@ class Filters {
     for (const box of control("kinds").querySelectorAll("input")) this.kinds[Number(box.value)] = box.checked;
   }
 
-  // Paths to the cells of a map would hide it: they are shown for the cell that is chosen.
+  // Paths to the cells of a map would hide it: only those of the chosen cell are shown.
   wanted(frame, i) {
     if (this.tx >= 0 && frame.tx[i] !== this.tx) return false;
     if (this.rx >= 0 ? frame.rx[i] !== this.rx : grid_of[frame.rx[i]] >= 0) return false;

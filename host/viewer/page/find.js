@@ -1,10 +1,10 @@
-// Ends by their names: a field to type in, and the few that fit best as buttons.
-// Cells of maps are found too, though no list holds them.
+// Finds ends by their names: a field for text, and the few best matches as buttons.
+// Cells of maps are found too, though no list contains them.
 "use strict";
 
-const most_found = 8, most_sorted = 300;  // of each kind of match
+const most_found = 8, most_sorted = 300;  // for each kind of match
 
-// choose(role, i): role is "tx" or "rx". Shown where there are more ends than one sees at a glance.
+// choose(role, i): role is "tx" or "rx". It is shown if there are more ends than one sees at a glance.
 class NameSearch {
   constructor(choose) {
     this.choose = choose;
@@ -16,7 +16,8 @@ class NameSearch {
     });
   }
 
-  // [role, index] of ends, of one name the first; whole names first, then those that begin with the text.
+  // Returns [role, index] of ends, the first one of each name; whole names come first, then those that begin with the
+  // text.
   matches(text) {
     const wanted = text.trim().toLowerCase(), found = new Map(), counts = [0, 0, 0];
     if (!wanted) return [];

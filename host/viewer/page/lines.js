@@ -1,12 +1,12 @@
-// The visible paths of a frame as one object of line segments, in buffers that are written anew on every filter.
+// The visible paths of a frame as one object of line segments, whose buffers are rewritten when the filter changes.
 // Frames hold the weakest path first, so the strongest lie on top.
 // A path with a point that is not a number, or an absent end, is counted but not drawn.
 "use strict";
 
-// Opacities of a quarter each of the scale of power, the weakest first. Thousands of paths would be one blot otherwise.
+// Opacities of the four quarters of the power scale, the weakest first. Thousands of opaque paths would be one blot.
 const opacities_of_few = [0.85, 0.85, 0.85, 0.85], opacities_of_many = [0.1, 0.25, 0.6, 0.9];
 const many_paths = 400;
-// What is so much weaker than the strongest path that is shown is clutter.
+// Paths weaker than the strongest visible one by more than this are clutter.
 const clutter_db = 60, clutter_opacity = 0.07;
 
 class PathLines {
@@ -19,11 +19,11 @@ class PathLines {
     this.reserve(1024);
     this.visible = new Uint32Array(0);  // rows of the frame that pass the filter
     this.segments = 0;
-    this.fade = true;  // whether clutter is to be faded
-    this.faded = 0;    // paths that were
+    this.fade = true;  // clutter is faded
+    this.faded = 0;  // number of faded paths
   }
 
-  // Whether paths are to be seen behind houses.
+  // wanted: whether paths are visible behind houses.
   through_houses(wanted) {
     for (const material of this.materials) material.depthTest = !wanted;
   }
@@ -42,7 +42,7 @@ class PathLines {
     this.object.geometry = geometry;
   }
 
-  // wanted: whether row i is shown; by: what its colour says.
+  // wanted: whether row i is shown; by: the quantity that colours show.
   rebuild(frame, wanted, by) {
     const rows = new Uint32Array(frame.paths);
     let count = 0, most = 0;
@@ -56,10 +56,10 @@ class PathLines {
     const [table, key] = path_colours(frame, by);
     const opacities = count > many_paths ? opacities_of_many : opacities_of_few;
     this.materials.forEach((material, part) => { material.opacity = part ? opacities[part - 1] : clutter_opacity; });
-    const starts = new Array(this.materials.length + 1).fill(0);  // segments before each part: clutter, four quarters
+    const starts = new Array(this.materials.length + 1).fill(0);  // number of segments before each part: clutter, four quarters
     const clutter = this.fade ? strongest_db(frame, this.visible) - clutter_db : -Infinity;
     this.faded = 0;
-    let segment = 0, part = 0;  // parts lie one after the other: gains go up, what is not a number comes last
+    let segment = 0, part = 0;  // parts lie one after the other: gains ascend, NaN comes last
     for (const i of this.visible) {
       if (!drawable(frame, i)) continue;
       const colour = table[key(i)], last = order_of(frame, i) + 1;
@@ -84,13 +84,13 @@ class PathLines {
   }
 }
 
-// Rows go up in gain, and end with those that are no numbers.
+// Rows ascend in gain, and end with those that are NaN.
 function strongest_db(frame, rows) {
   for (let k = rows.length - 1; k >= 0; --k) if (Number.isFinite(frame.gain_db[rows[k]])) return frame.gain_db[rows[k]];
   return -Infinity;
 }
 
-// Point k of path i: the transmitter, its vertices, the receiver.
+// Writes point k of path i: the transmitter, its vertices, the receiver.
 function write_point(frame, i, k, out, at) {
   const first = first_vertex(frame, i), order = frame.vertex_end[i] - first;
   let from = frame.vertex_m, row = first + k - 1;

@@ -1,5 +1,5 @@
-// The page as a whole: what is shown, what is selected, and when the picture is drawn again.
-// `window.wavetracer` lets scripts look at it and steer it.
+// The page as a whole: what is shown, what is selected, and when the picture is drawn again. Scripts can inspect and
+// control it through `window.wavetracer`.
 "use strict";
 
 const state = {
@@ -71,7 +71,7 @@ function draw_legends() {
   parent.hidden = !parent.firstChild;
 }
 
-// The link of the charts: that of the filters, else that of the chosen path, else what the map shows of the cell.
+// Sets the link of the charts: that of the filters, else that of the chosen path, else that of the map's cell.
 function refresh_link() {
   const {tx, rx} = filters, cell = rx >= 0 && grid_of[rx] >= 0 ? coverage.rows[rx] : no_row;
   state.link = [tx, rx];
@@ -94,7 +94,7 @@ function show_frame(row) {
   else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.rows[filters.rx]);
 }
 
-// Keeps the vehicle that is followed where it is in the picture.
+// Keeps the followed vehicle at its place in the picture.
 function follow() {
   const {frame} = state;
   for (let k = 0; k < frame.poses; ++k) {
@@ -131,7 +131,7 @@ function select_cell(rx) {
   show_cell(control("details"), state.frame, rx, coverage.rows[rx]);
 }
 
-// An end that was found by its name.
+// Shows an end that was found by its name.
 function go_to(role, i) {
   if (role === "rx" && grid_of[i] >= 0) {
     select_cell(i);
@@ -144,7 +144,7 @@ function go_to(role, i) {
   orbit.focus(new THREE.Vector3().fromArray(radio.m));
 }
 
-// Both ends of the chosen link and what is around them, unless they are well to be seen already.
+// Shows both ends of the chosen link and their surroundings, unless they are clearly visible already.
 function bring_link_into_view() {
   const [tx, rx] = state.link, {frame} = state;
   if (tx < 0 || rx < 0 || !finite(frame.transmitter_m, tx) || !finite(frame.receiver_m, rx)) return;
@@ -154,7 +154,7 @@ function bring_link_into_view() {
   orbit.fit(ends(Math.min), ends(Math.max));
 }
 
-// A second click in one place goes on to the next path there.
+// A second click in one place selects the next path there.
 function click(x, y) {
   const radio = radio_near(state.radios, projector(), x, y);
   if (radio) return select_radio(radio);
@@ -178,7 +178,7 @@ function show_everything() {
   filters.reset();
 }
 
-// The whole run; with_city: and the whole scene.
+// Shows the whole run; with_city: and the whole scene.
 function show_all(with_city, elevation) {
   const [lower, upper] = box_of_run(with_city);
   orbit.show(lower, upper, elevation);
@@ -221,7 +221,7 @@ function apply_toggles() {
 function key(event) {
   const typing = event.target.closest("select, input");
   if (event.ctrlKey || event.altKey || event.metaKey || (typing && typing.type !== "checkbox")) return;
-  if (event.key === " " && event.target.closest("button, input")) return;  // presses it
+  if (event.key === " " && event.target.closest("button, input")) return;  // the key presses that button
   const turn = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]}[event.key];
   if (event.shiftKey && turn) orbit.turn(...turn);
   else if (event.key === "+" || event.key === "=") orbit.zoom(0.8);
@@ -231,7 +231,7 @@ function key(event) {
   event.preventDefault();
 }
 
-// What sends and receives under one name is one antenna.
+// Ends that send and receive under one name count as one antenna.
 function antenna_count() {
   const names = new Set();
   let unnamed = 0;

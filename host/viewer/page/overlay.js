@@ -1,10 +1,11 @@
-// What lies over the picture: marks and names of ends, the path that is selected, a scale. Drawn in two dimensions.
-// Names keep clear of one another: one that finds no place is left out, those of the chosen link come first.
+// The overlay of the picture: marks and names of ends, the selected path, a scale. It is drawn in two dimensions. Names
+// do not overlap: one without a free place is left out, and those of the chosen link come first.
 "use strict";
 
 const most_names = 80;
 
-// Boxes [left, top, right, bottom] in pixels that nothing else may cover, by squares, so that a test is a few boxes long.
+// Boxes [left, top, right, bottom] in pixels that nothing else may cover, stored by squares, so that a test looks at
+// few boxes.
 class TakenBoxes {
   constructor() {
     this.squares = new Map();
@@ -30,7 +31,7 @@ class TakenBoxes {
   }
 }
 
-// How an end is drawn: what sends is a triangle, what receives a circle, what does both a diamond.
+// Draws an end: a triangle sends, a circle receives, a diamond does both.
 function draw_mark(pen, radio, x, y, size) {
   const colours = theme();
   pen.beginPath();
@@ -65,7 +66,7 @@ const shortened = (name, most) => (name.length > most ? name.slice(0, most - 1) 
 class Overlay {
   constructor(canvas) {
     this.canvas = canvas;
-    this.names = [];  // that were drawn
+    this.names = [];  // names that were drawn
   }
 
   resize(width, height, ratio) {
@@ -100,7 +101,7 @@ class Overlay {
   draw_names(pen, shown) {
     pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
     pen.textBaseline = "middle";
-    // Marks, but no names on top of one another.
+    // There are marks for all, but no overlapping names.
     const taken = new TakenBoxes();
     for (const {at} of shown) taken.add([at[0] - 5, at[1] - 5, at[0] + 5, at[1] + 5]);
     for (const {radio, at, chosen} of shown) {
@@ -121,7 +122,7 @@ class Overlay {
     }
   }
 
-  // The frame of a cell of a map.
+  // Draws the frame of a cell of a map.
   draw_cell(pen, frame, rx, projector) {
     const {step_m: [dx, dy]} = grids[grid_of[rx]], [x, y, z] = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
     const signs = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
@@ -173,7 +174,7 @@ class Overlay {
     pen.textAlign = "left";
   }
 
-  // So many metres are so long where the camera looks at.
+  // Draws the scale at the camera's target.
   draw_scale(pen, projector, target) {
     const {x, y, z} = target, points = new Float32Array([x, y, z, x, y, z + 1]);
     const camera = projector.m, right = [camera[0], camera[4], camera[8]];  // the screen's x axis, scaled

@@ -29,7 +29,7 @@ for (const [name, scheme] of Object.entries(Themes)) scheme.kinds = path_kinds.m
 
 const theme = () => (dark_scheme.matches ? Themes.dark : Themes.light);
 
-// Materials by the words in their names, the first that fits.
+// Materials by the words in their names; the first that fits counts.
 const Materials = [
   ["brick", "#b4705c"], ["glass", "#8fb8c9"], ["metal", "#8d97a6"], ["wood", "#a5855e"], ["board", "#b8ab93"],
   ["marble", "#d5d2cb"], ["concrete", "#b3b1aa"], ["asphalt", "#77797d"], ["dry_ground", "#9a9079"],
@@ -39,7 +39,7 @@ const other_materials = ["#a08fb0", "#8fb09a", "#b0a58f", "#8f9db0", "#b08f9a"];
 
 const street_colour = "#93969b";
 
-// Of vegetation, in the order of its materials.
+// Colours of vegetation, in the order of its materials.
 const vegetation_colours = ["#4f9a55", "#8aa83c", "#2f8f7a", "#6f8a4a"], vegetation_opacity = 0.3;
 const vegetation_colour = (number) => vegetation_colours[number % vegetation_colours.length];
 
@@ -67,7 +67,7 @@ function ramp(share) {
   return a.map((value, k) => Math.round(value + (b[k] - value) * (at - i)));
 }
 
-// The gains that the scale spans: to whole 5 dB, 60 dB at most.
+// The range of the gain scale: whole multiples of 5 dB, at most 60 dB.
 const [lowest_db, highest_db] = (() => {
   const high = 5 * Math.ceil(meta.gain_range_db[1] / 5);
   return [Math.min(Math.max(high - 60, 5 * Math.floor(meta.gain_range_db[0] / 5)), high - 5), high];
@@ -76,14 +76,14 @@ const [lowest_db, highest_db] = (() => {
 const ramp_steps = 256;
 const ramp_table = () => Array.from({length: ramp_steps}, (_, step) => ramp(step / (ramp_steps - 1)));
 
-// Orders from 0, the strongest colour, in equal steps; all from most_orders - 1 on share the last.
+// Orders from 0, the strongest colour, in equal steps; orders from most_orders - 1 on share the last colour.
 const most_orders = 6;
 function order_colours() {
   const count = Math.min(meta.highest_order + 1, most_orders);
   return Array.from({length: count}, (_, order) => ramp(1 - order / Math.max(count - 1, 1)));
 }
 
-// The colours of a frame's paths by a key that is cheap to compute: a table, and the key of path i.
+// Returns the colours of a frame's paths by a key that is cheap to compute: a table, and the key of path i.
 function path_colours(frame, by) {
   if (by === "kind") return [theme().kinds.map(rgb), (i) => frame.kind[i]];
   if (by === "order") {
@@ -93,7 +93,7 @@ function path_colours(frame, by) {
   const table = ramp_table(), scale = (ramp_steps - 1) / (highest_db - lowest_db);
   return [table, (i) => {
     const step = Math.round((frame.gain_db[i] - lowest_db) * scale);
-    return step > 0 ? Math.min(step, ramp_steps - 1) : 0;  // also what is not a number
+    return step > 0 ? Math.min(step, ramp_steps - 1) : 0;  // also for NaN
   }];
 }
 
@@ -105,7 +105,7 @@ function legend_entry(colour, text) {
   return entry;
 }
 
-// A bar of the scale with its numbers.
+// Draws a bar of the scale with its numbers.
 function legend_bar(low, high) {
   const bar = document.createElement("canvas"), scale = document.createElement("div");
   bar.width = 220;
@@ -124,7 +124,7 @@ function legend_bar(low, high) {
   return [bar, scale];
 }
 
-// Of paths.
+// Draws the legend of paths.
 function draw_legend(parent, by) {
   if (meta.paths[0] === 0) return;
   const heading = document.createElement("div");

@@ -1,5 +1,5 @@
-// From metres to pixels, and which path or end is nearest to a pixel. Work is linear in the visible paths.
-// Whether a house hides a path is not asked for: the nearest line on the screen is meant.
+// Projects metres to pixels, and finds the nearest path or end of a pixel. Work is linear in the visible paths. Houses
+// that hide a path are ignored: the nearest line on the screen is chosen.
 "use strict";
 
 class Projector {
@@ -11,7 +11,7 @@ class Projector {
     this.near = camera.near;
   }
 
-  // x, y and depth along the view, in out; a depth below `near` is not on the screen.
+  // Writes x, y and depth along the view to out; a depth below `near` is not on the screen.
   clip(x, y, z, out) {
     const m = this.m;
     out[0] = m[0] * x + m[4] * y + m[8] * z + m[12];
@@ -24,7 +24,7 @@ class Projector {
     out[1] = (1 - clipped[1] / clipped[2]) * this.height / 2;
   }
 
-  // Pixels of point i of a column, or null where it is not in front of the camera.
+  // Returns the pixel of point i of a column, or null if it is not in front of the camera.
   point(column, i) {
     const clipped = [0, 0, 0], out = [0, 0];
     this.clip(column[3 * i], column[3 * i + 1], column[3 * i + 2], clipped);
@@ -33,7 +33,7 @@ class Projector {
     return out;
   }
 
-  // Pixels of both ends of a segment of two points, cut at the camera; null behind it.
+  // Returns the pixels of both ends of a segment, cut at the camera; null behind it.
   segment(points, k) {
     const a = [0, 0, 0], b = [0, 0, 0];
     this.clip(points[3 * k], points[3 * k + 1], points[3 * k + 2], a);
@@ -57,7 +57,7 @@ function distance_to_segment(x, y, [ax, ay, bx, by]) {
   return Math.hypot(x - ax - t * dx, y - ay - t * dy);
 }
 
-// Whether points (three numbers each) all lie well inside of the picture, and not in one small spot of it.
+// Tells whether points (three numbers each) all lie well inside of the picture, and not in one small spot of it.
 function well_seen(points, projector) {
   const margin = 30, spot = 0.15 * Math.min(projector.width, projector.height);
   const box = [Infinity, Infinity, -Infinity, -Infinity];
@@ -75,7 +75,7 @@ function well_seen(points, projector) {
 
 const pick_radius_px = 7;
 
-// Rows of visible paths near the pixel, the nearest first, of equally near ones the strongest first.
+// Returns rows of visible paths near the pixel, the nearest first; of equally near ones the strongest comes first.
 function paths_near(frame, visible, projector, x, y) {
   const near = [];
   const points = new Float32Array(3 * (meta.highest_order + 2));
@@ -94,8 +94,8 @@ function paths_near(frame, visible, projector, x, y) {
   return near.map(([, i]) => i);
 }
 
-// Ends that stand in one place under one name are one radio: {name, tx, rx, m}, -1 where it does not send or receive.
-// Cells of grids are none: they are drawn as maps.
+// Ends at one place with one name are one radio: {name, tx, rx, m}, with -1 if it does not send or receive. Cells of
+// grids are left out: they are drawn as maps.
 function radios_of(frame) {
   const radios = new Map();
   const add = (role, ends, indices, column) => {

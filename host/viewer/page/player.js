@@ -1,5 +1,5 @@
 // Time: the slider, play and pause, and the keys that move through frames.
-// Frames are shown as they were computed, each until the time of the next; nothing is made up in between.
+// Frames are shown as they were computed, each until the time of the next; nothing is interpolated.
 "use strict";
 
 class Player {
@@ -13,7 +13,7 @@ class Player {
     control("player").hidden = this.last === 0;
     control("time").addEventListener("input", () => this.go(Number(control("time").value)));
     control("play").addEventListener("click", () => this.toggle());
-    // How long the last frame is shown before the first comes again: as long as one in the mean.
+    // The last frame is shown for the mean duration of a frame before the first comes again.
     this.end_s = this.time(this.last) + (this.time(this.last) - this.time(0)) / Math.max(this.last, 1);
   }
 
@@ -61,7 +61,7 @@ class Player {
     requestAnimationFrame(step);
   }
 
-  // Whether the key was one of time's.
+  // Returns whether the key belongs to the time controls.
   key(name) {
     if (name === " ") this.toggle();
     else if (name === "ArrowLeft") this.go(this.row - 1);

@@ -1,11 +1,11 @@
-// Sampled rays of a frame (waypoints.h5): their segments, the places where they met something, and the centroid of
-// these places at each depth. Rays are what searches for paths; most of them lead to none.
+// Sampled rays of a frame (waypoints.h5): their segments, the places of their hits, and the centroid of these at each
+// depth. Rays search for paths; most of them find none.
 "use strict";
 
 const launch_kind = 0, miss_kind = 4, traced_source = 1, cache_source = 2;
 const ray_opacity = 0.45, centroid_px = 11;
 
-// Columns of a frame's block: positions, then a byte each of depth, source and kind.
+// Reads the columns of a frame's block: positions, then a byte each of depth, source and kind.
 function decode_rays(row) {
   const count = meta.rays.points[row], from = new Columns(block("rays_" + row));
   return {
@@ -14,7 +14,7 @@ function decode_rays(row) {
   };
 }
 
-// At each depth from 1 on: the places that rays met, how many of them the cache answered, and their centroid.
+// Returns for each depth from 1 on: the number of hits, how many of them the cache answered, and their centroid.
 function centroids_of(rays) {
   const depths = [];
   for (let i = 0; i < rays.count; ++i) {
@@ -44,7 +44,7 @@ class RayLines {
     this.object.add(this.lines, this.marks);
     this.object.visible = false;
     this.segments = 0;
-    this.depths = [];  // of the frame, see centroids_of
+    this.depths = [];  // centroids of the frame, see centroids_of
   }
 
   colour(rays, i, by) {
@@ -92,8 +92,8 @@ class RayLines {
   }
 }
 
-// A row for each depth: places, the share that the cache answered, their centroid, and how far it is from that of the
-// frame before on the page.
+// Shows a row for each depth: hits, the share that the cache answered, their centroid, and its distance from that of
+// the previous frame on the page.
 function show_centroids(table, depths, before) {
   const row = (cells, tag) => {
     const line = document.createElement("tr");
@@ -113,7 +113,7 @@ function show_centroids(table, depths, before) {
   });
 }
 
-// Sampled rays of the frame, where they are wanted.
+// Shows sampled rays of the frame, if they are wanted.
 function refresh_rays() {
   const by = meta.rays ? control("rays_by").value : "none";
   rays.object.visible = by !== "none";
@@ -129,7 +129,7 @@ function refresh_rays() {
   dirty = true;
 }
 
-// Hidden where the run holds no rays; without the choice of sources where it does not know them.
+// The control is hidden if the run holds no rays; the choice of sources is hidden if the run does not know them.
 function prepare_rays_control() {
   control("rays_by").addEventListener("change", refresh_rays);
   control("rays").hidden = !meta.rays;

@@ -1,5 +1,5 @@
-// A page that is written anew while it is shown (wavetracer serve --page) loads itself again. What the user has chosen
-// stays: the camera, colours, and what is shown.
+// Reloads a page that is rewritten while it is shown (wavetracer serve --page). The user's choices are kept: the
+// camera, colours, and what is shown.
 "use strict";
 
 const kept_choices = ["colour", "quantity", "rays_by"];
@@ -12,7 +12,7 @@ function keep_view() {
   sessionStorage.setItem(kept_name, JSON.stringify({target: target.toArray(), distance, azimuth, elevation, choices, toggles}));
 }
 
-// False where nothing was kept.
+// Returns false if nothing was stored.
 function restore_view() {
   const text = meta.reload_s ? sessionStorage.getItem(kept_name) : null;
   if (!text) return false;
@@ -26,7 +26,7 @@ function restore_view() {
   return true;
 }
 
-// Not while something is being dragged.
+// It waits while something is being dragged.
 function reload_later() {
   if (!meta.reload_s) return;
   setTimeout(() => {

@@ -1,12 +1,12 @@
-// Which surfaces of a scene are flat roofs: level ones from whose edge a wall goes down.
-// Corners are compared by their places, to a millimetre, because walls and roofs need not share vertices.
+// Finds the flat roofs of a scene: level surfaces from whose edge a wall goes down.
+// Corners are compared by their positions, to a millimetre, because walls and roofs need not share vertices.
 "use strict";
 
-// Whether each triangle belongs to a flat roof.
+// Tells for each triangle whether it belongs to a flat roof.
 function roof_triangles(scene) {
   const count = scene.triangle_surface.length, roofs = new Uint8Array(count), corner = place_numbers(scene.vertices);
   const z = (t, k) => scene.vertices[3 * scene.triangles[3 * t + k] + 2];
-  const steep = new Float32Array(count);  // the share of the normal that is level: 0 is a level triangle, 1 a wall
+  const steep = new Float32Array(count);  // horizontal part of the normal: 0 for a level triangle, 1 for a wall
   for (let t = 0; t < count; ++t) steep[t] = steepness(scene, t);
   const edge = (t, k) => {
     const a = corner[scene.triangles[3 * t + k]], b = corner[scene.triangles[3 * t + (k + 1) % 3]];
@@ -28,7 +28,7 @@ function roof_triangles(scene) {
   return roofs;
 }
 
-// Vertices in one place have one number.
+// Vertices at one position get one number.
 function place_numbers(vertices) {
   const known = new Map(), numbers = new Uint32Array(vertices.length / 3);
   for (let i = 0; i < numbers.length; ++i) {
@@ -42,7 +42,7 @@ function place_numbers(vertices) {
 function steepness(scene, t) {
   const vertex = (k) => 3 * scene.triangles[3 * t + k];
   const [a, b, c] = [0, 1, 2].map((k) => scene.vertices.subarray(vertex(k), vertex(k) + 3));
-  if (a.length + b.length + c.length !== 9) return NaN;  // a damaged index
+  if (a.length + b.length + c.length !== 9) return NaN;  // the index is damaged
   const u = [0, 1, 2].map((k) => b[k] - a[k]), v = [0, 1, 2].map((k) => c[k] - a[k]);
   const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
   return Math.hypot(normal[0], normal[1]) / Math.hypot(...normal);

@@ -1,11 +1,11 @@
-// What stands and drives: the city by material, the vehicles of a frame, edges that diffract.
-// Triangles are shaded flat, both sides alike; outlines are the edges of houses.
+// The solid objects: the city by material, the vehicles of a frame, edges that diffract.
+// Triangles are shaded flat, and look the same from both sides; outlines are the edges of houses.
 "use strict";
 
 const finite = (column, i) => Number.isFinite(column[3 * i] + column[3 * i + 1] + column[3 * i + 2]);
 
-// The corners of the triangles of a scene by the name of their material, and apart from them those of flat roofs; a
-// damaged index leaves its triangle out. Rows are [name, is roof, corners].
+// Returns the corners of the triangles of a scene by the name of their material, with flat roofs separate; a triangle
+// with a damaged index is left out. Rows are [name, is roof, corners].
 function corners_by_material(scene) {
   const lists = new Map(), roofs = roof_triangles(scene);
   for (let t = 0; t < scene.triangle_surface.length; ++t) {
@@ -35,7 +35,7 @@ function geometry_of(positions) {
 
 function solid(positions, colour) {
   const geometry = geometry_of(positions);
-  geometry.computeVertexNormals();  // without an index: a normal per triangle
+  geometry.computeVertexNormals();  // without an index, each triangle gets its own normal
   const material = new THREE.MeshLambertMaterial({
     color: colour, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
   });
@@ -54,7 +54,7 @@ function edges_of(scene) {
   return geometry_of(new Float32Array(shown));
 }
 
-// Flat bands, in front of the ground below them.
+// Makes flat bands, in front of the ground below them.
 function street_mesh() {
   const geometry = geometry_of(streets.vertices);
   geometry.setIndex(new THREE.BufferAttribute(streets.triangles, 1));
@@ -62,7 +62,7 @@ function street_mesh() {
   return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({side: THREE.DoubleSide}));
 }
 
-// Crowns and woods, to be looked through: they hide nothing, and paths lie on top of them.
+// Makes crowns and woods, which are transparent: they hide nothing, and paths lie on top of them.
 function vegetation_mesh(positions) {
   const geometry = geometry_of(positions);
   geometry.computeVertexNormals();
@@ -108,15 +108,15 @@ class WorldView {
       geometry.computeVertexNormals();
       return [geometry, outlines_of(model)];
     });
-    // Of a vehicle whose model is not known.
+    // The box stands for a vehicle whose model is unknown.
     const box = new THREE.BoxBufferGeometry(4.5, 1.8, 1.5);
     box.translate(0, 0, 0.75);
     this.unknown_body = [box, new THREE.EdgesGeometry(box)];
-    this.instances = new Map();  // those that were present so far
+    this.instances = new Map();  // vehicles that were present so far
     this.paint();
   }
 
-  // After the scheme of colours has changed.
+  // Must be called after the colour scheme has changed.
   paint() {
     this.scene.background = new THREE.Color(theme().sky);
     for (const [mesh, name, roof] of this.solids) {
@@ -154,13 +154,13 @@ class WorldView {
   }
 }
 
-// The surface of city or vehicles that the ray meets first, null without one: {point, distance}.
+// Returns the surface of city or vehicles that the ray meets first: {point, distance}, or null.
 function surface_under(world, raycaster) {
   const meshes = world.solids.map(([mesh]) => mesh).concat([...world.instances.values()].filter(({visible}) => visible));
   return raycaster.intersectObjects(meshes)[0] || null;
 }
 
-// The box around ends and vehicles in all frames of the page, arrays of three; with_city: and around the city.
+// Returns the box around ends and vehicles in all frames of the page, arrays of three; with_city: and around the city.
 function box_of_run(with_city) {
   const lower = [Infinity, Infinity, Infinity], upper = [-Infinity, -Infinity, -Infinity];
   const grow = (column) => {

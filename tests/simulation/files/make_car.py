@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial
 
 
 def box(lower, upper, material):
-    """Of metres ahead, left and up."""
+    """Returns a box of these sizes in metres: ahead, left and up."""
     lower, upper = np.array(lower), np.array(upper)
     mesh = trimesh.creation.box(extents=(upper - lower)[[0, 2, 1]])
     middle = (lower + upper) / 2
