@@ -107,7 +107,8 @@ void run(const Options& options, const std::string& command) {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("What responses between the elements of arrays, and beams, add to a frame of one antenna at each end");
+  CLI::App app(
+      "Measures the time that responses between elements of arrays, and beams, add to a frame of single antennas");
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich");

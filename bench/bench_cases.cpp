@@ -184,7 +184,8 @@ class Bench {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("What launches lose in twenty cases, what \"auto\" promises, and what `missed` says of it");
+  CLI::App app(
+      "Measures the paths that launches lose in twenty cases, with the promise of \"auto\" and the estimate `missed`");
   bench::Options options;
   std::vector<std::string> names = bench::study_case_names();
   for (const std::string& hills : bench::hill_case_names()) names.push_back(hills);

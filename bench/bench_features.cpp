@@ -305,7 +305,7 @@ void run(Options options, const std::string& command) {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("What each kind of interaction adds to a frame, and that absent ones add nothing");
+  CLI::App app("Measures the time that each kind of interaction adds to a frame, and checks that absent ones add none");
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich and others");

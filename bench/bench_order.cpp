@@ -195,7 +195,7 @@ void run(const Options& options, const std::string& command) {
 
 int main(int argc, char** argv) {
   using namespace wavetracer;
-  CLI::App app("What orders of rays gain over a random launch, the sort paid");
+  CLI::App app("Measures the gain of orders of rays over a random launch, with the time of the sort");
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--runs", options.runs, "timed frames of which the median counts")->check(CLI::Range(7, 1000));

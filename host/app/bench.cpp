@@ -100,7 +100,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       "--rays", options->rays,
       "Smallest and largest number of rays, A:B; default: those of the figure, on CPUs fewer for experiments "
       "with caches");
-  command->add_option("--repeat", options->repeats, "How many times each point is measured; the median counts")
+  command->add_option("--repeat", options->repeats, "Number of measurements of each point; the median counts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command

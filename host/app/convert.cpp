@@ -184,7 +184,7 @@ void add_map_options(CLI::App& command, ConvertOptions& options) {
   add("--level-height", map.level_height_m, "Height of one storey of a building in metres")->capture_default_str();
   add("--default-height", map.default_height_m, "Height in metres of buildings without a height in the map")
       ->capture_default_str();
-  add("--margin", map.margin_m, "How far the ground extends beyond buildings, network and traffic, in metres")
+  add("--margin", map.margin_m, "Distance by which the ground extends beyond buildings, network and traffic, in metres")
       ->capture_default_str();
   add("--wall-material", map.wall_material, "ITU material if the map does not name one")->capture_default_str();
   add("--roof-material", map.roof_material, "ITU material if the map does not name one")->capture_default_str();

@@ -82,12 +82,12 @@ std::string program_manual(const CommandText& program, const std::string& versio
          list({{"NO_COLOR", "No colours in messages."},
                {"OCL_ICD_VENDORS", "Folder of the OpenCL drivers, of the OpenCL loader."},
                {"POCL_CACHE_DIR",
-                "PoCL's cache of kernels, without which it offers no device. "
-                "Where it is not set and PoCL's own choice cannot be written to, a folder in the temporary one "
-                "is used."},
+                "Folder of PoCL's cache of kernels; without one PoCL offers no device. "
+                "If it is not set and PoCL cannot write to its default folder, "
+                "a folder within the folder for temporary files is used."},
                {"WAVETRACER_NO_CACHE", "1: kernels are compiled anew at every start."},
                {"WAVETRACER_KERNEL_DIR", "Folder of kernel sources to use instead of the built-in ones."},
-               {"XDG_CACHE_HOME", "Where caches are kept, instead of ~/.cache."}});
+               {"XDG_CACHE_HOME", "Folder of caches, instead of ~/.cache."}});
   return out + ".SH SEE ALSO\n.BR wavetracer.toml (5)\n";
 }
 

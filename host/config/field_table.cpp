@@ -53,7 +53,7 @@ Table trace_table() {
                   "the frames between compute the paths of the known sequences, exactly, at their own poses. "
                   "For steps of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter "
                   "that begins to send launch at once. 0: every frame launches rays. "
-                  "What the frames between may lack is measured each time that rays are launched again: "
+                  "Each launch of rays measures which paths the frames before it may have missed: "
                   "late in summary.json."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),

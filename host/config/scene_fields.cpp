@@ -198,7 +198,7 @@ Table material_table() {
                    .doc = "Scattering coefficient S, used with trace.scattering: "
                           "the share S^2 of the reflected power is scattered in all directions, "
                           "and the specular reflection keeps the rest (Degli-Esposti et al., 2007). "
-                          "Of vegetation the share S^2 of the power that it takes is scattered, "
+                          "Vegetation scatters the share S^2 of the power that it absorbs, "
                           "evenly over all directions. Not given: 0.",
                    .example = "0.4"},
                   {.name = "scattering_lobe",
