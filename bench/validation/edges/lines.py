@@ -9,8 +9,11 @@ from 1e-5 m beside it on.
 The field must be smooth there, so what is left is looked at after a polynomial was fitted to either side: the largest
 difference of two neighbours, over the field in free space. A boundary counts for a kind: incidence (a way that ends is
 straight) or reflection (a face reflects it before it passes the edge). Boundaries where nothing ends count as well: there the
-field must be as smooth. Left out are lines that pass within 5 cm of another boundary or of an edge, and what is inside of
-a body.
+field must be as smooth. Left out are lines that come near another boundary, and what is inside of a body.
+
+Rays find a diffracted path once they hit one of the edge's faces, of which a receiver just beside a boundary sees a strip of
+a millimetre. Receivers that lack a diffracted path which one farther off on their side has are left out of the largest step,
+and have a column of their own. Direct and reflected paths must never be missing.
 """
 import itertools
 import multiprocessing
@@ -22,11 +25,13 @@ import wavetracer as wt
 
 SPEED_OF_LIGHT = 299792458.0
 F_HZ = 5.9e9
+DIFFRACTION = 8  # in vertex_interaction
 TURN_RAD, TILT_RAD = 0.37, 0.11
 HALF_LINE_M = 1e-2
 STEPS_M = np.unique(np.concatenate([np.arange(1, 21) * 1e-5, np.arange(1, 21) * 1e-4, np.arange(1, 21) * 5e-4]))
 OFFSETS_M = np.concatenate([-STEPS_M[::-1], [0.0], STEPS_M])
 APART_M = 5e-2
+ASIDE = 2e-3  # in parts of the distance from the edge: where a receiver on either side says which paths there are
 
 
 def case(name, size_m, edges, tops=None, block=None, distances_m=(0.25, 0.25), height=0.0):
@@ -99,26 +104,28 @@ def is_in_body(row, p):
 
 
 def lines_of(row):
-    """The source and the lines, (kind, points): beyond each edge along its boundaries."""
+    """The source and the lines, (kind, points): beyond each edge along its boundaries. The first and the last point of a
+    line are far aside."""
     edges, size = corners_of(row), row["size_m"]
     before, after = (part * size for part in row["distances_m"])
     source = edges[0] + np.array([-before, row["height"] * before])
-    rays, lines = rays_past_edges(row, source), []
+    rays, lines, apart = rays_past_edges(row, source), [], max(APART_M, 2 * ASIDE * after)
     for kind, edge, way in rays:
         middle = edge + after * way
         across = np.array([-way[1], way[0]])
         if middle[1] < -0.4 * size or np.abs(middle[0]) > 0.45 * size or is_in_body(row, middle):
             continue
-        if any(np.linalg.norm(middle - m) < APART_M for _, m, _, _ in lines):
+        if any(np.linalg.norm(middle - m) < apart for _, m, _, _ in lines):
             continue
         near = False
         for _, other, direction in rays:
             d = middle - other
-            if np.dot(d, direction) > 0 and 1e-6 < abs(d[0] * direction[1] - d[1] * direction[0]) < APART_M:
+            if np.dot(d, direction) > 0 and 1e-6 < abs(d[0] * direction[1] - d[1] * direction[0]) < apart:
                 near = True
         if not near:
             lines.append((kind, middle, across, way))
-    return source, [(kind, middle[None, :] + OFFSETS_M[:, None] * across[None, :]) for kind, middle, across, _ in lines]
+    places = np.concatenate([[-ASIDE * after], OFFSETS_M, [ASIDE * after]])
+    return source, [(kind, middle[None, :] + places[:, None] * across[None, :]) for kind, middle, across, _ in lines]
 
 
 def placed(points, along=0.0):
@@ -145,13 +152,14 @@ def configuration(row, tx, rx):
              for i, place in enumerate(places)] for side, places in (("tx", tx), ("rx", rx))]
     return {"scene": {"file": "scene.obj"}, "radio": {"frequency_hz": F_HZ}, "transmitter": ends[0], "receiver": ends[1],
             "material": [{"name": "body", "permittivity": 1.0, "conductivity_s_m": 1e7, "thickness_m": float("inf")}],
-            "trace": {"rays": 50_000, "diffraction_rays": 2_000, "diffraction": True, "free_edges": True, "reflection": True,
+            "trace": {"rays": 50_000, "diffraction_rays": 20_000, "diffraction": True, "free_edges": True, "reflection": True,
                       "max_diffractions": row["edges"], "max_depth": row["edges"] + 1}}
 
 
 def fields(paths, row, source, receivers):
-    """The sum over free space, (receiver, VV and HH), of the paths over edges of the profile: those of its rims are others."""
-    out = np.zeros((len(receivers), 2), complex)
+    """The sum over free space, (receiver, VV and HH), of the paths over edges of the profile: those of its rims are others.
+    And the set of diffracted paths that each receiver has, by their interactions and edges."""
+    out, sets = np.zeros((len(receivers), 2), complex), [set() for _ in receivers]
     direct = np.linalg.norm(receivers - source, axis=1)
     offset, along = paths.vertex_offset, placed([(0.0, 0.0)], 1.0)[0]
     for i in range(len(paths.tx)):
@@ -160,11 +168,22 @@ def fields(paths, row, source, receivers):
             continue
         r = direct[paths.rx[i]]
         phase = np.exp(-2j * np.pi * F_HZ * (paths.delay_s[i] - r / SPEED_OF_LIGHT))
+        kinds = tuple(paths.vertex_interaction[offset[i]:offset[i + 1]])
+        if DIFFRACTION in kinds:
+            sets[paths.rx[i]].add((kinds, tuple(tuple(np.round(v, 2)) for k, v in zip(kinds, vertices) if k == DIFFRACTION)))
         out[paths.rx[i]] += np.diagonal(paths.a[i]) * phase * 4 * np.pi * r * F_HZ / SPEED_OF_LIGHT
-    return out
+    return out, sets
 
 
-def fitted(at, field, degree=5):
+def are_whole(sets):
+    """Which receivers of a line have all diffracted paths of those aside and of the last three on their side; of that on
+    the boundary, those of both. sets: with those aside."""
+    sides, sets = [set().union(*sets[:4]), set().union(*sets[-4:])], sets[1:-1]
+    return np.array([(sides[0] & sides[1] if at == 0 else sides[int(at > 0)]) <= found
+                     for at, found in zip(OFFSETS_M, sets)])
+
+
+def fitted(at, field, degree):
     """A polynomial through most of the points."""
     keep = np.ones(len(at), bool)
     for _ in range(4):
@@ -175,60 +194,67 @@ def fitted(at, field, degree=5):
     return lambda x: p(x) + 1j * q(x), lambda x: p.deriv()(x) + 1j * q.deriv()(x)
 
 
-def largest_step(field):
-    """Of the field along one line, (point,), beyond what a smooth one would do, and where it is."""
-    left, right = OFFSETS_M <= 0, OFFSETS_M >= 0
-    fits = [fitted(OFFSETS_M[side], field[side]) for side in (left, right)]
-    worst, at = 0.0, 0.0
+def largest_step(field, whole):
+    """Of the field along one line, (point,), beyond what a smooth one would do, where it is, and the largest step beside
+    receivers that are not `whole`."""
+    left, right = (OFFSETS_M <= 0) & whole, (OFFSETS_M >= 0) & whole
+    # Where receivers are left out a polynomial of a high degree would swing between those that are there.
+    fits = [fitted(OFFSETS_M[side], field[side], 5 if whole.all() else 2) for side in (left, right)]
+    worst, at, late = 0.0, 0.0, 0.0
     for i in range(len(OFFSETS_M) - 1):
         a, b = OFFSETS_M[i], OFFSETS_M[i + 1]
         value, _ = fits[0] if b <= 0 else fits[1]
         step = abs((field[i + 1] - value(b)) - (field[i] - value(a)))
-        if step > worst:
+        if not (whole[i] and whole[i + 1]):
+            late = max(late, step)
+        elif step > worst:
             worst, at = step, (a + b) / 2
     slope = (fits[0][1](0.0) + fits[1][1](0.0)) / 2
     for a, b in ((-STEPS_M[0], 0.0), (0.0, STEPS_M[0])):
         i = int(np.argmin(np.abs(OFFSETS_M - a)))
         step = abs(field[i + 1] - field[i] - slope * (b - a))
-        if step > worst:
+        if whole[i] and whole[i + 1] and step > worst:
             worst, at = step, (a + b) / 2
-    return worst, at
+    return worst, at, late
 
 
 def solve(row):
-    """(kind, largest step, its place on the line, number of lines, the worst line's middle) of a case, for every kind."""
+    """The case, and by kind of boundary: lines, largest step of V and of H, place of the larger one on its line, lines on
+    which paths are found late, largest step there."""
     source, lines = lines_of(row)
     tx = placed([source])
     rx = placed(np.concatenate([points for _, points in lines]))
     with tempfile.TemporaryDirectory() as folder:
         write_scene(pathlib.Path(folder) / "scene.obj", row)
         with wt.Simulation(configuration(row, tx, rx), folder=folder) as simulation:
-            total = fields(simulation.run_frame().paths, row, tx[0], rx)
+            total, sets = fields(simulation.run_frame().paths, row, tx[0], rx)
     out = {}
     for k, (kind, points) in enumerate(lines):
-        part = total[k * len(OFFSETS_M):(k + 1) * len(OFFSETS_M)]
+        span = slice(k * len(points) + 1, (k + 1) * len(points) - 1)
+        whole = are_whole(sets[span.start - 1:span.stop + 1])
+        best = out.setdefault(kind, {"lines": 0, "steps": [0.0, 0.0], "at": 0.0, "late": 0, "late_step": 0.0})
+        best["lines"] += 1
+        best["late"] += not whole.all()
         for port in range(2):
-            step, at = largest_step(part[:, port])
-            best = out.setdefault(kind, [0, -1.0, 0.0, None])
-            best[0] += port == 0
-            if step > best[1]:
-                best[1:] = step, at, points[len(OFFSETS_M) // 2]
+            step, at, late = largest_step(total[span, port], whole)
+            if step > max(best["steps"]):
+                best["at"] = at
+            best["steps"][port] = max(best["steps"][port], step)
+            best["late_step"] = max(best["late_step"], late)
     return row, out
 
 
-def table(processes=2, only=None):
-    rows = [row for row in all_cases() if not only or only in row["name"]]
+def table(only=None, processes=2):
+    """The largest steps of all cases whose names contain one of these texts, in Markdown."""
+    rows = [row for row in all_cases() if not only or any(text in row["name"] for text in only)]
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         found = pool.map(solve, rows, chunksize=1)
-    lines = ["| edges | scene | size | boundaries | lines | largest step | beside the boundary by |",
-             "| ---: | --- | ---: | --- | ---: | ---: | ---: |"]
+    lines = ["| edges | scene | size | boundaries | lines | largest step, V | H | beside the boundary by | found late: lines "
+             "| largest step |", "| ---: | --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for row, kinds in sorted(found, key=lambda x: (x[0]["edges"], x[0]["name"], x[0]["size_m"])):
-        for kind, (count, step, at, _) in sorted(kinds.items()):
-            lines.append(f"| {row['edges']} | {row['name']} | {row['size_m']:.0f} m | {kind} | {count} | {step:.1e} "
-                         f"| {1e3 * at:+.3f} mm |")
+        for kind, best in sorted(kinds.items()):
+            steps = " | ".join(f"{step:.0e}" for step in best["steps"])
+            late = f"{best['late']} | {best['late_step']:.0e}" if best["late"] else "0 |"
+            lines.append(f"| {row['edges']} | {row['name']} | {row['size_m']:.0f} m | {kind} | {best['lines']} | {steps} "
+                         f"| {1e3 * best['at']:+.3f} mm | {late} |")
     return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    import sys
-    print(table(only=sys.argv[1] if len(sys.argv) > 1 else None))
