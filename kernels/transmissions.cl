@@ -92,7 +92,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
     uint tries = 0, turned = 0;
     for (;;) {
       const uint surface =
-          wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, &l, &walk);
+          wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &walk);
       if (surface == WT_NONE) break;
       // As wt_obstructed has it.
       const int aside = tries < WT_RIM_TRIES &&

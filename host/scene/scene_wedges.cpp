@@ -25,9 +25,11 @@ constexpr double pi = std::numbers::pi;
 // A face that ends at a piece may end up to 2 mm beside it, on either side: at twice that distance it is clear whether
 // a face is there.
 constexpr double probe_m = 2 * touch_m;
-constexpr double inside_m = 1e-6;         // a probe on the border between two triangles is in both
-constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are wrong by half a unit of float32 at 1 km
-constexpr double most_lean = 0.1;  // sine: a piece does not lie in a plane that leans more, however short the piece is
+constexpr double inside_m = 1e-6;         // probes on the border between two triangles are in both
+constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are off by half a unit of float32 at 1 km
+constexpr double on_planes_m = 1e-7;      // an edge that is so near to the planes of its faces keeps its bits
+constexpr double least_sine2 = 0.1;       // planes at a smaller angle tell little of where their line is
+constexpr double most_lean = 0.1;         // sine: a plane that leans more does not hold a piece, however short that is
 
 struct HalfPlane {
   double angle_rad;  // angle about the piece
@@ -203,6 +205,30 @@ Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
           .surface = {sector.from.surface, sector.to.surface}};
 }
 
+// Onto the planes of its faces, which corners are beside by the rounding of a file: mirrors end where their planes are,
+// and what the edge diffracts makes up for them there.
+void put_on_planes(const Scene& scene, Wedge& wedge) {
+  const auto &a = scene.surfaces[wedge.surface[0]], &b = scene.surfaces[wedge.surface[1]];
+  const double cosine = glm::dot(a.normal, b.normal), sine2 = 1 - cosine * cosine;
+  const bool one_face = wedge.surface[0] == wedge.surface[1];
+  if (!one_face && sine2 < least_sine2) return;  // their line is not known well
+  const auto moved = [&](const dvec3& p) {
+    const double off_a = glm::dot(a.normal, p) - a.offset_m, off_b = glm::dot(b.normal, p) - b.offset_m;
+    if (one_face) return p - off_a * a.normal;
+    return p - ((off_a - cosine * off_b) * a.normal + (off_b - cosine * off_a) * b.normal) / sine2;
+  };
+  const dvec3 from = wedge.start, to = wedge.start + wedge.along * wedge.length_m;
+  const dvec3 start = moved(from), end = moved(to);
+  const double off_m = std::max(glm::distance(from, start), glm::distance(to, end));
+  if (off_m < on_planes_m || off_m > touch_m) return;
+  wedge.start = start;
+  wedge.along = glm::normalize(end - start);
+  wedge.length_m = glm::distance(start, end);
+  const dvec3 across = glm::normalize(glm::cross(a.normal, wedge.along));
+  wedge.face = glm::dot(across, wedge.face) < 0 ? -across : across;
+  wedge.normal = glm::cross(wedge.along, wedge.face);
+}
+
 }  // namespace
 
 void find_wedges(Scene& scene, EdgeSearch search) {
@@ -229,6 +255,7 @@ void find_wedges(Scene& scene, EdgeSearch search) {
   scene.wedges = join_rows(convex);
   const std::vector<Wedge> corners = join_rows(concave);
   scene.wedges.insert(scene.wedges.end(), corners.begin(), corners.end());
+  for (Wedge& wedge : scene.wedges) put_on_planes(scene, wedge);
   planes.number(scene.wedges);
   if (search == EdgeSearch::of_scene)
     scene.report.ground_rims =

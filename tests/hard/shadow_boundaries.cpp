@@ -1,5 +1,5 @@
 // The total field across the shadow boundaries of free-standing wedges and screens: it must not jump.
-// Geometry in float32 decides within 0.03 mm whether a ray passes an edge, so some receivers are closer than that.
+// Float32 is off by up to 0.03 mm where a ray passes an edge, so receivers stand closer than that as well.
 #include <glm/trigonometric.hpp>
 
 #include "hard/responses.hpp"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Errors of wavetracer's fields behind edges: solves every case, and prints a table of errors in dB.
 
-Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE]; --edges is the largest number of diffractions in
+Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE], or edges_table.py --lines [NAME...]; --edges is the largest number of diffractions in
 one path. Two minutes on two cores. References: cases.py, and for solid bodies the CSV files beside this one, which
 `solids.py bench/validation/edges` makes anew in some minutes.
 
@@ -20,6 +20,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import cases  # noqa: E402
+import lines  # noqa: E402
 import tracer  # noqa: E402
 import truth  # noqa: E402
 
@@ -70,8 +71,13 @@ def main():
     parser.add_argument("--edges", type=int, default=2)
     parser.add_argument("--rays", type=int, default=20_000)
     parser.add_argument("--sets", nargs="*", metavar="NAME")
+    parser.add_argument("--lines", nargs="*", metavar="NAME",
+                        help="largest steps of total fields along lines across boundaries instead (lines.py)")
     parser.add_argument("--csv", type=pathlib.Path, help="every case, with its reference and ours in dB")
     options = parser.parse_args()
+    if options.lines is not None:
+        print(lines.table(options.lines))
+        return
     rows = cases.known() + [row for name in EXACT for row in truth.read(HERE / f"{name}.csv")]
     rows = [row for row in rows if not options.sets or row["set"] in options.sets]
     fields = tracer.solve(rows, options.edges, rays=options.rays, diffraction_rays=options.rays)

@@ -189,8 +189,8 @@ inline int wt_has_sibling(const wt_field_world* world, const wt_ordered_rows* or
   return 0;
 }
 
-// Near a boundary of the edge the rows tell on which side the receiver is: what a ray passes or meets within 0.1 mm of
-// the edge is decided in float32, and reflections so close to each other are one path.
+// Near a boundary of the edge the rows tell on which side the receiver is: lines of legs begin and end 0.1 mm beside
+// what they leave, vehicles are met in float32, and reflections so close to each other are one path.
 inline wt_known_waves wt_waves_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                                   const wt_path* path, const wt_edge* edge, const wt_turn* turn) {
   wt_known_waves known = wt_nothing_known();

@@ -1,0 +1,70 @@
+// Legs that pass the edge of a face of 3 km by a hundredth of a millimetre: they are free on the very side of it on
+// which double has them, though float32 rounds the coordinates there to 0.1 mm.
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "passes/image_method.hpp"
+#include "passes/occlusion.hpp"
+#include "passes/solved_rows.hpp"
+#include "passes/transmissions.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+constexpr double face_size_m = 3000;
+
+using FaceRandom = std::mt19937_64;
+
+double drawn(FaceRandom& random, double least, double most) {
+  return std::uniform_real_distribution<double>(least, most)(random);
+}
+
+// A face in any direction; its first side is the edge.
+Quad any_face(FaceRandom& random) {
+  std::normal_distribution<double> normal;
+  const auto direction = [&] { return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))); };
+  const glm::dvec3 along = direction(), up = glm::normalize(glm::cross(along, direction()));
+  return {-0.5 * face_size_m * (along + 0.7 * up), face_size_m * along, face_size_m * up};
+}
+
+// Past a point of the edge, `inside` metres inside of the face or, where that is negative, outside of it.
+PathRow leg_past(FaceRandom& random, const Quad& face, double inside_m) {
+  const glm::dvec3 along = glm::normalize(face.u), up = glm::normalize(face.v), across = glm::cross(along, up);
+  const glm::dvec3 p = face.corner + drawn(random, 0.1, 0.9) * face.u + inside_m * up;
+  const glm::dvec3 way = glm::normalize(drawn(random, -0.8, 0.8) * along + drawn(random, -0.8, 0.8) * up + across);
+  return {p - drawn(random, 2, 1000) * way, p + drawn(random, 2, 1000) * way, {}, {}};
+}
+
+}  // namespace
+
+TEST_CASE("what passes the edge of a large face is decided in double") {
+  FaceRandom random(7);
+  for (int faces = 0; faces < 6; ++faces) {
+    const Quad face = any_face(random);
+    const Scene scene = reference::scene_of_quads({face});
+    const DeviceScene uploaded = make_device_scene(context(), scene, false, face_size_m);
+    std::vector<PathRow> rows;
+    std::vector<bool> inside;
+    for (const double off_m : {1e-5, 3e-5, 1e-4, 3e-4})
+      for (int i = 0; i < 200; ++i) {
+        inside.push_back(i % 2 == 1);
+        rows.push_back(leg_past(random, face, inside.back() ? off_m : -off_m));
+      }
+    Counters counters(context());
+    SolvedList list = upload_rows(rows, 8), passed = upload_rows(rows, 8);
+    const RadioEnds ends = ends_of(rows);
+    Occlusion(context(), uploaded)(uploaded, ends, list, counters, nullptr, {});
+    Transmissions(context(), uploaded, 8)(uploaded, ends, passed, counters, {});
+    const std::vector<PathRow> seen = download_rows(list), through = download_rows(passed);
+    size_t wrong = 0, wrong_through = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      wrong += seen[i].blocked != inside[i];
+      wrong_through += (through[i].blocked || !through[i].steps.empty()) != inside[i];
+    }
+    CHECK(wrong == 0);
+    CHECK(wrong_through == 0);
+  }
+}
