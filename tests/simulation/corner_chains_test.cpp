@@ -123,6 +123,7 @@ TEST_CASE("into a yard around three corners, left and right, where the roofs are
     };
     const glm::dvec3 a = place(0.7, -8.1, 2.3), b = place(-0.9, 2.4, 1.4);
     const Paths three = run(between(file, a, b, 3)).paths, two = run(between(file, a, b, 2)).paths;
+    const Paths back = run(between(file, b, a, 3)).paths;
     for (const double side : {1.0, -1.0}) {
       Plan best;
       double least = std::numeric_limits<double>::infinity();
@@ -131,6 +132,7 @@ TEST_CASE("into a yard around three corners, left and right, where the roofs are
       const Points points = raised(best, a, b);
       CHECK(nearest(three, points) < 1e-6);
       CHECK(nearest(two, points) > 1);
+      CHECK(nearest(back, Points(points.rbegin(), points.rend())) < 1e-6);
       ++with_three;
     }
   }
