@@ -24,7 +24,7 @@ inline int begin_string(const wt_edge_map* map, const wt_edge_map_arguments* gri
   const int all = wt_pull_string(map, grid, &straight, a.z, b.z, WT_MOST_EDGES, &over, along);
   if (string >= WT_STRINGS_WIDE) {
     *aside = left * 0.1 * ((string + 1 - WT_STRINGS_WIDE + WT_STRINGS_AROUND) / 2);
-    return !all || over.count > most;
+    return most > 2 && (!all || over.count > most);  // of up to two edges there are pairs
   }
   uint roof = WT_NONE;
   if (string >= WT_STRINGS_AROUND + 2) {
