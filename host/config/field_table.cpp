@@ -82,7 +82,7 @@ Table trace_table() {
                   "are passed over; the others are candidates, which cost time: in a city of 36 blocks some ten times "
                   "as much as one diffraction. With 2 and more each link also gets a few paths over up to "
                   "so many edges: those that a string between its ends touches when it is pulled tight over "
-                  "the roofs, those a little under it, and the corners that it slips off. They take little time, "
+                  "the roofs or around corners, and those a little under it. They take little time, "
                   "and reach receivers far behind the houses. Such a path has no other interactions, and max_depth, "
                   "which must be at least 2, does not limit its edges."},
           {.name = "free_edges",

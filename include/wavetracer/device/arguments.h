@@ -171,7 +171,11 @@ typedef struct {
   wt_uint padding;
 } wt_edge_map_arguments;
 
-#define WT_STRINGS 9u  // that are pulled for each pair of a transmitter and a receiver, in planes beside each other
+// Strings that are pulled for each pair of a transmitter and a receiver: in planes beside each other, then around what
+// they cannot pass over or around one of the roofs, to either side, and farther aside, where there are too many edges.
+#define WT_STRINGS_AROUND 9u
+#define WT_STRINGS_WIDE 25u
+#define WT_STRINGS 57u
 
 typedef struct {
   wt_edge_map_arguments map;
