@@ -38,9 +38,10 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
   RowCounts most{}, expected{};
+  const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
   if (places > 0) {
     sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");  // sort
-    distinct_.place(scene, ends, visible, counters);                          // distinct
+    distinct_.place(scene, wedges, ends, visible, counters);                  // distinct
     most = {counters.length(&wt_counters::rows, places, "distinct"),
             counters.length(&wt_counters::row_vertices, size_t{places} * visible.max_depth, "distinct")};
     expected = counters.foresees() ? expected_rows(counters.last()) : most;
@@ -49,8 +50,7 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     scan_.prefix(distinct_.rows().counts, 2 * places, "distinct");                                         // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
-      fields_[i](scene, edges ? &edges->wedges.list().wedges : nullptr, ends, world, visible, inside, distinct_,
-                 distinct_.rows(), most);  // fields
+      fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
   }
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
   fields_[0].begin_read(frame, expected);
