@@ -4,7 +4,7 @@
 // neighbours then settle the rest.
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
-#include "wavetracer/device/path_world.h"
+#include "wavetracer/device/path_along.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // The key of a link and a length, monotonic in both. Lengths are told apart by the exponents from 2^-4 to 2^27 m and as
@@ -40,13 +40,14 @@ kernel void row_keys(const global wt_solved* solved, const global double* vertic
 }
 
 // Whether the row at a sorted place stays: WT_ROW_STAYS, WT_ROW_IS_NEAR (an antenna touches what reflects there), or 0
-// where another row is the same path. What the others were found by, the one that stays was found by, too.
+// where another row is the same path or one of which it is a part (path_along.h). What the same paths were found by,
+// the one that stays was found by, too. wedges: may be null.
 kernel void mark_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                       const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                       const global uint* transmitter_of, const global wt_exact_surface* surfaces,
-                      const global uint* keys, const global uint* order, const global double* lengths,
-                      global uchar* stays, global uchar* quarters, global wt_counters* counters,
-                      wt_distinct_arguments args) {
+                      const global wt_wedge* wedges, const global uint* keys, const global uint* order,
+                      const global double* lengths, global uchar* stays, global uchar* quarters,
+                      global wt_counters* counters, wt_distinct_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count) return;
   stays[place] = 0;
@@ -59,21 +60,26 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   // Vertices that are WT_MERGE_M apart along each axis move a length by twice that times sqrt 3, each.
   const double apart_m = 4.0 * WT_MERGE_M * path.depth + 1e-6;
   const uint link = path.transmitter * args.receiver_count + path.receiver;
-  const uint lowest = row_key(args, link, length_m - apart_m), highest = row_key(args, link, length_m + apart_m);
+  const double most_m = apart_m + WT_ALONG_LENGTH_M;
+  const uint lowest = row_key(args, link, length_m - most_m), highest = row_key(args, link, length_m + most_m);
+  wt_field_world world;
+  world.surfaces = surfaces;
+  world.wedges = wedges;
   uint found = solved[row / 2].quarters;
   for (int way = -1; way <= 1; way += 2)
     for (uint i = place + way; i < args.row_count && keys[i] >= lowest && keys[i] <= highest; i += way) {
       const uint other_row = scale * order[i];
-      if (solved[other_row / 2].depth != path.depth || !(fabs(lengths[order[i]] - length_m) <= apart_m)) continue;
+      const uint depth = solved[other_row / 2].depth;
+      if (depth < path.depth || !(fabs(lengths[order[i]] - length_m) <= most_m)) continue;
       const wt_path other = wt_path_of(&list, other_row);
+      if (wedges && wt_is_along(&world, &path, length_m, &other, lengths[order[i]])) return;
+      if (depth != path.depth || !(fabs(lengths[order[i]] - length_m) <= apart_m)) continue;
       int first;
       if (!wt_one_path(&other, &path, other_row, row, &first)) continue;
       if (first) return;
       found |= solved[other_row / 2].quarters;
     }
   quarters[place] = (uchar)found;
-  wt_field_world world;
-  world.surfaces = surfaces;
   const int is_near = wt_is_near(&world, &path);
   stays[place] = is_near ? WT_ROW_IS_NEAR : WT_ROW_STAYS;
   if (is_near) {

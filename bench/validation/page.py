@@ -57,7 +57,6 @@ def edges_section(result):
         between = max(abs(row["v_db"] - row["h_db"]) for row in rows)
         twos.append([f"{low:g} and {high:g}", len(rows), f"{np.median(off):+.2f}", f"{min(off):+.2f} to {max(off):+.2f}",
                      f"{between:.1f}", f"{min(theirs):+.2f} to {max(theirs):+.2f}"])
-    deep = [ours(row) - row["exact_db"] for row in double if min(row["nu_1"], row["nu_2"]) >= 1]
     return f"""## Edges
 Screens of metal hang in free space, and what arrives over their upper edges is compared with Recommendation ITU-R P.526-15: section 4.1 for one edge (the Fresnel integral, and its approximation), section 4.3 for two. `nu` is the parameter of section 4.1: 0 is grazing, positive is shadow; with two edges it is taken at each edge, from its end to the other edge. What section 4.3 approximates is the Fresnel integral over both half planes (L. E. Vogler, Radio Science 17, 1982), evaluated by quadrature here, so ours and P.526 are both compared with that. The recommendation does not know polarisation; "mean" is the mean of our losses with vertical and horizontal waves {measured(result)}.
 
@@ -73,7 +72,11 @@ Two edges of one height, {len(double)} cases at 5.9 and 28 GHz, {min(row['b_m'] 
 
 {table(["nu at the edges", "cases", "median of the mean", "range", "V and H apart, up to", "P.526 4.3 less the integral"], twos)}
 
-**Where ours is wrong.** A coefficient of the uniform theory expects a ray as the incident field. Where the path grazes both edges, the field at the second is in the transition from light to shadow of the first, and the product of two coefficients loses too much: up to {max(ours(row) - row["exact_db"] for row in double):.1f} dB, the more the closer the edges are to each other. With `nu` of 1 or more at both edges it is off by {min(deep):+.2f} to {max(deep):+.2f} dB. Slope diffraction would mend most of the rest; it is not in the program.
+Two edges follow the integral to {max(abs(ours(row) - row["exact_db"]) for row in double):.2f} dB at most, grazing ones too, as each term of the one edge meets each of the other in that integral.
+
+**Solid bodies.** `./dev edges` compares blocks of metal and of lossy materials, corners, a car's roof and rows of screens with integral equations, a paraxial equation and Vogler's integral. Its tables are in [errors.md](../bench/validation/edges/errors.md).
+
+**Where ours is wrong.** Corners of lossy walls err by some dB where the source grazes the wall, and a wall of 1 cm where its top is seen from above at the angle of its mirror; errors.md has the worst of each set. Where an edge ends, its wave ends. On lines that go from deep shadow past the shadow of a corner of a metal plate (3 x 2 and 10 x 7 m, 1 to 6 GHz, ends 20 + 20 and 10 + 50 m from it), single edges are compared with Kirchhoff's integral, a product of two Fresnel integrals (`bench/validation/edges/plate.py`, the table in errors.md): the median error is 0.6 to 2 dB where the field is above -40 dB, but where the point of diffraction leaves the edge the field steps by up to 0.57 of that in free space, since right at the corner's shadow the truth is 3/4 and one edge alone has 1/2. A wave of the corner would mend that, and it is not in the program. Its reach is a Fresnel zone of the corner; paths over a house's roof and around its upright corners leave their edges there.
 """
 
 

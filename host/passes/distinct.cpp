@@ -69,10 +69,11 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
   return rows_.places;
 }
 
-void Distinct::place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible, Counters& counters) {
+void Distinct::place(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
+                     const SolvedList& visible, Counters& counters) {
   mark_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
-             ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, keys_, order_,
-             lengths_, stays_, quarters_, counters.buffer(), arguments_);
+             ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, wedges, keys_,
+             order_, lengths_, stays_, quarters_, counters.buffer(), arguments_);
   order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
               ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
               quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.quarters, arguments_);

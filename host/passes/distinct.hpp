@@ -34,8 +34,10 @@ class Distinct {
   // Keys of all rows, and how many places they take. own: the links whose paths are wanted, as RadioEnds::links has
   // them. Throws RuntimeError where links are too many for a key.
   uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible, Counters& counters);
-  // By sorted keys: which rows stay, and where. wt_counters has how many of what kind.
-  void place(const DeviceScene& scene, const RadioEnds& ends, const SolvedList& visible, Counters& counters);
+  // By sorted keys: which rows stay, and where. wt_counters has how many of what kind. wedges: null where nothing
+  // diffracts.
+  void place(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
+             const SolvedList& visible, Counters& counters);
   // How many paths of which link were left out so.
   std::map<Link, uint32_t> left_out();
 

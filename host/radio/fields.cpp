@@ -5,11 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "radio/antenna.hpp"
 #include "radio/constants.hpp"
 #include "radio/world_records.hpp"
+#include "wavetracer/device/path_along.h"
 #include "wavetracer/device/path_field.h"
 #include "wavetracer/device/volumes.h"
 #include "wavetracer/error.hpp"
@@ -80,6 +83,21 @@ SolvedRows solved_rows(const PathGeometry& paths, const WorldState& state) {
   return rows;
 }
 
+// Is the path of rows[at] a part of another one of its link? length: of each path; rows are ordered by them.
+bool is_along(const device::wt_path_list& list, const device::wt_field_world& world, std::span<const double> length,
+              std::span<const uint32_t> rows, size_t at) {
+  const device::wt_path path = device::wt_path_of(&list, 2 * rows[at]);
+  for (const int way : {-1, 1})
+    for (size_t i = at + way; i < rows.size(); i += way) {  // before 0 is beyond the size
+      const device::wt_path other = device::wt_path_of(&list, 2 * rows[i]);
+      if (other.transmitter != path.transmitter || other.receiver != path.receiver ||
+          !(std::abs(length[rows[i]] - length[rows[at]]) <= WT_ALONG_LENGTH_M))
+        break;
+      if (device::wt_is_along(&world, &path, length[rows[at]], &other, length[rows[i]])) return true;
+    }
+  return false;
+}
+
 // The rows of a frame in their order, and their delays.
 struct OrderedRows {
   std::vector<uint32_t> rows;
@@ -89,10 +107,11 @@ struct OrderedRows {
 OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_field_world& world, size_t count,
                          LeftOut& left_out) {
   std::vector<uint32_t> kept;
-  std::vector<double> delay(count);
+  std::vector<double> delay(count), length(count);
   for (uint32_t i = 0; i < count; ++i) {
     const device::wt_path path = device::wt_path_of(&list, 2 * i);
-    delay[i] = device::wt_path_length(&path) / speed_of_light_m_s;
+    length[i] = device::wt_path_length(&path);
+    delay[i] = length[i] / speed_of_light_m_s;
     if (device::wt_is_near(&world, &path))
       ++left_out[{path.transmitter, path.receiver}];
     else
@@ -104,9 +123,10 @@ OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_fiel
     return link_a != link_b ? link_a < link_b : device::wt_compare_rows(&a, &b, delay[i], delay[j]) < 0;
   });
   OrderedRows ordered;
-  for (const uint32_t i : kept) {
-    ordered.rows.push_back(2 * i);
-    ordered.delays.push_back(delay[i]);
+  for (size_t at = 0; at < kept.size(); ++at) {
+    if (is_along(list, world, length, kept, at)) continue;
+    ordered.rows.push_back(2 * kept[at]);
+    ordered.delays.push_back(delay[kept[at]]);
   }
   return ordered;
 }

@@ -14,6 +14,7 @@
 #include "scene/earlier_faces.hpp"
 #include "scene/flatten_scene.hpp"
 #include "scene/scene_wedges.hpp"
+#include "scene/thin_walls.hpp"
 #include "scene/topology.hpp"
 #include "scene/unit_check.hpp"
 #include "scene/vertex_use.hpp"
@@ -146,6 +147,9 @@ Duplicates find_duplicates(const std::vector<Triangle>& triangles, const std::ve
 void weld_and_clean(Scene& scene, const Soup& soup, const std::vector<uint32_t>& mesh_material,
                     std::vector<uint32_t>& triangle_material, std::vector<double>& rounding_m) {
   Weld weld = weld_vertices(soup.vertices, weld_tolerance_m);
+  if (const uint64_t joined = join_thin_walls(soup.triangles, weld); joined > 0)
+    scene.report.warnings.push_back(fmt::format(
+        "both sides of walls of at most {:g} mm are one sheet: {} vertices were merged", thin_wall_m * 1000, joined));
   scene.report.welded_vertices = soup.vertices.size() - weld.positions.size();
   if (weld.widest_m > 10 * weld_tolerance_m) {
     scene.report.warnings.push_back(

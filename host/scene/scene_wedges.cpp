@@ -13,6 +13,7 @@
 #include "scene/edge_pieces.hpp"
 #include "scene/face_planes.hpp"
 #include "scene/ground_rims.hpp"
+#include "scene/thin_walls.hpp"
 #include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
 #include "scene/wedge_rows.hpp"
@@ -25,6 +26,7 @@ constexpr double pi = std::numbers::pi;
 // A face that ends at a piece may end up to 2 mm beside it, on either side: at twice that distance it is clear whether
 // a face is there.
 constexpr double probe_m = 2 * touch_m;
+static_assert(thin_wall_m >= touch_m);
 constexpr double inside_m = 1e-6;         // probes on the border between two triangles are in both
 constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are off by half a unit of float32 at 1 km
 constexpr double on_planes_m = 1e-7;      // an edge that is so near to the planes of its faces keeps its bits

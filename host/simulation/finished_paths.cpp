@@ -42,9 +42,10 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
   RowCounts most{}, expected{};
+  const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
   if (places > 0) {
     sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");  // sort
-    distinct_.place(scene, ends, visible, counters);                          // distinct
+    distinct_.place(scene, wedges, ends, visible, counters);                  // distinct
     most = {counters.length(&wt_counters::rows, places, "distinct"),
             counters.length(&wt_counters::row_vertices, size_t{places} * visible.max_depth, "distinct")};
     expected = counters.foresees() ? expected_rows(counters.last()) : most;

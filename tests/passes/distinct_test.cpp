@@ -164,7 +164,7 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   const uint32_t places = distinct.keys(on_device, on_device.links, visible, counters);
   if (places == 0) return {};
   sort(distinct.sort_keys(), distinct.order(), places, 32);
-  distinct.place(scene, on_device, visible, counters);
+  distinct.place(scene, nullptr, on_device, visible, counters);
   const wt_counters totals = counters.read("distinct");
   if (left_out && totals.near_rows > 0) *left_out = distinct.left_out();
   gpu::Buffer<uint32_t>& of_places = distinct.rows().counts;

@@ -43,7 +43,7 @@ def write_scene(path, shape, places, tops):
         walls = places if shape == "block" else (places[0], places[0] + DEEP_M)
         bodies = [([*itertools.product(walls, (-DEEP_M, 0.0), (-HALF_M, HALF_M))], BOX)]
     for i, (corners, faces) in enumerate(bodies):
-        lines += ["v " + " ".join(repr(c) for c in placed(shape, *corner)) for corner in corners]
+        lines += ["v " + " ".join(repr(float(c)) for c in placed(shape, *corner)) for corner in corners]
         lines += [f"o body{i}", "usemtl body"]
         lines += ["f " + " ".join(str(count + j + 1) for j in face) for face in faces]
         count += len(corners)

@@ -14,6 +14,7 @@ namespace wavetracer::device {
 typedef struct {
   wt_double2 permittivity;
   double thickness_m;
+  double zone;  // wt_zone_cosine of the path
 } wt_wedge_face;
 
 typedef struct {
@@ -46,8 +47,6 @@ inline wt_matrix wt_other_way(wt_matrix m) {
   return m;
 }
 
-#define WT_CONDUCTS 1e6  // a permittivity so large, of 1e7 S/m up to 180 GHz, is that of a good conductor
-
 inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double wavelength_m) {
   if (fabs(face->permittivity.x) == WT_INFINITY || fabs(face->permittivity.y) == WT_INFINITY) {
     wt_slab out;
@@ -56,11 +55,8 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
     out.transmission_te = out.transmission_tm = wt_real(0.0);
     return out;
   }
-  // A wave along a good conductor is one of the zone about it, which is much wider than the Brewster angle,
-  // 1 / sqrt(permittivity): it is reflected as by a perfect conductor.
-  const double size = wt_size(face->permittivity);
-  if (cos_theta < WT_GRAZING_RAD && size > WT_CONDUCTS) cos_theta = 100.0 / sqrt(size);
-  return wt_slab_coefficients(face->permittivity, cos_theta, face->thickness_m, wavelength_m);
+  return wt_slab_coefficients(face->permittivity, wt_cosine_of_zone(face->permittivity, cos_theta, face->zone),
+                              face->thickness_m, wavelength_m);
 }
 
 // cosine: of the angle between the wave and the edge; sine: of the same, not negative.
@@ -91,32 +87,35 @@ inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, dou
   return slab;
 }
 
-// A spread tells how far the waves that count on one side of a boundary of reflection are from the ray at the edge, on
-// the mean, where they meet the face: the cosine of incidence is larger there by `shift`, a complex number, or smaller
-// on the lit side, by -shift. even: the part that the coefficient's even part in the shift has: 0 on the boundary,
-// where the waves of both sides leave just the ray, 1 far from it.
-typedef struct {
-  wt_double2 shift;
-  double even;
-} wt_spread_angle;
-
-inline wt_double2 wt_spread_coefficient(wt_double2 ray, wt_double2 here, wt_double2 there, double even) {
-  return ray + (here - there) * 0.5 + ((here + there) * 0.5 - ray) * even;
+// Of waves beside a ray of the cosine `lit` that are hidden, at `there`: as much more or less than the ray as those on
+// the other side of it are less or more.
+inline wt_slab wt_face_slab_mirrored(const wt_wedge_face* face, double lit, wt_double2 there, double wavelength_m) {
+  const wt_slab ray = wt_face_slab(face, lit, wavelength_m);
+  wt_slab slab = wt_face_slab_at(face, wt_real(2.0 * lit) - there, wavelength_m);
+  slab.reflection_te = ray.reflection_te * 2.0 - slab.reflection_te;
+  slab.reflection_tm = ray.reflection_tm * 2.0 - slab.reflection_tm;
+  return slab;
 }
 
-// The wave reflected at one face, from (beta', phi') to (beta, phi).
-inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face,
-                                   wt_spread_angle angle) {
+// The reflection at a cosine of incidence, where the waves that count on one side of a boundary of reflection are not
+// those of the ray at the edge: on the mean, they meet the face at a cosine that is larger by `shift`, a complex
+// number. On the other side, where the face reflects a ray with the cosine `lit`, the shift is negative: what the edge
+// hides of that ray's surroundings counts, mirrored about the ray, since no cosine is negative. On the boundary both
+// sides leave just the ray.
+inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, double lit, wt_double2 shift,
+                                   double wavelength_m) {
+  if (shift.x == 0.0 && shift.y == 0.0) return wt_face_slab(face, cosine, wavelength_m);
+  const wt_double2 there = wt_real(cosine) + shift;
+  if (shift.x > 0.0) return wt_face_slab_at(face, there, wavelength_m);
+  return wt_face_slab_mirrored(face, lit, there, wavelength_m);
+}
+
+// The wave reflected at one face, from (beta', phi') to (beta, phi). lit, shift: see wt_face_slab_beside.
+inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face, double lit,
+                                   wt_double2 shift) {
   const wt_double3 normal = corner->normals[face], out = wt_mirrored(wave->k, normal);
   const double cosine = fmin(fabs(wt_dot3(wave->k, normal)), 1.0);
-  const wt_wedge_face* material = corner->faces + face;
-  wt_slab slab = wt_face_slab(material, cosine, corner->wavelength_m);
-  if (angle.shift.x != 0.0 || angle.shift.y != 0.0) {
-    const wt_slab here = wt_face_slab_at(material, wt_real(cosine) + angle.shift, corner->wavelength_m);
-    const wt_slab there = wt_face_slab_at(material, wt_real(cosine) - angle.shift, corner->wavelength_m);
-    slab.reflection_te = wt_spread_coefficient(slab.reflection_te, here.reflection_te, there.reflection_te, angle.even);
-    slab.reflection_tm = wt_spread_coefficient(slab.reflection_tm, here.reflection_tm, there.reflection_tm, angle.even);
-  }
+  const wt_slab slab = wt_face_slab_beside(corner->faces + face, cosine, lit, shift, corner->wavelength_m);
   wt_transfer transfer = wt_transfer_from(wave->coming);
   wt_meet(&transfer, wave->k, out, normal, slab.reflection_te, slab.reflection_tm);
   return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), out));

@@ -8,7 +8,7 @@
 // A thin wall tends to a screen, r to 1.
 #ifndef WAVETRACER_DEVICE_EDGE_PAIR_H
 #define WAVETRACER_DEVICE_EDGE_PAIR_H
-#include "wavetracer/device/double_transition.h"
+#include "wavetracer/device/grazed_plane.h"
 #include "wavetracer/device/utd.h"
 
 #ifndef __OPENCL_VERSION__
@@ -21,7 +21,6 @@ typedef struct {
   double spreads_m[2];    // L of each edge
   double distances_m[2];  // of wt_edge_amplitude: L sin^2 beta0
   double coupling;        // r of two terms but for the signs of their sides
-  double lit;             // see wt_add_grazed_plane; 0: there is no such ray; negative below the plane
 } wt_pair_form;
 
 // before_m, between_m, after_m: the legs; along: unit vectors of the edges; k: the direction from one to the other;
@@ -39,16 +38,8 @@ inline wt_pair_form wt_pair_form_of(const wt_double3* along, wt_double3 k, doubl
   out.distances_m[0] = out.spreads_m[0] * sine2[0];
   out.distances_m[1] = out.spreads_m[1] * sine2[1];
   out.coupling = -cosine / sqrt(whole);
-  out.lit = 0.0;
   return out;
 }
-
-// A plane along which the leg between the edges runs.
-typedef struct {
-  int sides;  // 0: there is none; 2: of a sheet that ends at both edges
-  wt_double3 normal;
-  wt_wedge_face faces[2];  // the plane at either edge
-} wt_shared_plane;
 
 // The terms of one edge of a pair.
 typedef struct {
@@ -72,26 +63,9 @@ inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves*
     out.argument[term] = root_2kl * factors.sine;
     out.ratio[term] = factors.ratio;
     out.side[term] = factors.ratio < 0.0 ? -grows : grows;
-    out.jump[term] = wt_jump(bend, term, root_2kl, along, wt_no_spread());
+    out.jump[term] = wt_jump(bend, term, root_2kl, along, wt_real(0.0));
   }
   return out;
-}
-
-// Adds TE and TM of the plane for waves whose mean cosine of incidence is complex; the mean of what it is at either
-// edge. Where both ends see the plane, `lit` is the cosine of the ray that it reflects, and what the edges hide of that
-// ray's surroundings counts, on its other side.
-inline void wt_add_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, double lit, double wavelength_m,
-                                wt_double2* te, wt_double2* tm) {
-  for (int i = 0; i < 2; ++i) {
-    wt_slab slab = wt_face_slab_at(plane->faces + i, lit > 0.0 ? wt_real(lit) - mean : mean, wavelength_m);
-    if (lit > 0.0) {
-      const wt_slab ray = wt_face_slab(plane->faces + i, lit, wavelength_m);
-      slab.reflection_te = ray.reflection_te * 2.0 - slab.reflection_te;
-      slab.reflection_tm = ray.reflection_tm * 2.0 - slab.reflection_tm;
-    }
-    *te = *te + slab.reflection_te * 0.5;
-    *tm = *tm + slab.reflection_tm * 0.5;
-  }
 }
 
 // The reflection of the plane between term i of the first edge and term j of the second, TE and TM, as a multiple of
@@ -99,16 +73,30 @@ inline void wt_add_grazed_plane(const wt_shared_plane* plane, wt_double2 mean, d
 inline void wt_reflection_over_plane(const wt_pair_terms* first, const wt_pair_terms* second, int i, int j,
                                      const wt_pair_form* form, const wt_shared_plane* plane, double wavelength_m,
                                      double r, wt_double2 image, wt_double2* te, wt_double2* tm) {
-  const wt_double_means mean = wt_means_of(first->argument[i], second->argument[j], -r, image);
+  const double x = first->argument[i], y = second->argument[j];
+  const wt_double_means mean = wt_means_of(x, y, -r, image);
   *te = *tm = wt_real(0.0);
   for (int side = 0; side < plane->sides; ++side) {
     // To the lower side of a sheet the same ends are on the other side of the boundaries.
-    const double sign = side == 0 ? 1.0 : -1.0, before = sign * first->ratio[i], after = sign * second->ratio[j];
+    const double sign = side == 0 ? 1.0 : -1.0;
+    wt_grazing_term term;
+    term.x = x;
+    term.y = y;
+    term.r = -r;
     // A wave that is there already counts by its shadow below the edge, not by what passes above it.
-    const double u = copysign(first->bent * sqrt(form->spreads_m[0] * wavelength_m / WT_PI), -before);
-    const double v = copysign(second->bent * sqrt(form->spreads_m[1] * wavelength_m / WT_PI), -after);
-    const double lit = before > 0.0 && after > 0.0 ? sign * form->lit * first->bent * second->bent : 0.0;
-    wt_add_grazed_plane(plane, (mean.u * u + mean.v * v) / form->between_m, lit, wavelength_m, te, tm);
+    term.below[0] = sign * first->ratio[i] > 0.0;
+    term.below[1] = sign * second->ratio[j] > 0.0;
+    const double u = first->bent * sqrt(form->spreads_m[0] * wavelength_m / WT_PI) / form->between_m;
+    const double v = second->bent * sqrt(form->spreads_m[1] * wavelength_m / WT_PI) / form->between_m;
+    term.cosines[0] = term.below[0] ? -u : u;
+    term.cosines[1] = term.below[1] ? -v : v;
+    term.waves.whole = image;
+    term.waves.cosine = wt_cosine_of(mean.u, mean.v, term.cosines);
+    for (int edge = 0; edge < 2; ++edge) {
+      const wt_plane_sum sum = wt_term_at_plane(&term, plane->faces + edge, wavelength_m);
+      *te = *te + wt_over(sum.te, image) * 0.5;
+      *tm = *tm + wt_over(sum.tm, image) * 0.5;
+    }
   }
 }
 

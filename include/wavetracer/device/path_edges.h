@@ -19,6 +19,7 @@ typedef struct {
   wt_wedge_frame frame;
   wt_double3 k_in, k_out;
   double before_m, after_m;  // to the end or edge before and after it, reflections unfolded
+  double path_m;             // the length of the whole path
 } wt_edge;
 
 // Rays this close to the edge may be on either side of it, see wt_waves_at.
@@ -45,7 +46,7 @@ inline wt_double3 wt_face_normal(const wt_wedge_frame* frame, int face) {
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
   wt_uint count = 0;
   wt_walk_leg leg = wt_first_leg(path);
-  double since_m = leg.length_m;
+  double since_m = leg.length_m, path_m = 0.0;
   for (wt_uint k = 0; k < path->depth; ++k) {
     const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
     if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < WT_MOST_EDGES) {
@@ -68,6 +69,8 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
     leg = next;
   }
   if (count > 0) edges[count - 1].after_m = since_m;
+  for (wt_uint i = 0; i < count; ++i) path_m += edges[i].before_m;
+  for (wt_uint i = 0; i < count; ++i) edges[i].path_m = path_m + since_m;
   return count;
 }
 
@@ -114,6 +117,7 @@ inline wt_wedge_face wt_face_of(const wt_field_world* world, const wt_edge* edge
   wt_wedge_face out;
   out.permittivity = WT_DOUBLE2(material->permittivity[0], material->permittivity[1]);
   out.thickness_m = material->thickness_m;
+  out.zone = wt_zone_cosine(edge->path_m, world->wavelength_m);
   return out;
 }
 
@@ -261,13 +265,7 @@ inline void wt_diffract_at_two(const wt_field_world* world, const wt_ordered_row
   wt_bend bends[2];
   wt_known_waves known[2];
   for (int i = 0; i < 2; ++i) bends[i] = wt_bend_on_path(world, ordered, row, path, edges + i, known + i);
-  wt_pair_form form = wt_form_between(edges);
-  if (plane->sides) {
-    const double up = -wt_dot3(plane->normal, edges[0].k_in), down = wt_dot3(plane->normal, edges[1].k_out);
-    const double length_m = edges[0].before_m + edges[0].after_m + edges[1].after_m;
-    if (up * down > 0.0 && fmin(fabs(up), fabs(down)) > WT_GRAZING_RAD)
-      form.lit = (up * edges[0].before_m + down * edges[1].after_m) / length_m;
-  }
+  const wt_pair_form form = wt_form_between(edges);
   const wt_wave_map wave = wt_diffract_at_pair(bends, known, &form, between, plane);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }

@@ -30,14 +30,15 @@ typedef struct {
   int near_edge;    // wt_is_near_edge
 } wt_path_field;
 
-inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double3 k_in, wt_double3 k_out,
+inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double3 k_in, wt_double3 k_out, double path_m,
                             wt_transfer* transfer) {
   const wt_uint surface = step & ~WT_STEP_KIND;
   const wt_double3 normal = wt_vector(world->surfaces[surface].normal);
   const wt_material material = world->materials[world->materials_of[surface]];
-  const wt_slab slab =
-      wt_slab_coefficients(WT_DOUBLE2(material.permittivity[0], material.permittivity[1]),
-                           fmin(fabs(wt_dot3(k_in, normal)), 1.0), material.thickness_m, world->wavelength_m);
+  const wt_double2 permittivity = WT_DOUBLE2(material.permittivity[0], material.permittivity[1]);
+  const double zone = wt_zone_cosine(path_m, world->wavelength_m);
+  const double cosine = wt_cosine_of_zone(permittivity, fmin(fabs(wt_dot3(k_in, normal)), 1.0), zone);
+  const wt_slab slab = wt_slab_coefficients(permittivity, cosine, material.thickness_m, world->wavelength_m);
   if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) {
     wt_meet(transfer, k_in, k_out, normal, slab.transmission_te, slab.transmission_tm);
   } else {
@@ -148,7 +149,7 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
       continue;
     }
 #endif
-    wt_meet_surface(world, step, leg.direction, wave->leg.direction, &wave->transfer);
+    wt_meet_surface(world, step, leg.direction, wave->leg.direction, length_m, &wave->transfer);
   }
   return k;
 }
@@ -258,8 +259,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   return out;
 }
 
-// The row at `place` of the ordered rows, and its vertices from first_vertex on. origin: of recentred coordinates in
-// those of the file.
+// The row at `place`, and its vertices from first_vertex on. origin: of recentred coordinates in those of the file.
 inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
                          wt_double3 origin, wt_uint first_vertex, WT_GLOBAL wt_path_row* row,
                          WT_GLOBAL wt_vertex_row* vertices) {

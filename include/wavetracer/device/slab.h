@@ -88,6 +88,21 @@ inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, d
   return out;
 }
 
+// A permittivity so large, of 1e7 S/m up to 180 GHz, is that of a good conductor.
+#define WT_CONDUCTS 1e6
+
+// The cosine of incidence of the waves that fill the zone about a path of this length where it grazes a plane. What a
+// plane whose surface impedance is that much smaller reflects in all is what it reflects there: with F the attenuation
+// of Norton (Proc. IRE 25, 1937), R + (1 - R) F is 1 - sqrt(2 pi k L) / sqrt(permittivity) at grazing.
+inline double wt_zone_cosine(double length_m, double wavelength_m) { return sqrt(wavelength_m / length_m) / WT_PI; }
+
+// The cosine at which a material reflects a wave of a path. A good conductor reflects plane waves below its Brewster
+// angle, 1 / sqrt(permittivity), with another sign than above it, but the zone about a path is much wider than that.
+inline double wt_cosine_of_zone(wt_double2 permittivity, double cos_theta, double zone) {
+  if (cos_theta >= zone) return cos_theta;
+  return wt_size(permittivity) > WT_CONDUCTS ? zone : cos_theta;
+}
+
 #ifndef __OPENCL_VERSION__
 }  // namespace wavetracer::device
 #endif

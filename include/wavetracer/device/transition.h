@@ -68,6 +68,12 @@ inline wt_double2 wt_transition_over_root(double s) {
   return wt_times(front, s < 8.0 ? wt_erfcx_by_fraction(u) : wt_erfcx_far(u, s));
 }
 
+// g of any argument: the integral over the whole line less that beyond -s.
+inline wt_double2 wt_transition_of_any(double s) {
+  const wt_double2 g = wt_transition_over_root(fabs(s));
+  return s < 0.0 ? wt_times(wt_cos_sin(s * s), WT_EIGHTH_TURN) * (2.0 / WT_INV_SQRT_PI) - g : g;
+}
+
 #ifndef __OPENCL_VERSION__
 }  // namespace wavetracer::device
 #endif

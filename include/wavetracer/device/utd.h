@@ -117,7 +117,7 @@ typedef struct {
   wt_turn turn;
   wt_corner_wave there, back;
   wt_basis from, to;
-  double n;
+  double n, sine;    // sine: of the angle between the edge and the ray
   double legs_m[2];  // from its source, to its receiver: the radii of the waves
   int transmits;
 } wt_bend;
@@ -145,6 +145,7 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
   bend.from = wt_coming(wedge->along, k_in);
   bend.to = wt_leaving(wedge->along, k_out);
   bend.n = wedge->exterior / WT_PI;
+  bend.sine = sine;
   bend.legs_m[0] = legs_m[0];
   bend.legs_m[1] = legs_m[1];
   bend.transmits = transmits;
@@ -154,37 +155,31 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
 // Tells how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
 inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
 
-inline wt_spread_angle wt_no_spread(void) {
-  wt_spread_angle none;
-  none.shift = wt_real(0.0);
-  none.even = 0.0;
-  return none;
-}
-
 // The mean distance from the edge, in metres, of the waves on the side of a boundary at which g has the argument s and
 // the value g; unit_m: that of the argument, negative on the lit side.
-inline wt_spread_angle wt_spread_of(double s, wt_double2 g, double unit_m) {
-  wt_spread_angle out;
-  out.shift = wt_over(wt_real(1.0) - g * s, g) * unit_m;
-  out.even = s * s / (1.0 + s * s);
-  return out;
+inline wt_double2 wt_spread_of(double s, wt_double2 g, double unit_m) {
+  return wt_over(wt_real(1.0) - g * s, g) * unit_m;
 }
 
 // The reflection at face 0 or 1 of a convex wedge. The face reflects what comes from the end that is nearer to it by
 // azimuth: R. Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the
 // other way. As the faces become one plane, both reflect like the mean of both ends', or it would diffract. spread: of
 // the waves that count on this side of the boundary, their mean distance from the edge, in metres.
-inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_spread_angle spread) {
+inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 spread) {
   const wt_corner* corner = &bend->corner;
   const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * wt_bent(corner->exterior);
   const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
+  const double sines[2] = {fabs(wt_cos_sin(face == 0 ? in : corner->exterior - in).y),
+                           fabs(wt_cos_sin(face == 0 ? away : corner->exterior - away).y)};
+  const double first = bend->legs_m[0] < WT_INFINITY ? bend->legs_m[0] / (bend->legs_m[0] + bend->legs_m[1]) : 0.5;
+  const double lit = bend->sine * (sines[0] * first + sines[1] * (1.0 - first));
   wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
   for (int end = 0; end < 2; ++end) {
     const double part = end == 0 ? share : 1.0 - share, azimuth = end == 0 ? in : away;
     if (part == 0.0) continue;
-    wt_spread_angle angle = spread;
-    angle.shift = spread.shift * (wt_cos_sin(face == 0 ? azimuth : corner->exterior - azimuth).x / bend->legs_m[end]);
-    const wt_matrix wave = wt_reflected_wave(corner, end == 0 ? &bend->there : &bend->back, face, angle);
+    const wt_double2 shift =
+        spread * (wt_cos_sin(face == 0 ? azimuth : corner->exterior - azimuth).x / bend->legs_m[end]);
+    const wt_matrix wave = wt_reflected_wave(corner, end == 0 ? &bend->there : &bend->back, face, lit, shift);
     sum = wt_matrix_sum(sum, part, end == 0 ? wave : wt_other_way(wave));
   }
   return sum;
@@ -194,7 +189,7 @@ inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_spread_a
 // terms of the incident wave one has its boundary behind the other face; it is of the wave that both faces reflect (P.
 // Holm, IEEE Trans. AP 48(8), 2000), so that nothing is left where an end lies on a face that reflects -1. along: a
 // face is grazed, and its reflections are counted elsewhere.
-inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_spread_angle spread) {
+inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_double2 spread) {
   const wt_corner* corner = &bend->corner;
   const int turn = boundary.turn, forward = bend->turn.in <= bend->turn.away;
   if (odd) return wt_convex_reflection(bend, turn > 0, spread);
@@ -206,7 +201,7 @@ inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int o
   }
   if (along || (turn > 0) == forward) return jump;
   const double bent = wt_bent(corner->exterior);
-  const wt_spread_angle none = wt_no_spread();
+  const wt_double2 none = wt_real(0.0);
   const wt_matrix first = wt_convex_reflection(bend, !forward, none);
   const wt_matrix both = wt_matrix_product(wt_convex_reflection(bend, forward, none), first);
   return wt_matrix_sum(wt_scaled(jump, wt_real(1.0 - bent)), -bent, both);
@@ -233,7 +228,7 @@ inline wt_matrix wt_corner_jump(const wt_bend* bend, wt_boundary boundary, int o
 
 // The jump of the geometrical field at boundary `term`, from shadow to light, between the bases of the bend.
 // root_2kl: see wt_term_factors; along, spread: see wt_convex_jump.
-inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int along, wt_spread_angle spread) {
+inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int along, wt_double2 spread) {
   const wt_boundary boundary = bend->turn.boundaries[term];
   const int odd = term / 2;
   if (bend->corner.exterior >= WT_PI) return wt_convex_jump(bend, boundary, odd, along, spread);
@@ -273,7 +268,7 @@ inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces,
     const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend.n);
     const double s = root_2kl * factors.sine;
     const wt_double2 g = wt_transition_over_root(s), factor = g * factors.ratio;
-    wt_spread_angle spread = wt_no_spread();
+    wt_double2 spread = wt_real(0.0);
     if (term >= 2 && wedge.exterior >= WT_PI)
       spread = wt_spread_of(s, g, copysign(root_2kl * wavelength_m / (2.0 * WT_PI), -factors.ratio));
     const wt_matrix jump = wt_jump(&bend, term, root_2kl, 0, spread);
