@@ -24,10 +24,10 @@ using Varied = std::array<bool, input_count>;
 class Dimensions {
  public:
   Dimensions(const World& world, size_t materials)
-      : twins_(world.transmitter_of_receiver()),
-        transmitters_(world.transmitters().size()),
-        vehicles_(3 * (transmitters_ + world.receivers().size())),
-        materials_(vehicles_ + 2 * world.instances().size()),
+      : twins_(world.twins.transmitter_of_receiver),
+        transmitters_(world.transmitters.ends.size()),
+        vehicles_(3 * (transmitters_ + world.receivers.ends.size())),
+        materials_(vehicles_ + 2 * world.fleet.instances.size()),
         count_(materials_ + materials) {}
 
   size_t count() const { return count_; }
@@ -113,7 +113,8 @@ class InputMeasurement {
         setup_(config_, request.device, true),
         frames_(setup_),
         materials_(
-            make_field_tables(setup_.scene, setup_.config, setup_.world.models(), setup_.world.instances()).materials),
+            make_field_tables(setup_.scene, setup_.config, setup_.world.fleet.models, setup_.world.fleet.instances)
+                .materials),
         dimensions_(setup_.world, materials_.size()),
         samples_(normal_hypercube(request.samples, dimensions_.count(), request.seed)) {}
 
@@ -121,7 +122,7 @@ class InputMeasurement {
     out_.samples = request_.samples;
     out_.varied = varied();
     uint64_t links = 0;
-    for (const uint32_t frame : spread_frames(setup_.world.frame_count(), request_.frames)) {
+    for (const uint32_t frame : spread_frames(setup_.world.clock.frame_count(), request_.frames)) {
       nominal_ = setup_.world.state(frame);
       links += nominal_.links.size();
       if (!measure_frame(frame)) {

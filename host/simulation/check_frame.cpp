@@ -96,7 +96,7 @@ CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& feature
 CheckResult check_fields(Setup& setup, const FrameResult& frame) {
   Config config = setup.config;
   config.trace = setup.trace;
-  const FieldModel host(setup.scene, config, setup.world.models(), setup.world.instances());
+  const FieldModel host(setup.scene, config, setup.world.fleet.models, setup.world.fleet.instances);
   const auto expected = rows_with_bits(host.compute(frame.frame, read_visible(setup), frame.world));
   const auto found = rows_with_bits(frame.paths);
   const auto wrong =

@@ -58,9 +58,9 @@ std::vector<CheckTriangle> make_check_triangles(const Setup& s, const WorldState
     }
   };
   add(s.scene, 0, {});
-  for (size_t i = 0; i < s.world.instances().size(); ++i) {
-    const Instance& instance = s.world.instances()[i];
-    add(s.world.models()[instance.model], instance.first_surface, state.instances[i]);
+  for (size_t i = 0; i < s.world.fleet.instances.size(); ++i) {
+    const Instance& instance = s.world.fleet.instances[i];
+    add(s.world.fleet.models[instance.model], instance.first_surface, state.instances[i]);
   }
   return out;
 }

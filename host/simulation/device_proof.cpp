@@ -30,7 +30,7 @@ bool all_passed(std::span<const CheckResult> results) { return std::ranges::all_
 }  // namespace
 
 CheckedFeatures features_to_check(const Setup& setup) {
-  CheckedFeatures out{.instances = !setup.world.instances().empty(),
+  CheckedFeatures out{.instances = !setup.world.fleet.instances.empty(),
                       .transmission = setup.trace.transmission,
                       .scattering = setup.trace.scattering,
                       .diffractions = setup.trace.diffraction ? std::min(setup.trace.max_diffractions, 3u) : 0,

@@ -71,8 +71,8 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   std::optional<LinkBlock> block;
   if (task.is_block())
     block = make_link_block(out.world.links, task.transmitters.value_or(TransmitterRange{0, no_end}),
-                            task.receivers.value_or(ReceiverRange{}), s_.world.receiver_of_transmitter(),
-                            s_.world.transmitter_of_receiver(), s_.origins);
+                            task.receivers.value_or(ReceiverRange{}), s_.world.twins.receiver_of_transmitter,
+                            s_.world.twins.transmitter_of_receiver, s_.origins);
   account.end_stage("poses");
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level

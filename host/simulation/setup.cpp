@@ -35,8 +35,8 @@ Scene make_scene(Setup& s, const std::function<Scene()>& load) {
 }
 
 Config with_all_ends(Config config, const World& world) {
-  config.transmitters = world.transmitters();
-  config.receivers = world.receivers();
+  config.transmitters = world.transmitters.ends;
+  config.receivers = world.receivers.ends;
   return config;
 }
 
@@ -53,7 +53,7 @@ double longest_wavelength_m(const RadioConfig& radio) {
 std::vector<bool> opaque_at_all_carriers(const Setup& s) {
   std::vector<bool> out;
   for (const double carrier_hz : carriers_hz(s.config.radio)) {
-    const auto opaque = opaque_surfaces(s.scene, s.world.models(), s.world.instances(), carrier_hz);
+    const auto opaque = opaque_surfaces(s.scene, s.world.fleet.models, s.world.fleet.instances, carrier_hz);
     if (out.empty()) out.assign(opaque.size(), true);
     for (size_t i = 0; i < out.size(); ++i) out[i] = out[i] && opaque[i];
   }
@@ -62,8 +62,8 @@ std::vector<bool> opaque_at_all_carriers(const Setup& s) {
 
 std::optional<InstancePlacement> make_placement(Setup& s) {
   std::optional<InstancePlacement> out;
-  if (!s.world.instances().empty()) {
-    out.emplace(s.context, s.world.models(), s.world.instances(), s.device_scene);
+  if (!s.world.fleet.instances.empty()) {
+    out.emplace(s.context, s.world.fleet.models, s.world.fleet.instances, s.device_scene);
     out->place(s.device_scene, s.world.state(0).instances);
   }
   if (s.trace.transmission) mark_opaque(s.device_scene, opaque_at_all_carriers(s));
@@ -84,12 +84,12 @@ bool receives_by_spheres(const Config& config) { return config.trace.reception =
 // A sphere receives what this frame's rays meet.
 bool reuses(const Config& config, const World& world, bool frames_follow) {
   return config.trace.reuse && !receives_by_spheres(config) &&
-         (world.frame_count() > 1 || world.live() || frames_follow);
+         (world.clock.frame_count() > 1 || world.live || frames_follow);
 }
 
 std::optional<LaunchSlopes> make_slopes(const Setup& s) {
   std::optional<LaunchSlopes> out;
-  if (s.trace.directions == "horizon") out.emplace(s.around, s.world.reach_m());
+  if (s.trace.directions == "horizon") out.emplace(s.around, s.world.reach_m);
   return out;
 }
 
@@ -97,14 +97,14 @@ std::optional<RayTrails> make_trails(Setup& s) {
   std::optional<RayTrails> out;
   if (receives_by_spheres(s.config) || s.config.output.waypoints > 0)
     out.emplace(s.context, s.trace, s.config.output.waypoints, tracing_depth(s.trace).reflections,
-                SurfaceTable(s.scene, s.world.models(), s.world.instances()));
+                SurfaceTable(s.scene, s.world.fleet.models, s.world.fleet.instances));
   return out;
 }
 
 std::optional<LaunchWindows> make_windows(const Setup& s) {
   std::optional<LaunchWindows> out;
   if (receives_by_spheres(s.config)) return out;
-  out.emplace(s.scene, s.world.models(), s.world.instances(), s.trails || s.config.cache.kind != "none");
+  out.emplace(s.scene, s.world.fleet.models, s.world.fleet.instances, s.trails || s.config.cache.kind != "none");
   return out;
 }
 
@@ -156,16 +156,17 @@ Setup::Setup(std::unique_ptr<gpu::Context> own, gpu::Context* lent, const Config
       context(own_context ? *own_context : *lent),
       device(summary_of(context.info())),
       scene(make_scene(*this, load)),
-      world(asked, scene),
+      world(make_world(asked, scene)),
       around(scene),
       place_warnings(wavetracer::place_warnings(asked, around, world)),
       config(with_all_ends(asked, world)),
       features(choose_features(config, scene, world)),
       trace(with_features(config.trace, features)),
-      origins(make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), trace.diffraction)),
-      device_scene(choose_tree(context, scene, config.trace, positions(world.state(0).transmitters), world.reach_m())),
+      origins(
+          make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.diffraction)),
+      device_scene(choose_tree(context, scene, config.trace, positions(world.state(0).transmitters), world.reach_m)),
       placement(make_placement(*this)),
-      launch_sides(scene, world.models(), world.instances()),
+      launch_sides(scene, world.fleet.models, world.fleet.instances),
       order(make_order(*this)),
       order_summary(summary_of(order)),
       reuse(reuses(config, world, frames_follow)),
@@ -177,7 +178,7 @@ Setup::Setup(std::unique_ptr<gpu::Context> own, gpu::Context* lent, const Config
       exact_paths(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse),
       finish(context, scene, with_trace(config, trace), world),
       elements(config, scene, world) {
-  drop_used(scene.report.warnings, world.models());
+  drop_used(scene.report.warnings, world.fleet.models);
 }
 
 }  // namespace wavetracer

@@ -39,7 +39,7 @@ struct Setup {
   // The time since the end of the last stage belongs to this one of `seconds`.
   void end_stage(const char* name) { seconds[name] += watch.lap(); }
   // Is there anything that rays might meet?
-  bool has_surfaces() const { return !scene.surfaces.empty() || !world.instances().empty(); }
+  bool has_surfaces() const { return !scene.surfaces.empty() || !world.fleet.instances.empty(); }
 
   Stopwatch watch;
   StageSeconds seconds;

@@ -31,7 +31,7 @@ struct Simulation::State {
   // for the device.
   FrameResult run(FrameTask task) {
     const bool whole = setup.reuse || !block_obstacle(setup.config).empty();
-    const auto receivers = static_cast<uint32_t>(setup.world.receivers().size());
+    const auto receivers = static_cast<uint32_t>(setup.world.receivers.ends.size());
     if (whole || receivers < 2) return frames.run(task);
     std::deque<ReceiverRange> left;
     for (const ReceiverRange& batch : receiver_batches(setup.trace, receivers, fitting))
@@ -90,7 +90,7 @@ struct Simulation::State {
 
   // A frame of a live world. pose: the world, and the names in the frame.
   LiveFrame live_frame(const LiveTraffic& traffic, DiscoveryMark& discovery, bool between,
-                       const std::function<WorldState(LiveFrame&)>& pose) {
+                       const std::function<WorldState(LiveNames&)>& pose) {
     LiveFrame out;
     FrameTask task{.transmitter_name = [&](uint32_t end) { return out.transmitters[end]; },
                    .receiver_name = [&](uint32_t end) { return out.receivers[end]; }};
@@ -126,11 +126,11 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch.set(std::move(observer)); }
 void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
 void Simulation::forget() { state_->frames.forget(); }
-uint64_t Simulation::frame_count() const { return state_->setup.world.frame_count(); }
-double Simulation::time_s(uint32_t frame) const { return state_->setup.world.time_s(frame); }
+uint64_t Simulation::frame_count() const { return state_->setup.world.clock.frame_count(); }
+double Simulation::time_s(uint32_t frame) const { return state_->setup.world.clock.time_s(frame); }
 const Config& Simulation::config() const { return state_->setup.config; }
-const std::vector<Instance>& Simulation::instances() const { return state_->setup.world.instances(); }
-const std::vector<Scene>& Simulation::models() const { return state_->setup.world.models(); }
+const std::vector<Instance>& Simulation::instances() const { return state_->setup.world.fleet.instances; }
+const std::vector<Scene>& Simulation::models() const { return state_->setup.world.fleet.models; }
 const Scene& Simulation::scene() const { return state_->setup.scene; }
 std::vector<std::string> Simulation::warnings() const {
   const Setup& s = state_->setup;
@@ -141,11 +141,11 @@ std::vector<std::string> Simulation::warnings() const {
         "others, so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
         s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
         s.config.cache.kind == "thesis" ? "open" : "chained"));
-  if (frame_count() > 1 && !s.world.live())
-    if (const auto text =
-            unmeasured_warning(s.trace.discover_every_s, s.world.step_s(), frame_count(), s.config.output.shard_frames))
+  if (frame_count() > 1 && !s.world.live)
+    if (const auto text = unmeasured_warning(s.trace.discover_every_s, s.world.clock.step_s(), frame_count(),
+                                             s.config.output.shard_frames))
       out.push_back(*text);
-  for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
+  for (const std::vector<std::string>* more : {&s.world.warnings, &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
   for (const std::string& note : s.context.notes()) out.push_back(note);
   return out;
@@ -189,24 +189,28 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {
-  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveFrame& out) {
+  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveNames& names) {
     const World& world = state_->setup.world;
-    WorldState state = world.live_state(traffic, time_s, poses);
+    const std::vector<PlacedPose> placed = world.live_places().place(traffic, time_s, poses);
+    WorldState state = world.state(time_s, placed);
     ++traffic.frames;
-    world.set_names(traffic, out);
+    names = world.names(placed);
     return state;
   });
 }
 
 LiveFrame Simulation::run_between(const LiveTraffic& traffic, double time_s) {
   DiscoveryMark discovery = traffic.discovery;
-  return state_->live_frame(traffic, discovery, true, [&](LiveFrame& out) {
-    return state_->setup.world.live_state_between(traffic, time_s, out);
+  return state_->live_frame(traffic, discovery, true, [&](LiveNames& names) {
+    const World& world = state_->setup.world;
+    const std::vector<PlacedPose> placed = world.live_places().between(traffic, time_s);
+    names = world.names(placed);
+    return world.state(time_s, placed);
   });
 }
 
-const std::vector<LiveType>& Simulation::live_types() const { return state_->setup.world.live_types(); }
-const LiveBounds& Simulation::live_bounds() const { return state_->setup.world.live_bounds(); }
+const std::vector<LiveType>& Simulation::live_types() const { return state_->setup.world.live_places().types(); }
+const LiveBounds& Simulation::live_bounds() const { return state_->setup.world.live_places().bounds(); }
 
 ElementModel::ElementModel(const Simulation& simulation)
     : ElementModel(simulation.config(), simulation.scene(), simulation.models(), simulation.instances()) {}

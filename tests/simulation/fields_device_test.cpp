@@ -47,7 +47,7 @@ std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
   FrameLoop loop(s);
   Config all = s.config;
   all.trace = s.trace;
-  const FieldModel host(s.scene, all, s.world.models(), s.world.instances());
+  const FieldModel host(s.scene, all, s.world.fleet.models, s.world.fleet.instances);
   std::map<uint8_t, size_t> kinds;
   for (uint32_t frame = 0; frame < frames; ++frame) {
     const FrameResult found = loop.run({.frame = frame,
