@@ -43,7 +43,10 @@ TracedWorld::TracedWorld(const Config& config, const std::string& device_text)
       device(summary(context.info())) {
   prove_device(context, {.instances = !world.fleet.instances.empty()});
   if (world.fleet.instances.empty()) return;
-  placement.emplace(context, world.fleet.models, world.fleet.instances, on_device);
+  auto [placed, place] =
+      with_instances(context, std::move(on_device), scene, world.fleet.models, world.fleet.instances);
+  on_device = std::move(placed);
+  placement.emplace(context, std::move(place), world.fleet.instances.size());
   placement->place(on_device, world.state(0).instances);
 }
 
