@@ -44,8 +44,9 @@ std::vector<Box> boxes_of(const std::vector<Placement>& placements, const Scene&
 // Returns the time of a frame's placement, including its transfers.
 double place_seconds(gpu::Context& context, const Scene& block, const std::vector<Scene>& models,
                      const std::vector<Instance>& instances, TopLevelBuild build, size_t runs) {
-  DeviceScene scene = make_device_scene(context, block, false, 2 * half_width_m);
-  InstancePlacement placement(context, models, instances, scene, build);
+  auto [scene, place] =
+      with_instances(context, make_device_scene(context, block, false, 2 * half_width_m), block, models, instances);
+  InstancePlacement placement(context, std::move(place), instances.size(), build);
   std::mt19937 generator(1);
   std::vector<double> seconds;
   for (size_t run = 0; run <= runs; run++) {

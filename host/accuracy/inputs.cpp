@@ -25,10 +25,10 @@ using Varied = std::array<bool, input_count>;
 class Dimensions {
  public:
   Dimensions(const World& world, size_t materials)
-      : twins_(world.transmitter_of_receiver()),
-        transmitters_(world.transmitters().size()),
-        vehicles_(3 * (transmitters_ + world.receivers().size())),
-        materials_(vehicles_ + 2 * world.instances().size()),
+      : twins_(world.twins.transmitter_of_receiver),
+        transmitters_(world.transmitters.ends.size()),
+        vehicles_(3 * (transmitters_ + world.receivers.ends.size())),
+        materials_(vehicles_ + 2 * world.fleet.instances.size()),
         count_(materials_ + materials) {}
 
   size_t count() const { return count_; }
@@ -111,19 +111,20 @@ class InputMeasurement {
       : request_(request),
         host_(host),
         config_(study_config(request)),
-        setup_(config_, request.device, true),
+        setup_(make_setup(config_, request.device, true)),
         frames_(setup_),
-        materials_(
-            make_field_tables(setup_.scene, setup_.config, setup_.world.models(), setup_.world.instances()).materials),
-        dimensions_(setup_.world, materials_.size()),
+        materials_(make_field_tables(setup_.plan->scene, setup_.plan->asked, setup_.plan->world.fleet.models,
+                                     setup_.plan->world.fleet.instances)
+                       .materials),
+        dimensions_(setup_.plan->world, materials_.size()),
         samples_(normal_hypercube(request.samples, dimensions_.count(), request.seed)) {}
 
   InputStudy operator()() {
     out_.samples = request_.samples;
     out_.varied = varied();
     uint64_t links = 0;
-    for (const uint32_t frame : spread_frames(setup_.world.frame_count(), request_.frames)) {
-      nominal_ = setup_.world.state(frame);
+    for (const uint32_t frame : spread_frames(setup_.plan->world.clock.frame_count(), request_.frames)) {
+      nominal_ = setup_.plan->world.state(frame);
       links += nominal_.links.size();
       if (!measure_frame(frame)) {
         out_.stopped = true;
@@ -142,7 +143,7 @@ class InputMeasurement {
  private:
   Varied varied() const {
     const auto fixed = [](const EndState& end) { return end.instance == no_instance; };
-    const WorldState state = setup_.world.state(0);
+    const WorldState state = setup_.plan->world.state(0);
     const InputErrors& e = request_.errors;
     return {e.position_m > 0 &&
                 (std::ranges::any_of(state.transmitters, fixed) || std::ranges::any_of(state.receivers, fixed)),
@@ -183,8 +184,8 @@ class InputMeasurement {
     const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
     const FrameResult result = frames_.run({.frame = frame,
                                             .pose = [&] { return state; },
-                                            .transmitter_name = name(setup_.config.transmitters),
-                                            .receiver_name = name(setup_.config.receivers),
+                                            .transmitter_name = name(setup_.plan->asked.transmitters),
+                                            .receiver_name = name(setup_.plan->asked.receivers),
                                             .timed = false});
     const double seconds = result.seconds.at("frame");
     if (sample) {
@@ -196,7 +197,7 @@ class InputMeasurement {
     }
     out_.late.add(result.late);
     const std::vector<LinkFigures> figures =
-        link_figures(result.paths, frame, state.links, setup_.config.radio.frequency_hz);
+        link_figures(result.paths, frame, state.links, setup_.plan->asked.radio.frequency_hz);
     for (size_t i = 0; i < figures.size(); ++i) {
       if (figures[i].paths == 0 || !std::isfinite(figures[i].path_gain_db)) continue;
       keep(observed_[i].gain_db, figures[i].path_gain_db);
@@ -236,8 +237,8 @@ class InputMeasurement {
       const Link link = nominal_.links[i];
       const LinkObserved& seen = observed_[i];
       InputRow row{.frame = frame,
-                   .tx = setup_.config.transmitters[link.tx].name,
-                   .rx = setup_.config.receivers[link.rx].name,
+                   .tx = setup_.plan->asked.transmitters[link.tx].name,
+                   .rx = setup_.plan->asked.receivers[link.rx].name,
                    .samples = static_cast<uint32_t>(seen.gain_db.together.size()),
                    .gain_db = seen.gain_db.interval(),
                    .delay_spread_ns = seen.delay_spread_ns.interval()};

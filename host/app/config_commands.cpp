@@ -26,10 +26,10 @@ namespace {
 // cache that is too small for its transmitters.
 void check_run(const Config& config, const Scene& scene, const World& world) {
   Config radio = config;
-  radio.transmitters = world.transmitters();
-  radio.receivers = world.receivers();
+  radio.transmitters = world.transmitters.ends;
+  radio.receivers = world.receivers.ends;
   radio.trace = with_features(config.trace, choose_features(radio, scene, world));
-  make_field_tables(scene, radio, world.models(), world.instances());
+  make_field_tables(scene, radio, world.fleet.models, world.fleet.instances);
   for (const ArrayConfig& array : config.arrays) {
     RadioEnd end;
     end.array = array.name;
@@ -41,12 +41,12 @@ void check_run(const Config& config, const Scene& scene, const World& world) {
 // Returns the warnings of a run about the scene, fixed ends and vehicles, which it loads for that.
 std::vector<std::string> world_warnings(const Config& config) {
   const Scene scene = load_scene(config);
-  const World world(config, scene);
+  const World world = make_world(config, scene);
   check_run(config, scene, world);
   known_streets(config);
   std::vector<std::string> out = scene.report.warnings;
-  drop_used(out, world.models());
-  for (const auto& more : {world.warnings(), place_warnings(config, Surroundings(scene), world)})
+  drop_used(out, world.fleet.models);
+  for (const auto& more : {world.warnings, place_warnings(config, Surroundings(scene), world)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

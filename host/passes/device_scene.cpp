@@ -12,11 +12,8 @@
 
 namespace wavetracer {
 
-namespace {
-
-void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out) {
-  std::vector<wt_surface> surfaces;
-  std::vector<wt_exact_surface> exact;
+SurfaceRecords surface_records(const Scene& scene, size_t more, const std::vector<bool>& opaque) {
+  SurfaceRecords out;
   for (const Surface& s : scene.surfaces) {
     wt_surface record{};
     wt_exact_surface exact_record{};
@@ -31,17 +28,15 @@ void upload_surfaces(gpu::Context& context, const Scene& scene, DeviceScene& out
     exact_record.first_triangle = s.first_triangle;
     exact_record.triangle_count = s.triangle_count;
     exact_record.instance = WT_NONE;
-    surfaces.push_back(record);
-    exact.push_back(exact_record);
+    out.surfaces.push_back(record);
+    out.exact.push_back(exact_record);
   }
-  out.surfaces = context.buffer(surfaces, {"surfaces", advice::scene});
-  out.exact_surfaces = context.buffer(exact, {"exact surfaces", advice::scene});
-  out.exact_triangles = context.buffer(surface_corners(scene), {"surface triangles", advice::scene});
-  out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
-  out.moving = context.buffer<wt_float4>(1, "moving");
+  const size_t all = scene.surfaces.size() + more;
+  out.surfaces.resize(all);
+  out.exact.resize(all);
+  for (size_t i = 0; i < all && !opaque.empty(); ++i) out.exact[i].opaque = opaque.at(i);
+  return out;
 }
-
-}  // namespace
 
 std::vector<double> surface_corners(const Scene& scene) {
   std::vector<double> corners;
@@ -52,12 +47,6 @@ std::vector<double> surface_corners(const Scene& scene) {
   return corners;
 }
 
-void mark_opaque(DeviceScene& scene, const std::vector<bool>& opaque) {
-  std::vector<wt_exact_surface> surfaces = scene.exact_surfaces.read();
-  for (size_t i = 0; i < surfaces.size(); ++i) surfaces[i].opaque = opaque.at(i);
-  scene.exact_surfaces.write(surfaces);
-}
-
 void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
   const uint32_t step = name == "WT_BVH8_STACK" ? 64 : 32;
   std::string& size = definitions[name];
@@ -65,7 +54,8 @@ void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
       std::max((entries + step) / step * step, size.empty() ? 0u : static_cast<uint32_t>(std::stoul(size))));
 }
 
-DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m) {
+DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m,
+                              const std::vector<bool>& opaque) {
   DeviceScene out;
   out.extent_m = static_cast<float>(reach_m);
   for (int axis = 0; axis < 3; ++axis)
@@ -91,7 +81,12 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
     out.blocks8 = context.buffer(eight.blocks, {"BVH8 blocks", advice::scene});
     out.require_stack("WT_BVH8_STACK", 7 * eight.max_depth + 1);
   }
-  upload_surfaces(context, scene, out);
+  const SurfaceRecords records = surface_records(scene, 0, opaque);
+  out.surfaces = context.buffer(records.surfaces, {"surfaces", advice::scene});
+  out.exact_surfaces = context.buffer(records.exact, {"exact surfaces", advice::scene});
+  out.exact_triangles = context.buffer(surface_corners(scene), {"surface triangles", advice::scene});
+  out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
+  out.moving = context.buffer<wt_float4>(1, "moving");
   out.primitive_count = static_cast<uint32_t>(scene.triangles.size());
   return out;
 }

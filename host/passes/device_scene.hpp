@@ -45,12 +45,20 @@ struct DeviceScene {
 // The corners of the triangles of all surfaces, grouped by surface, nine doubles each.
 std::vector<double> surface_corners(const Scene& scene);
 
-// Marks the surfaces that no wave passes: a flag for each surface of the world, those of instances included, so after
-// place has made room for them.
-void mark_opaque(DeviceScene& scene, const std::vector<bool>& opaque);
+// The surfaces of a world as kernels read them, by their number.
+struct SurfaceRecords {
+  std::vector<wt_surface> surfaces;
+  std::vector<wt_exact_surface> exact;
+};
+
+// The surfaces of a scene, and behind them room for `more` surfaces of instances, which place fills. opaque: for each
+// of all these, whether no wave passes it; empty where no kernel asks.
+SurfaceRecords surface_records(const Scene& scene, size_t more, const std::vector<bool>& opaque);
 
 // Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
 // coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
-DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0);
+// opaque: see surface_records(); flags behind those of the scene are left out.
+DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0,
+                              const std::vector<bool>& opaque = {});
 
 }  // namespace wavetracer

@@ -77,33 +77,40 @@ Box placed(const Box& box, const Placement& placement) {
 }  // namespace
 
 Place::Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
-             DeviceScene& scene)
+             const DeviceScene& scene, size_t static_surfaces)
     : kernel_(context.kernel("place", "place")),
       local_(context.info().simple_local_size()),
       instances_(instances),
       models_(models.size()),
-      first_surface_(static_cast<uint32_t>(scene.surfaces.size())),
+      first_surface_(static_cast<uint32_t>(static_surfaces)),
       extent_m_(scene.extent_m) {
   uint32_t primitive = scene.primitive_count;
   for (const Instance& instance : instances_) {
     first_primitive_.push_back(primitive);
     primitive += static_cast<uint32_t>(models[instance.model].triangles.size());
   }
-  upload_surfaces(context, models, scene);
-  upload_trees(context, models, scene);
-  for (const Instance& instance : instances_) {
-    wt_exact_instance& record = records_.emplace_back();
-    record.first_surface = instance.first_surface;
-    record.first_model_surface = models_[instance.model].first_surface;
-    record.first_wedge = instance.first_wedge;
-  }
-  scene.exact_instances = context.buffer<wt_exact_instance>(records_.size(), "instances");
-  scene.definitions["WT_INSTANCES"] = "1";
 }
 
-void Place::upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene) {
+PlacedScene Place::make(gpu::Context& context, DeviceScene scene, const Scene& still, const std::vector<Scene>& models,
+                        const std::vector<Instance>& instances, const std::vector<bool>& opaque) {
+  Place place(context, models, instances, scene, still.surfaces.size());
+  place.upload_surfaces(context, still, models, opaque, scene);
+  place.upload_trees(context, models, scene);
+  for (const Instance& instance : instances) {
+    wt_exact_instance& record = place.records_.emplace_back();
+    record.first_surface = instance.first_surface;
+    record.first_model_surface = place.models_[instance.model].first_surface;
+    record.first_wedge = instance.first_wedge;
+  }
+  scene.exact_instances = context.buffer<wt_exact_instance>(place.records_.size(), "instances");
+  scene.definitions["WT_INSTANCES"] = "1";
+  return {std::move(scene), std::move(place)};
+}
+
+void Place::upload_surfaces(gpu::Context& context, const Scene& still, const std::vector<Scene>& models,
+                            const std::vector<bool>& opaque, DeviceScene& scene) {
   std::vector<wt_model_surface> records;
-  std::vector<double> corners = scene.exact_triangles.read();
+  std::vector<double> corners = surface_corners(still);
   for (size_t m = 0; m < models.size(); ++m) {
     models_[m].first_surface = static_cast<uint32_t>(records.size());
     const auto first_triangle = static_cast<uint32_t>(corners.size() / 9);
@@ -129,13 +136,9 @@ void Place::upload_surfaces(gpu::Context& context, const std::vector<Scene>& mod
   model_surfaces_ = context.buffer(records, "model surfaces");
   surface_instances_ = context.buffer(owners, "surface instances");
   scene.exact_triangles = context.buffer(corners, {"surface triangles", advice::scene});
-  const auto extended = [&](auto& buffer, const char* name) {
-    auto records_of_all = buffer.read();
-    records_of_all.resize(size_t{first_surface_} + surface_count_);
-    buffer = context.buffer(records_of_all, name);
-  };
-  extended(scene.surfaces, "surfaces");
-  extended(scene.exact_surfaces, "exact surfaces");
+  const SurfaceRecords all = surface_records(still, surface_count_, opaque);
+  scene.surfaces = context.buffer(all.surfaces, "surfaces");
+  scene.exact_surfaces = context.buffer(all.exact, "exact surfaces");
 }
 
 template <class Node, class Leaf>

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "accel/box.hpp"
@@ -13,13 +14,14 @@
 
 namespace wavetracer {
 
+struct PlacedScene;
+
 class Place {
  public:
-  // Gives `scene` room for the surfaces of every instance, the models' trees, and the definitions that kernels which
-  // trace it need. Surfaces of instances follow those of the static scene as Instance::first_surface says. At least one
-  // instance.
-  Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
-        DeviceScene& scene);
+  // See with_instances().
+  static PlacedScene make(gpu::Context& context, DeviceScene scene, const Scene& still,
+                          const std::vector<Scene>& models, const std::vector<Instance>& instances,
+                          const std::vector<bool>& opaque);
   // Moves all instances, and builds the tree over them on the host; placements are in the order of the instances.
   void operator()(DeviceScene& scene, std::span<const Placement> placements);
   // The same without the tree, for those that build it elsewhere (passes/top_level.hpp).
@@ -33,7 +35,11 @@ class Place {
     int32_t root = 0;
     uint32_t first_surface = 0;
   };
-  void upload_surfaces(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
+  // Makes its own tables; the rest of make() gives `scene` what belongs into it.
+  Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
+        const DeviceScene& scene, size_t static_surfaces);
+  void upload_surfaces(gpu::Context& context, const Scene& still, const std::vector<Scene>& models,
+                       const std::vector<bool>& opaque, DeviceScene& scene);
   void upload_trees(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void write_top_level(DeviceScene& scene, std::span<const Placement> placements);
   void upload_bvh2(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
@@ -60,5 +66,20 @@ class Place {
   std::vector<Box> boxes_;
   std::vector<wt_float4> top_;  // the top-level tree and its instances: `moving` between its head and the models' trees
 };
+
+// A scene in which instances move, and the pass that moves them.
+struct PlacedScene {
+  DeviceScene scene;
+  Place place;
+};
+
+// The scene, which is that of `still`, with room for the surfaces of every instance, the models' trees, and the
+// definitions that kernels which trace it need. Surfaces of instances follow those of the static scene as
+// Instance::first_surface says. At least one instance. opaque: see surface_records().
+inline PlacedScene with_instances(gpu::Context& context, DeviceScene scene, const Scene& still,
+                                  const std::vector<Scene>& models, const std::vector<Instance>& instances,
+                                  const std::vector<bool>& opaque = {}) {
+  return Place::make(context, std::move(scene), still, models, instances, opaque);
+}
 
 }  // namespace wavetracer

@@ -79,10 +79,10 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
   });
   if (run.instances().empty()) return out;
   attempt("vehicles are shown without their bodies", [&] {
-    const World world(out.config, out.scene);
+    const World world = make_world(out.config, out.scene);
     std::map<std::string, uint32_t> model_of;
-    for (const Instance& instance : world.instances()) model_of.emplace(instance.id, instance.model);
-    out.models = world.models();
+    for (const Instance& instance : world.fleet.instances) model_of.emplace(instance.id, instance.model);
+    out.models = world.fleet.models;
     for (size_t i = 0; i < run.instances().size(); ++i)
       if (const auto found = model_of.find(run.instances()[i].id); found != model_of.end())
         out.instance_model[i] = found->second;

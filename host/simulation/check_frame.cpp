@@ -64,7 +64,7 @@ KnownFrame known_of(const Paths& paths) {
 }
 
 CheckResult check_sequences(Setup& setup, const FrameResult& frame) {
-  const std::vector<uint64_t> table = setup.discovery.sequences().table().read();
+  const std::vector<uint64_t> table = setup.discovery->sequences().table().read();
   constexpr uint64_t empty = WT_EMPTY;
   std::set<uint64_t> known;
   size_t used = 0, loose = 0;
@@ -94,9 +94,8 @@ CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& feature
 }
 
 CheckResult check_fields(Setup& setup, const FrameResult& frame) {
-  Config config = setup.config;
-  config.trace = setup.trace;
-  const FieldModel host(setup.scene, config, setup.world.models(), setup.world.instances());
+  const FieldModel host(setup.plan->scene, setup.plan->computed(), setup.plan->world.fleet.models,
+                        setup.plan->world.fleet.instances);
   const auto expected = rows_with_bits(host.compute(frame.frame, read_visible(setup), frame.world));
   const auto found = rows_with_bits(frame.paths);
   const auto wrong =

@@ -57,10 +57,10 @@ std::vector<CheckTriangle> make_check_triangles(const Setup& s, const WorldState
       out.push_back(triangle);
     }
   };
-  add(s.scene, 0, {});
-  for (size_t i = 0; i < s.world.instances().size(); ++i) {
-    const Instance& instance = s.world.instances()[i];
-    add(s.world.models()[instance.model], instance.first_surface, state.instances[i]);
+  add(s.plan->scene, 0, {});
+  for (size_t i = 0; i < s.plan->world.fleet.instances.size(); ++i) {
+    const Instance& instance = s.plan->world.fleet.instances[i];
+    add(s.plan->world.fleet.models[instance.model], instance.first_surface, state.instances[i]);
   }
   return out;
 }
@@ -119,7 +119,7 @@ RayQueue upload_rays(gpu::Context& context, const std::vector<CheckRay>& rays) {
 std::vector<CheckHit> trace_rays(Setup& s, const std::vector<CheckRay>& rays) {
   const RayQueue queue = upload_rays(s.context, rays);
   HitList hits = make_hit_list(s.context, rays.size());
-  Trace trace(s.context, s.device_scene, choose_shape(s.context.info(), s.trace, s.order.plan));
+  Trace trace(s.context, s.device_scene, choose_shape(s.context.info(), s.plan->trace, s.order.plan));
   trace(s.device_scene, queue, hits);
   const auto plane = [&](size_t which) { return hits.planes.read(which * hits.capacity, rays.size()); };
   const std::vector<float> t = plane(WT_HIT_T), primitive = plane(WT_HIT_PRIMITIVE), surface = plane(WT_HIT_SURFACE);

@@ -43,8 +43,8 @@ class DeviceCheck {
     add(check_sums(context_));
     stage_ = "traversal";
     const Config config = check_config(features_);
-    setup_.emplace(context_, config, check_scene(config), features_.reuse);
-    const WorldState state = check_state(setup_->world);
+    setup_.emplace(make_setup(context_, config, check_scene(config), features_.reuse));
+    const WorldState state = check_state(setup_->plan->world);
     if (setup_->placement) setup_->placement->place(setup_->device_scene, state.instances);
     add(check_traversal(*setup_, state));
   }
@@ -63,8 +63,9 @@ class DeviceCheck {
 
   FrameResult run(FrameLoop& frames) {
     const auto no_name = [](uint32_t) { return std::string(); };
-    return frames.run(
-        {.pose = [&] { return check_state(setup_->world); }, .transmitter_name = no_name, .receiver_name = no_name});
+    return frames.run({.pose = [&] { return check_state(setup_->plan->world); },
+                       .transmitter_name = no_name,
+                       .receiver_name = no_name});
   }
 
   gpu::Context& context_;

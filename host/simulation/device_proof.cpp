@@ -30,12 +30,13 @@ bool all_passed(std::span<const CheckResult> results) { return std::ranges::all_
 }  // namespace
 
 CheckedFeatures features_to_check(const Setup& setup) {
-  CheckedFeatures out{.instances = !setup.world.instances().empty(),
-                      .transmission = setup.trace.transmission,
-                      .scattering = setup.trace.scattering,
-                      .diffractions = setup.trace.diffraction ? std::min(setup.trace.max_diffractions, 3u) : 0,
-                      .reuse = setup.reuse};
-  if (setup.cache && !setup.cache->as_printed()) out.cache = setup.config.cache;
+  CheckedFeatures out{
+      .instances = !setup.plan->world.fleet.instances.empty(),
+      .transmission = setup.plan->trace.transmission,
+      .scattering = setup.plan->trace.scattering,
+      .diffractions = setup.plan->trace.diffraction ? std::min(setup.plan->trace.max_diffractions, 3u) : 0,
+      .reuse = setup.plan->reuse};
+  if (setup.cache && !setup.cache->as_printed()) out.cache = setup.plan->asked.cache;
   return out;
 }
 

@@ -7,7 +7,7 @@ namespace wavetracer {
 
 ElementOutputs::ElementOutputs(const Config& config, const Scene& scene, const World& world) : config_(config) {
   if (has_beams(config)) beams_.emplace(config);
-  if (beams_ || config.response.bandwidth_hz) model_.emplace(config, scene, world.models(), world.instances());
+  if (beams_ || config.response.bandwidth_hz) model_.emplace(config, scene, world.fleet.models, world.fleet.instances);
 }
 
 void ElementOutputs::operator()(FrameResult& frame) const {

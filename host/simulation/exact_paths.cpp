@@ -21,7 +21,7 @@ uint64_t fitting_tiles(const gpu::DeviceInfo& device) {
 
 uint32_t surface_count(const Scene& scene, const World& world) {
   size_t count = scene.surfaces.size();
-  for (const Instance& instance : world.instances()) count += world.models()[instance.model].surfaces.size();
+  for (const Instance& instance : world.fleet.instances) count += world.fleet.models[instance.model].surfaces.size();
   return static_cast<uint32_t>(count);
 }
 
@@ -39,17 +39,18 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
   if (trace.diffraction) {
     std::optional<WedgePairs> two;
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
-    diffraction.emplace(context, Wedges(context, scene, world.models(), world.instances(), trace.free_edges),
+    diffraction.emplace(context, Wedges(context, scene, world.fleet.models, world.fleet.instances, trace.free_edges),
                         origins.receiver_of_origin, trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
     if (depth.edges > 1) {
-      const auto instances = static_cast<uint32_t>(world.instances().size());
-      const WedgeGrid grid(wedge_records(scene, world.models(), world.instances()),
+      const auto instances = static_cast<uint32_t>(world.fleet.instances.size());
+      const WedgeGrid grid(wedge_records(scene, world.fleet.models, world.fleet.instances),
                            static_cast<uint32_t>(scene.wedges.size()), instances, trace.free_edges);
       diffraction->chains.emplace(context, grid, depth.edges, depth.row, longest_wavelength_m);
     }
   }
   if (trace.scattering) {
-    const TileTable tiles(scene, world.models(), world.instances(), trace.tile_m, fitting_tiles(context.info()));
+    const TileTable tiles(scene, world.fleet.models, world.fleet.instances, trace.tile_m,
+                          fitting_tiles(context.info()));
     if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), depth.row);
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);

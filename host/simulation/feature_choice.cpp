@@ -23,7 +23,7 @@ namespace {
 
 template <class Holds>
 bool any_scene(const Scene& scene, const World& world, const Holds& holds) {
-  return holds(scene) || std::ranges::any_of(world.models(), holds);
+  return holds(scene) || std::ranges::any_of(world.fleet.models, holds);
 }
 
 template <class Holds>
@@ -88,7 +88,7 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   out["double_diffraction"] = feature({{!out["diffraction"].on, "diffraction is off"},
                                        {trace.max_diffractions < 2, "trace.max_diffractions = 1"},
                                        {trace.max_depth < 2, "trace.max_depth = 1"}});
-  out["instances"] = feature({{world.instances().empty(), "no vehicle has a body"}});
+  out["instances"] = feature({{world.fleet.instances.empty(), "no vehicle has a body"}});
   out["vegetation"] = feature({{scene.volumes.empty(), "the scene has no volume of vegetation"}});
   const AirConfig& air = config.air;
   out["air"] = feature({{!air.gases && air.fog_g_m3 == 0 && air.rain_mm_h == 0,

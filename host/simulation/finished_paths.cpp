@@ -19,18 +19,18 @@ RowCounts expected_rows(const wt_counters& last) {
 
 FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world)
     : context_(context),
-      distinct_(context, world.receiver_of_transmitter(), world.transmitter_of_receiver()),
+      distinct_(context, world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver),
       sort_(context),
       scan_(context),
       carriers_hz_(carriers_hz(config.radio)) {
   if (config.trace.diffraction)
-    groups_.emplace(context, plane_records(scene, world.models(), world.instances()), tracing_depth(config.trace).edges,
-                    speed_of_light_m_s / config.radio.frequency_hz);
+    groups_.emplace(context, plane_records(scene, world.fleet.models, world.fleet.instances),
+                    tracing_depth(config.trace).edges, speed_of_light_m_s / config.radio.frequency_hz);
   if (!scene.volumes.empty()) vegetation_.emplace(context, volume_table(scene));
   for (const double carrier_hz : carriers_hz_) {
     Config at_carrier = config;
     at_carrier.radio.frequency_hz = carrier_hz;
-    fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.models(), world.instances()),
+    fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.fleet.models, world.fleet.instances),
                          tracing_depth(config.trace).edges, scene.origin_m);
   }
 }

@@ -28,16 +28,16 @@ LateCounts late_counts(const Paths& known, const Paths& all) {
 
 // PoCL compiles a kernel for the shape of its first launch, which would take most of the first frame. So what a frame
 // launches is launched before, by few rays of one transmitter, and forgotten.
-FrameLoop::FrameLoop(Setup& setup) : s_(setup), clock_(setup.config.trace.discover_every_s) {
+FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_.trace.discover_every_s) {
   if (s_.context.info().cpu) {
     try {
-      solve({.pose = [this] { return s_.world.state(0); }, .compiling = true});
+      solve({.pose = [this] { return plan_.world.state(0); }, .compiling = true});
     } catch (const gpu::BufferError&) {
       // Frames make their lists shorter, or say it.
     }
     forget();
   }
-  s_.end_stage("compile");
+  s_.stages.end("compile");
 }
 
 void FrameLoop::forget() {
@@ -71,42 +71,42 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   std::optional<LinkBlock> block;
   if (task.is_block())
     block = make_link_block(out.world.links, task.transmitters.value_or(TransmitterRange{0, no_end}),
-                            task.receivers.value_or(ReceiverRange{}), s_.world.receiver_of_transmitter(),
-                            s_.world.transmitter_of_receiver(), s_.origins);
+                            task.receivers.value_or(ReceiverRange{}), plan_.world.twins.receiver_of_transmitter,
+                            plan_.world.twins.transmitter_of_receiver, plan_.origins);
   account.end_stage("poses");
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level
   const std::vector<Link>& links = block ? block->solved : out.world.links;
-  set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, s_.origins.listeners);
+  set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, plan_.origins.listeners);
   const RadioEnds& ends = ends_;
-  const bool warm = s_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
+  const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
   DiscoveryMark& discovery = task.discovery ? *task.discovery : discovery_;
   const bool searches = !spared && clock_.due(out.world, !warm, discovery);
   std::optional<Paths> known;  // before rays add to the sequences
   if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
   // Frames like the one before: what tells of rays on their way, and blocks of links, are not.
   const bool alike = !block && !task.compiling && !known && !s_.cache && !s_.trails;
-  if (searches) next_frame(s_.discovery.sequences());
+  if (searches) next_frame(s_.discovery->sequences());
   if (s_.cache) s_.cache->begin_frame(out.world);
   if (s_.trails) s_.trails->begin_frame(task.frame, ends, out.world);
 
   const auto [found, counted] = find_paths(task, out.world, ends, block ? &*block : nullptr, searches, alike, account);
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
-  if (s_.cache && s_.config.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
+  if (s_.cache && plan_.asked.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   LeftOut left_out;
   out.paths = s_.finish.take(counted, left_out, &out.carriers);
-  if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, s_.config.radio.frequency_hz);
+  if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
   const bool spheres = s_.trails && s_.trails->receives();
   if (s_.cache || spheres) out.paths.quarters.clear();  // what they find, no smaller launch tells of
-  const auto few = few_met_warning(found, s_.has_surfaces() && !spheres);
+  const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
   if (few) account.warn(*few);
   if (found.rays > 0 && !few) out.missed = missed_counts(out.paths, 0, out.paths.size());
   if (known) out.late = late_counts(*known, out.paths);
-  if (const auto text = recall_warning(found, s_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
+  if (const auto text = recall_warning(found, plan_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
   if (task.left_out)
     task.left_out->merge(left_out);
@@ -124,7 +124,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 // if it was not.
 FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                                        const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
-  Sequences& set = s_.discovery.sequences();
+  Sequences& set = s_.discovery->sequences();
   Counters& counters = set.counters();
   Found out;
   counters.foresee(alike);
@@ -133,7 +133,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
     const Uncounted besides = s_.trails && s_.trails->receives()
                                   ? receive_paths(ends, account)
-                                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, s_.frame_watch,
+                                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, *s_.frame_watch,
                                                 account);  // sequences to visible
     account.end_stage("paths");
     finish_paths(task.frame, world, ends, block ? &block->own : nullptr, true);  // distinct to fields
@@ -149,9 +149,9 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
 // The paths of the sequences that are known, with the same rules as those of the frame.
 Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                              FrameAccount& account) {
-  Sequences& set = s_.discovery.sequences();
+  Sequences& set = s_.discovery->sequences();
   set.counters().zero();
-  solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, s_.frame_watch, account);
+  solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
   account.end_stage("paths");
   finish_paths(task.frame, world, ends, nullptr, false);
   const wt_counters counted = set.counters().read("fields");
@@ -167,15 +167,15 @@ void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const Radi
                              const std::vector<Link>* own, bool carriers) {
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
   s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, carriers,
-                  s_.discovery.sequences().counters());
+                  s_.discovery->sequences().counters());
 }
 
 // What is entered from now on is younger than all before, and what is too old is forgotten.
 void FrameLoop::next_frame(Sequences& set) {
-  if (!s_.reuse) warm_frames_ = 0;
+  if (!plan_.reuse) warm_frames_ = 0;
   set.begin_frame();
-  if (warm_frames_ > 0 && warm_frames_ % s_.trace.forget_frames == 0)
-    set.forget(s_.trace.forget_frames, s_.trace.max_depth);
+  if (warm_frames_ > 0 && warm_frames_ % plan_.trace.forget_frames == 0)
+    set.forget(plan_.trace.forget_frames, plan_.trace.max_depth);
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
@@ -189,9 +189,9 @@ void FrameLoop::begin_sequences(Sequences& set, bool searches) {
 // With diffraction listeners launch too, and what both ends see meets at the edge.
 DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   std::vector<Launcher> transmitters = sending(world), listeners;
-  if (s_.trace.diffraction) listeners = listening(world, s_.origins);
+  if (plan_.trace.diffraction) listeners = listening(world, plan_.origins);
   SlopeTables tables;
-  if (s_.slopes) tables = s_.slopes->tables(world, s_.origins);
+  if (s_.slopes) tables = s_.slopes->tables(world, plan_.origins);
   for (std::vector<Launcher>* const ends : {&transmitters, &listeners}) {
     if (block) *ends = launchers_of(*block, *ends);
     if (task.compiling) ends->resize(std::min<size_t>(ends->size(), 1));
@@ -200,20 +200,21 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
       if (s_.slopes) launcher.heights = tables.of_origin[launcher.transmitter];
     if (s_.windows) *ends = s_.windows->of(*ends, world, tables);
   }
-  if (!tables.values.empty()) s_.discovery.set_heights(tables.values);
-  if (!s_.trace.rays) {
+  if (!tables.values.empty()) s_.discovery->set_heights(tables.values);
+  if (!plan_.trace.rays) {
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
-    return s_.discovery.find_refined(s_.device_scene, transmitters, warm_frames_);
+    return s_.discovery->find_refined(s_.device_scene, transmitters, warm_frames_);
   }
-  std::vector<Launch> launches = frame_launches(s_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
+  std::vector<Launch> launches =
+      frame_launches(plan_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
   for (Launch& launch : launches)
     if (task.compiling) launch.share = few_directions(launch.rays);
-  return s_.discovery.find_all(s_.device_scene, launches);
+  return s_.discovery->find_all(s_.device_scene, launches);
 }
 
 // The thesis' way: rays that pass a receiver's sphere are its paths.
 Uncounted FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
-  Sequences& set = s_.discovery.sequences();
+  Sequences& set = s_.discovery->sequences();
   set.collect(ends.transmitter_count);
   account.result.counts.receptions = s_.trails->receptions();
   account.device_done();

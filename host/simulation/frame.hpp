@@ -53,6 +53,7 @@ class FrameLoop {
   Paths known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
+  const RunPlan& plan_;
   DiscoveryClock clock_;
   DiscoveryMark discovery_;   // of the drive
   RadioEnds ends_;            // of the frame

@@ -28,7 +28,7 @@ class Lines {
  public:
   Lines(const Surroundings& around, const World& world, const WorldState& state)
       : around_(around), world_(world), state_(state) {
-    for (const Scene& model : world.models()) models_.emplace_back(model);
+    for (const Scene& model : world.fleet.models) models_.emplace_back(model);
   }
 
   // From transmitter to receiver, the nearest first; without the vehicles that carry them.
@@ -40,8 +40,8 @@ class Lines {
       const Placement& placed = state_.instances[i];
       if (!placed.present || i == tx.instance || i == rx.instance) continue;
       const auto own = [&](const glm::dvec3& p) { return glm::transpose(placed.rotation) * (p - placed.position_m); };
-      add(models_[world_.instances()[i].model], own(tx.position_m), own(rx.position_m),
-          fmt::format("vehicle \"{}\"", world_.instances()[i].id), out);
+      add(models_[world_.fleet.instances[i].model], own(tx.position_m), own(rx.position_m),
+          fmt::format("vehicle \"{}\"", world_.fleet.instances[i].id), out);
     }
     std::ranges::stable_sort(out, {}, &Obstacle::distance_m);
     return out;
@@ -117,7 +117,7 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
   const Lines lines(around, world, state);
   const auto why = [&](const Link& link) {
     std::string text =
-        fmt::format("{} -> {} has no path", world.transmitters()[link.tx].name, world.receivers()[link.rx].name);
+        fmt::format("{} -> {} has no path", world.transmitters.ends[link.tx].name, world.receivers.ends[link.rx].name);
     const std::vector<Obstacle> obstacles = lines.obstacles(link);
     if (obstacles.empty())
       return text + (config.trace.reception == "sphere"
@@ -133,7 +133,7 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
   };
   const auto in_grid = [&](uint32_t rx) {
     return std::ranges::any_of(config.receiver_grids, [&](const ReceiverGridConfig& grid) {
-      return grid_cell(grid.name, world.receivers()[rx].name).has_value();
+      return grid_cell(grid.name, world.receivers.ends[rx].name).has_value();
     });
   };
   size_t path = 0;  // links and paths are in one order

@@ -28,14 +28,14 @@ struct Candidate {
   double seconds = 0;
 };
 
-std::vector<Candidate> candidates(const Config& config) {
-  std::vector<Candidate> all{{{"none", false, config.order.bin_num}}};
-  const size_t dimensions = config.launch.shape.index();  // 0: auto
+std::vector<Candidate> candidates(const OrderConfig& order, const LaunchConfig& launch) {
+  std::vector<Candidate> all{{{"none", false, order.bin_num}}};
+  const size_t dimensions = launch.shape.index();  // 0: auto
   for (const OrderMethodRow& method : order_methods) {
     const bool fits = method.launch_dimensions == 0 || dimensions == 0 || dimensions == method.launch_dimensions;
-    if (method.key && fits) all.push_back({{method.name, false, config.order.bin_num}});
+    if (method.key && fits) all.push_back({{method.name, false, order.bin_num}});
   }
-  all.push_back({{"direction-origin", true, config.order.bin_num}});
+  all.push_back({{"direction-origin", true, order.bin_num}});
   return all;
 }
 
@@ -50,15 +50,15 @@ double measure(gpu::Context& context, const DeviceScene& scene, const TraceConfi
 }
 
 // Everything that the choice depends on but the device, which the context adds.
-std::string subject_of(const Scene& scene, const Config& config, const TraceConfig& sample) {
+std::string subject_of(const Scene& scene, const OrderConfig& order, const LaunchConfig& launch,
+                       const TraceConfig& sample) {
   const auto bytes = [](const auto& list) {
     return std::string_view(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
   };
   std::string subject = fmt::format(
       "order of rays, version 1\nrays 2^{} depth {} directions {} seed {} batch {} bins {} shape {} local {}\n",
       std::bit_width(*sample.rays), sample.max_depth, sample.directions.word(), sample.seed,
-      sample.batch_rays.value_or(0), config.order.bin_num, config.launch.shape.word(),
-      config.launch.local_size.value_or(0));
+      sample.batch_rays.value_or(0), order.bin_num, launch.shape.word(), launch.local_size.value_or(0));
   for (const char* program : {"trace_bvh2", "trace_bvh8", "trace_packet16", "order_keys", "radix_sort",
                               "radix_sort_cpu", "bitonic_sort", "interact"})
     subject += gpu::program_source(program);
@@ -84,16 +84,17 @@ std::string reason_of(std::vector<Candidate> measured, const Candidate& best, ui
 }  // namespace
 
 OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
-                         const Config& config, const std::vector<glm::dvec3>& transmitters) {
-  if (transmitters.empty()) return {plan_order({}, config.launch), "no transmitter exists, so nothing was measured"};
-  TraceConfig sample = config.trace;
+                         const OrderConfig& asked, const LaunchConfig& launch, const TraceConfig& trace,
+                         const std::vector<glm::dvec3>& transmitters) {
+  if (transmitters.empty()) return {plan_order({}, launch), "no transmitter exists, so nothing was measured"};
+  TraceConfig sample = trace;
   sample.rays = std::min(sample.rays.value_or(most_sample_rays), most_sample_rays);
-  const std::string subject = subject_of(scene, config, sample);
+  const std::string subject = subject_of(scene, asked, launch, sample);
   const auto choice_of = [&](OrderMethod method, bool each_depth, const std::string& reason) {
-    OrderConfig order = config.order;
+    OrderConfig order = asked;
     order.method = method;
     order.each_depth = each_depth;
-    return OrderChoice{plan_order(order, config.launch), reason};
+    return OrderChoice{plan_order(order, launch), reason};
   };
   if (const auto kept = context.recall(subject)) {
     // method, each_depth, reason: a line each.
@@ -102,9 +103,9 @@ OrderChoice choose_order(gpu::Context& context, const Scene& scene, const Device
     if (std::getline(lines, method) && std::getline(lines, each_depth) && std::getline(lines, reason))
       return choice_of(OrderMethod::named(method), each_depth == "1", reason + " (kept from an earlier run)");
   }
-  std::vector<Candidate> all = candidates(config);
+  std::vector<Candidate> all = candidates(asked, launch);
   for (Candidate& c : all)
-    c.seconds = measure(context, device_scene, sample, plan_order(c.order, config.launch), transmitters.front());
+    c.seconds = measure(context, device_scene, sample, plan_order(c.order, launch), transmitters.front());
   const auto fastest =
       std::min_element(all.begin() + 1, all.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   const Candidate& best = fastest->seconds * least_gain < all.front().seconds ? *fastest : all.front();

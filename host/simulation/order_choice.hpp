@@ -18,6 +18,7 @@ struct OrderChoice {
 // Times one transmitter's rays with every order, or uses the result that an earlier run stored beside the programs for
 // the same device, scene, directions, ray count and depth. transmitters: recentred metres.
 OrderChoice choose_order(gpu::Context& context, const Scene& scene, const DeviceScene& device_scene,
-                         const Config& config, const std::vector<glm::dvec3>& transmitters);
+                         const OrderConfig& order, const LaunchConfig& launch, const TraceConfig& trace,
+                         const std::vector<glm::dvec3>& transmitters);
 
 }  // namespace wavetracer

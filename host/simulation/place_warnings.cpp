@@ -97,7 +97,7 @@ class Ends {
       rx.findings[near] = fmt::format(
           "is {:.3g} m from transmitter \"{}\", less than a wavelength ({:.3g} m): far fields "
           "do not hold there",
-          apart_m, world_.transmitters()[link.tx].name, wavelength_m_);
+          apart_m, world_.transmitters.ends[link.tx].name, wavelength_m_);
   }
 
   void name_bodies() {
@@ -125,10 +125,10 @@ void say_named(const Config& config, const Ends& ends, const World& world, Kind 
   };
   const size_t stations = config.stations.size();
   for (size_t i = 0; i < config.transmitters.size() + stations; ++i)
-    say("transmitter", config.transmitters.size(), world.transmitters(), i, ends.transmitter(i));
+    say("transmitter", config.transmitters.size(), world.transmitters.ends, i, ends.transmitter(i));
   for (size_t i = 0; i < config.receivers.size() + stations; ++i)
-    if (world.transmitter_of_receiver()[i] == no_end)  // else it was named as a transmitter
-      say("receiver", config.receivers.size(), world.receivers(), i, ends.receiver(i));
+    if (world.twins.transmitter_of_receiver[i] == no_end)  // else it was named as a transmitter
+      say("receiver", config.receivers.size(), world.receivers.ends, i, ends.receiver(i));
   few.end(fmt::format("other antennas are {}", words[kind]));
 }
 
@@ -151,12 +151,12 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
 }
 
 void say_links(const Config& config, const World& world, std::vector<std::string>& out) {
-  if (!world.any_link_allowed())
+  if (!world.links.any_allowed())
     out.push_back(
         fmt::format("no link is computed: [links] allows none between the {} transmitters and the {} receivers; "
                     "look at v2v, v2i, i2i, same_vehicle, transmitters and receivers there",
-                    world.transmitters().size(), world.receivers().size()));
-  else if (world.frame_count() == 1 && !world.live() && world.state(0).links.empty())
+                    world.transmitters.ends.size(), world.receivers.ends.size()));
+  else if (world.clock.frame_count() == 1 && !world.live && world.state(0).links.empty())
     out.push_back(
         fmt::format("no link is computed: no transmitter and receiver that [links] allows come within "
                     "links.max_distance_m = {:g} m of each other",
@@ -175,7 +175,7 @@ std::vector<std::string> place_warnings(const Config& config, const Surroundings
       out.push_back(fmt::format("[[mount]] \"{}\": offset_m is {:.3g} m below the ground under its vehicle", mount.name,
                                 -mount.offset_m[2]));
   say_links(config, world, out);
-  if (!world.live()) {
+  if (!world.live) {
     std::vector<std::string> vehicles = vehicle_warnings(around, world);
     std::move(vehicles.begin(), vehicles.end(), std::back_inserter(out));
   }

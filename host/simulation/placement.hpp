@@ -18,13 +18,12 @@ enum class TopLevelBuild { fastest, host, device };
 
 class InstancePlacement {
  public:
-  // See the constructor of Place.
-  InstancePlacement(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
-                    DeviceScene& scene, TopLevelBuild build = TopLevelBuild::fastest)
-      : place_(context, models, instances, scene) {
+  // place: see with_instances(); it moves `instances` of them.
+  InstancePlacement(gpu::Context& context, Place place, size_t instances, TopLevelBuild build = TopLevelBuild::fastest)
+      : place_(std::move(place)) {
     if (build == TopLevelBuild::host || (build == TopLevelBuild::fastest && tuning_of(context.info()).alone)) return;
     least_ = build == TopLevelBuild::device ? 0 : device_tree_instances;
-    if (instances.size() < least_) return;
+    if (instances < least_) return;
     tree_.emplace(context, place_.bodies());
     sort_.emplace(context);
   }

@@ -40,9 +40,9 @@ bool moved(const Placement& a, const Placement& b, double step_m) {
 
 void check_cache(const Config& config, const World& world) {
   if (config.cache.kind == "none") return;
-  check_cache_share(
-      config.cache,
-      make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), config.trace.diffraction).count());
+  check_cache_share(config.cache, make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver,
+                                               config.trace.diffraction)
+                                      .count());
 }
 
 CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmitters) {
@@ -50,9 +50,9 @@ CacheWorld cache_world(const Scene& scene, const World& world, uint32_t transmit
                  .surfaces = static_cast<uint32_t>(scene.surfaces.size()),
                  .primitives = static_cast<uint32_t>(scene.triangles.size()),
                  .static_surfaces = static_cast<uint32_t>(scene.surfaces.size()),
-                 .instances = static_cast<uint32_t>(world.instances().size())};
-  for (const Instance& instance : world.instances()) {
-    const Scene& model = world.models()[instance.model];
+                 .instances = static_cast<uint32_t>(world.fleet.instances.size())};
+  for (const Instance& instance : world.fleet.instances) {
+    const Scene& model = world.fleet.models[instance.model];
     out.surfaces += static_cast<uint32_t>(model.surfaces.size());
     out.primitives += static_cast<uint32_t>(model.triangles.size());
   }

@@ -1,14 +1,11 @@
-// Members that need more than a constructor are made by functions, in the order of setup.hpp.
+// The parts of a setup, each made of the plan and of parts before it.
 #include "simulation/setup.hpp"
 
 #include "radio/carriers.hpp"
 #include "radio/constants.hpp"
-#include "radio/opacity.hpp"
 #include "scene/load.hpp"
-#include "scene/materials.hpp"
 #include "scene/surface_sheets.hpp"
 #include "simulation/device_proof.hpp"
-#include "simulation/feature_choice.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/tracing_depth.hpp"
 #include "simulation/tree_choice.hpp"
@@ -27,157 +24,135 @@ OrderSummary summary_of(const OrderChoice& choice) {
           choice.reason};
 }
 
-Scene make_scene(Setup& s, const std::function<Scene()>& load) {
-  s.end_stage("device");
-  Scene out = load();
-  s.end_stage("load");
-  return out;
-}
-
-Config with_all_ends(Config config, const World& world) {
-  config.transmitters = world.transmitters();
-  config.receivers = world.receivers();
-  return config;
-}
-
-std::vector<glm::dvec3> positions(const std::vector<EndState>& ends) {
-  std::vector<glm::dvec3> out;
-  for (const EndState& end : ends) out.push_back(end.position_m);
-  return out;
-}
-
 double longest_wavelength_m(const RadioConfig& radio) {
   return speed_of_light_m_s / std::ranges::min(carriers_hz(radio));
 }
 
-std::vector<bool> opaque_at_all_carriers(const Setup& s) {
-  std::vector<bool> out;
-  for (const double carrier_hz : carriers_hz(s.config.radio)) {
-    const auto opaque = opaque_surfaces(s.scene, s.world.models(), s.world.instances(), carrier_hz);
-    if (out.empty()) out.assign(opaque.size(), true);
-    for (size_t i = 0; i < out.size(); ++i) out[i] = out[i] && opaque[i];
-  }
-  return out;
+struct SceneOnDevice {
+  DeviceScene scene;
+  std::optional<InstancePlacement> placement;  // where there are instances
+};
+
+// The scene with its instances where they are in the first frame.
+SceneOnDevice upload(gpu::Context& context, const RunPlan& plan) {
+  const World& world = plan.world;
+  const std::vector<bool> opaque = opaque_surfaces(plan);
+  DeviceScene still = choose_tree(context, plan.scene, plan.trace, first_transmitters(world), world.reach_m, opaque);
+  if (world.fleet.instances.empty()) return {std::move(still), {}};
+  auto [scene, place] =
+      with_instances(context, std::move(still), plan.scene, world.fleet.models, world.fleet.instances, opaque);
+  InstancePlacement placement(context, std::move(place), world.fleet.instances.size());
+  placement.place(scene, world.state(0).instances);
+  return {std::move(scene), std::move(placement)};
 }
 
-std::optional<InstancePlacement> make_placement(Setup& s) {
-  std::optional<InstancePlacement> out;
-  if (!s.world.instances().empty()) {
-    out.emplace(s.context, s.world.models(), s.world.instances(), s.device_scene);
-    out->place(s.device_scene, s.world.state(0).instances);
-  }
-  if (s.trace.transmission) mark_opaque(s.device_scene, opaque_at_all_carriers(s));
-  return out;
+OrderChoice make_order(gpu::Context& context, const RunPlan& plan, const DeviceScene& scene) {
+  const Config& asked = plan.asked;
+  if (asked.order.method != "auto") return {plan_order(asked.order, asked.launch), ""};
+  return choose_order(context, plan.scene, scene, asked.order, asked.launch, plan.trace,
+                      first_transmitters(plan.world));
 }
 
-OrderChoice make_order(Setup& s) {
-  s.end_stage("build");
-  if (s.config.order.method != "auto") return {plan_order(s.config.order, s.config.launch), ""};
-  OrderChoice out =
-      choose_order(s.context, s.scene, s.device_scene, s.config, positions(s.world.state(0).transmitters));
-  s.end_stage("order");
-  return out;
+std::unique_ptr<RayTrails> make_trails(gpu::Context& context, const RunPlan& plan) {
+  const uint64_t waypoints = plan.asked.output.waypoints;
+  if (!plan.by_spheres() && waypoints == 0) return nullptr;
+  const Fleet& fleet = plan.world.fleet;
+  return std::make_unique<RayTrails>(context, plan.trace, waypoints, tracing_depth(plan.trace).reflections,
+                                     SurfaceTable(plan.scene, fleet.models, fleet.instances));
 }
 
-bool receives_by_spheres(const Config& config) { return config.trace.reception == "sphere"; }
-
-// A sphere receives what this frame's rays meet.
-bool reuses(const Config& config, const World& world, bool frames_follow) {
-  return config.trace.reuse && !receives_by_spheres(config) &&
-         (world.frame_count() > 1 || world.live() || frames_follow);
-}
-
-std::optional<LaunchSlopes> make_slopes(const Setup& s) {
-  std::optional<LaunchSlopes> out;
-  if (s.trace.directions == "horizon") out.emplace(s.around, s.world.reach_m());
-  return out;
-}
-
-std::optional<RayTrails> make_trails(Setup& s) {
-  std::optional<RayTrails> out;
-  if (receives_by_spheres(s.config) || s.config.output.waypoints > 0)
-    out.emplace(s.context, s.trace, s.config.output.waypoints, tracing_depth(s.trace).reflections,
-                SurfaceTable(s.scene, s.world.models(), s.world.instances()));
-  return out;
-}
-
-std::optional<LaunchWindows> make_windows(const Setup& s) {
+std::optional<LaunchWindows> make_windows(const RunPlan& plan, bool followed) {
   std::optional<LaunchWindows> out;
-  if (receives_by_spheres(s.config)) return out;
-  out.emplace(s.scene, s.world.models(), s.world.instances(), s.trails || s.config.cache.kind != "none");
+  const Fleet& fleet = plan.world.fleet;
+  if (!plan.by_spheres())
+    out.emplace(plan.scene, fleet.models, fleet.instances, followed || plan.asked.cache.kind != "none");
   return out;
 }
 
-std::optional<RayCache> make_cache(Setup& s) {
-  std::optional<RayCache> out;
-  if (s.config.cache.kind == "none") return out;
+std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan, const DeviceScene& scene,
+                                     const OrderPlan& order, RayTrails* trails) {
+  if (plan.asked.cache.kind == "none") return nullptr;
   CachedReception reception;
-  if (receives_by_spheres(s.config)) reception = {&*s.trails, s.config.trace.sphere_radius_m};
-  out.emplace(s.context, s.device_scene, s.config.cache, cache_world(s.scene, s.world, s.origins.count()),
-              choose_shape(s.context.info(), s.trace, s.order.plan), s.order.plan.launch, reception);
-  return out;
+  if (plan.by_spheres()) reception = {trails, plan.trace.sphere_radius_m};
+  return std::make_unique<RayCache>(context, scene, plan.asked.cache,
+                                    cache_world(plan.scene, plan.world, plan.origins.count()),
+                                    choose_shape(context.info(), plan.trace, order), order.launch, reception);
 }
 
 // Is the ground many surfaces? A street of a few patches is not, the coarsest of terrains is.
 bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
 
-DiscoveryOptions discovery_options(Setup& s) {
-  return {.order = s.order.plan,
-          .keep_ages = s.reuse,
-          .finder = s.cache ? &*s.cache : nullptr,
-          .follower = s.trails ? &*s.trails : nullptr,
-          .watch = &s.frame_watch,
-          .hilly = !s.trace.rays && is_hilly(s.scene)};
-}
-
-Config with_trace(Config config, const TraceConfig& trace) {
-  config.trace = trace;
-  return config;
+// own: null where the caller lends the context.
+Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Config& asked,
+             const std::function<Scene()>& load, bool frames_follow) {
+  StageClock stages;
+  stages.end("device");
+  Scene loaded = load();
+  stages.end("load");
+  auto plan = std::make_unique<const RunPlan>(plan_run(asked, std::move(loaded), frames_follow));
+  const auto& [scene, world, config, features, trace, origins, reuse] = *plan;
+  auto around = std::make_unique<const Surroundings>(scene);
+  std::vector<std::string> warnings = place_warnings(asked, *around, world);
+  auto [device_scene, placement] = upload(context, *plan);
+  LaunchSides launch_sides(scene, world.fleet.models, world.fleet.instances);
+  stages.end("build");
+  const OrderChoice order = make_order(context, *plan, device_scene);
+  if (config.order.method == "auto") stages.end("order");
+  std::optional<LaunchSlopes> slopes;
+  if (trace.directions == "horizon") slopes.emplace(*around, world.reach_m);
+  auto trails = make_trails(context, *plan);
+  auto windows = make_windows(*plan, trails != nullptr);
+  auto cache = make_cache(context, *plan, device_scene, order.plan, trails.get());
+  auto watch = std::make_unique<FrameWatch>();
+  auto discovery = std::make_unique<Discovery>(context, device_scene, trace,
+                                               DiscoveryOptions{.order = order.plan,
+                                                                .keep_ages = reuse,
+                                                                .finder = cache.get(),
+                                                                .follower = trails.get(),
+                                                                .watch = watch.get(),
+                                                                .hilly = !trace.rays && is_hilly(scene)});
+  ExactPaths exact(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse);
+  FinishedPaths finish(context, scene, plan->computed(), world);
+  ElementOutputs elements(config, scene, world);
+  return {.stages = stages,
+          .own_context = std::move(own),
+          .context = context,
+          .device = summary_of(context.info()),
+          .plan = std::move(plan),
+          .around = std::move(around),
+          .place_warnings = std::move(warnings),
+          .device_scene = std::move(device_scene),
+          .placement = std::move(placement),
+          .launch_sides = std::move(launch_sides),
+          .order = order,
+          .order_summary = summary_of(order),
+          .slopes = std::move(slopes),
+          .trails = std::move(trails),
+          .windows = std::move(windows),
+          .cache = std::move(cache),
+          .frame_watch = std::move(watch),
+          .discovery = std::move(discovery),
+          .exact_paths = std::move(exact),
+          .finish = std::move(finish),
+          .elements = std::move(elements)};
 }
 
 }  // namespace
 
-Setup::Setup(const Config& asked, const std::string& device_text, bool frames_follow)
-    : Setup(
-          std::make_unique<gpu::Context>(device_text), nullptr, asked, [&] { return load_scene(asked); },
-          frames_follow) {
-  end_stage("compile");
-  prove_device(context, features_to_check(*this));
-  end_stage("device check");
+Setup make_setup(const Config& asked, const std::string& device_text, bool frames_follow) {
+  auto context = std::make_unique<gpu::Context>(device_text);
+  gpu::Context& device = *context;
+  Setup out = set_up(
+      std::move(context), device, asked, [&] { return load_scene(asked); }, frames_follow);
+  out.stages.end("compile");
+  prove_device(device, features_to_check(out));
+  out.stages.end("device check");
+  return out;
 }
 
-Setup::Setup(gpu::Context& lent, const Config& asked, const Scene& given, bool frames_follow)
-    : Setup(
-          nullptr, &lent, asked, [&] { return given; }, frames_follow) {}
-
-Setup::Setup(std::unique_ptr<gpu::Context> own, gpu::Context* lent, const Config& asked,
-             const std::function<Scene()>& load, bool frames_follow)
-    : own_context(std::move(own)),
-      context(own_context ? *own_context : *lent),
-      device(summary_of(context.info())),
-      scene(make_scene(*this, load)),
-      world(asked, scene),
-      around(scene),
-      place_warnings(wavetracer::place_warnings(asked, around, world)),
-      config(with_all_ends(asked, world)),
-      features(choose_features(config, scene, world)),
-      trace(with_features(config.trace, features)),
-      origins(make_origins(world.receiver_of_transmitter(), world.transmitter_of_receiver(), trace.diffraction)),
-      device_scene(choose_tree(context, scene, config.trace, positions(world.state(0).transmitters), world.reach_m())),
-      placement(make_placement(*this)),
-      launch_sides(scene, world.models(), world.instances()),
-      order(make_order(*this)),
-      order_summary(summary_of(order)),
-      reuse(reuses(config, world, frames_follow)),
-      slopes(make_slopes(*this)),
-      trails(make_trails(*this)),
-      windows(make_windows(*this)),
-      cache(make_cache(*this)),
-      discovery(context, device_scene, trace, discovery_options(*this)),
-      exact_paths(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse),
-      finish(context, scene, with_trace(config, trace), world),
-      elements(config, scene, world) {
-  drop_used(scene.report.warnings, world.models());
+Setup make_setup(gpu::Context& context, const Config& asked, const Scene& scene, bool frames_follow) {
+  return set_up(
+      nullptr, context, asked, [&] { return scene; }, frames_follow);
 }
 
 }  // namespace wavetracer

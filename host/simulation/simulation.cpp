@@ -16,25 +16,27 @@
 namespace wavetracer {
 
 struct Simulation::State {
-  State(const Config& asked, const std::string& device_text) : setup(asked, device_text), frames(setup) {}
+  State(const Config& asked, const std::string& device_text) : setup(make_setup(asked, device_text)), frames(setup) {}
+
+  const RunPlan& plan() const { return *setup.plan; }
 
   // Frames of the configuration's own ends.
   FrameTask task(uint32_t frame) const {
     const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
     return {.frame = frame,
-            .pose = [this, frame] { return setup.world.state(frame); },
-            .transmitter_name = name(setup.config.transmitters),
-            .receiver_name = name(setup.config.receivers)};
+            .pose = [this, frame] { return plan().world.state(frame); },
+            .transmitter_name = name(plan().asked.transmitters),
+            .receiver_name = name(plan().asked.receivers)};
   }
 
   // A frame that reuses nothing may be solved in batches of receivers, which are halved where their lists are too long
   // for the device.
   FrameResult run(FrameTask task) {
-    const bool whole = setup.reuse || !block_obstacle(setup.config).empty();
-    const auto receivers = static_cast<uint32_t>(setup.world.receivers().size());
+    const bool whole = plan().reuse || !block_obstacle(plan().asked).empty();
+    const auto receivers = static_cast<uint32_t>(plan().world.receivers.ends.size());
     if (whole || receivers < 2) return frames.run(task);
     std::deque<ReceiverRange> left;
-    for (const ReceiverRange& batch : receiver_batches(setup.trace, receivers, fitting))
+    for (const ReceiverRange& batch : receiver_batches(plan().trace, receivers, fitting))
       left.push_back({batch.first, std::min(batch.end, receivers)});
     if (left.size() == 1) {
       try {
@@ -60,7 +62,7 @@ struct Simulation::State {
     LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
     task.left_out = &left_out;
     while (!left.empty()) {
-      setup.frame_watch.set_part(parts.size(), parts.size() + left.size());
+      setup.frame_watch->set_part(parts.size(), parts.size() + left.size());
       task.receivers = left.front();
       try {
         parts.push_back(frames.run(task));
@@ -70,14 +72,14 @@ struct Simulation::State {
         halve(left);
       }
     }
-    setup.frame_watch.set_part(0, 1);
+    setup.frame_watch->set_part(0, 1);
     FrameResult out = joined_batches(std::move(parts));
     if (fitting < no_end)
       out.warnings.push_back(fmt::format(
           "the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at a "
           "time, for each of which the transmitters launch their rays again{}",
           setup.device.name, fitting,
-          setup.trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
+          plan().trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
     if (!left_out.empty())
       out.warnings.push_back(left_out_warning(left_out, task.transmitter_name, task.receiver_name));
     if (setup.elements.on()) {  // of all links at once
@@ -90,7 +92,7 @@ struct Simulation::State {
 
   // A frame of a live world. pose: the world, and the names in the frame.
   LiveFrame live_frame(const LiveTraffic& traffic, DiscoveryMark& discovery, bool between,
-                       const std::function<WorldState(LiveFrame&)>& pose) {
+                       const std::function<WorldState(LiveNames&)>& pose) {
     LiveFrame out;
     FrameTask task{.transmitter_name = [&](uint32_t end) { return out.transmitters[end]; },
                    .receiver_name = [&](uint32_t end) { return out.receivers[end]; }};
@@ -123,48 +125,49 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch.set(std::move(observer)); }
+void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch->set(std::move(observer)); }
 void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
 void Simulation::forget() { state_->frames.forget(); }
-uint64_t Simulation::frame_count() const { return state_->setup.world.frame_count(); }
-double Simulation::time_s(uint32_t frame) const { return state_->setup.world.time_s(frame); }
-const Config& Simulation::config() const { return state_->setup.config; }
-const std::vector<Instance>& Simulation::instances() const { return state_->setup.world.instances(); }
-const std::vector<Scene>& Simulation::models() const { return state_->setup.world.models(); }
-const Scene& Simulation::scene() const { return state_->setup.scene; }
+uint64_t Simulation::frame_count() const { return state_->plan().world.clock.frame_count(); }
+double Simulation::time_s(uint32_t frame) const { return state_->plan().world.clock.time_s(frame); }
+const Config& Simulation::config() const { return state_->plan().asked; }
+const std::vector<Instance>& Simulation::instances() const { return state_->plan().world.fleet.instances; }
+const std::vector<Scene>& Simulation::models() const { return state_->plan().world.fleet.models; }
+const Scene& Simulation::scene() const { return state_->plan().scene; }
 std::vector<std::string> Simulation::warnings() const {
   const Setup& s = state_->setup;
-  std::vector<std::string> out = s.scene.report.warnings;
+  const RunPlan& plan = *s.plan;
+  std::vector<std::string> out = plan.scene.report.warnings;
   if (s.cache && s.cache->as_printed())
     out.push_back(fmt::format(
         "cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get results of "
         "others, so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
-        s.config.cache.kind.text(), s.config.trace.reception == "sphere" ? " or wrong" : "",
-        s.config.cache.kind == "thesis" ? "open" : "chained"));
-  if (frame_count() > 1 && !s.world.live())
-    if (const auto text =
-            unmeasured_warning(s.trace.discover_every_s, s.world.step_s(), frame_count(), s.config.output.shard_frames))
+        plan.asked.cache.kind.text(), plan.asked.trace.reception == "sphere" ? " or wrong" : "",
+        plan.asked.cache.kind == "thesis" ? "open" : "chained"));
+  if (frame_count() > 1 && !plan.world.live)
+    if (const auto text = unmeasured_warning(plan.trace.discover_every_s, plan.world.clock.step_s(), frame_count(),
+                                             plan.asked.output.shard_frames))
       out.push_back(*text);
-  for (const std::vector<std::string>* more : {&s.world.warnings(), &s.place_warnings})
+  for (const std::vector<std::string>* more : {&plan.world.warnings, &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
   for (const std::string& note : s.context.notes()) out.push_back(note);
   return out;
 }
 
 MissingLinks Simulation::explain_missing(const FrameResult& frame) const {
-  const Setup& s = state_->setup;
+  const RunPlan& plan = state_->plan();
   const Paths& paths = frame.paths;
   size_t found = 0;  // links that have a path; rows of a link are neighbours
   for (size_t i = 0; i < paths.size(); ++i)
     found += i == 0 || paths.tx[i] != paths.tx[i - 1] || paths.rx[i] != paths.rx[i - 1];
   if (found == frame.world.links.size()) return {};
-  return wavetracer::explain_missing(s.config, s.features, s.around, s.world, frame);
+  return wavetracer::explain_missing(plan.asked, plan.features, *state_->setup.around, plan.world, frame);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->setup.device; }
 const OrderSummary& Simulation::order() const { return state_->setup.order_summary; }
-const Features& Simulation::features() const { return state_->setup.features; }
-const StageSeconds& Simulation::setup_seconds() const { return state_->setup.seconds; }
+const Features& Simulation::features() const { return state_->plan().features; }
+const StageSeconds& Simulation::setup_seconds() const { return state_->setup.stages.seconds(); }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
   FrameTask task = state_->task(frame);
@@ -189,24 +192,28 @@ FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters)
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {
-  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveFrame& out) {
-    const World& world = state_->setup.world;
-    WorldState state = world.live_state(traffic, time_s, poses);
+  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveNames& names) {
+    const World& world = state_->plan().world;
+    const std::vector<PlacedPose> placed = world.live_places().place(traffic, time_s, poses);
+    WorldState state = world.state(time_s, placed);
     ++traffic.frames;
-    world.set_names(traffic, out);
+    names = world.names(placed);
     return state;
   });
 }
 
 LiveFrame Simulation::run_between(const LiveTraffic& traffic, double time_s) {
   DiscoveryMark discovery = traffic.discovery;
-  return state_->live_frame(traffic, discovery, true, [&](LiveFrame& out) {
-    return state_->setup.world.live_state_between(traffic, time_s, out);
+  return state_->live_frame(traffic, discovery, true, [&](LiveNames& names) {
+    const World& world = state_->plan().world;
+    const std::vector<PlacedPose> placed = world.live_places().between(traffic, time_s);
+    names = world.names(placed);
+    return world.state(time_s, placed);
   });
 }
 
-const std::vector<LiveType>& Simulation::live_types() const { return state_->setup.world.live_types(); }
-const LiveBounds& Simulation::live_bounds() const { return state_->setup.world.live_bounds(); }
+const std::vector<LiveType>& Simulation::live_types() const { return state_->plan().world.live_places().types(); }
+const LiveBounds& Simulation::live_bounds() const { return state_->plan().world.live_places().bounds(); }
 
 ElementModel::ElementModel(const Simulation& simulation)
     : ElementModel(simulation.config(), simulation.scene(), simulation.models(), simulation.instances()) {}

@@ -22,10 +22,10 @@ double sample_seconds(gpu::Context& context, const DeviceScene& scene, const Tra
 }  // namespace
 
 DeviceScene choose_tree(gpu::Context& context, const Scene& scene, const TraceConfig& config,
-                        const std::vector<glm::dvec3>& transmitters, double reach_m) {
-  DeviceScene plain = make_device_scene(context, scene, false, reach_m);
+                        const std::vector<glm::dvec3>& transmitters, double reach_m, const std::vector<bool>& opaque) {
+  DeviceScene plain = make_device_scene(context, scene, false, reach_m, opaque);
   if (config.rays.value_or(0) * transmitters.size() < tree_choice_rays) return plain;
-  DeviceScene split = make_device_scene(context, scene, true, reach_m);
+  DeviceScene split = make_device_scene(context, scene, true, reach_m, opaque);
   TraceConfig sample = config;
   sample.rays = std::max<uint64_t>(tree_choice_rays / 32 / transmitters.size(), 1);
   return sample_seconds(context, split, sample, transmitters) < sample_seconds(context, plain, sample, transmitters)

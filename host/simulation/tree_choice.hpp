@@ -12,8 +12,8 @@ namespace wavetracer {
 // Launches a frame of at least this many rays pay for building two trees and sampling both.
 constexpr uint64_t tree_choice_rays = uint64_t{1} << 24;
 
-// transmitters: recentred metres; reach_m: see make_device_scene.
+// transmitters: recentred metres; reach_m, opaque: see make_device_scene.
 DeviceScene choose_tree(gpu::Context& context, const Scene& scene, const TraceConfig& config,
-                        const std::vector<glm::dvec3>& transmitters, double reach_m);
+                        const std::vector<glm::dvec3>& transmitters, double reach_m, const std::vector<bool>& opaque);
 
 }  // namespace wavetracer

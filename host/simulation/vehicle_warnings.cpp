@@ -53,15 +53,15 @@ std::optional<Finding> look(const Surroundings& around, bool grounded, const Pos
 // The frames in which a vehicle may be there, or evenly spread ones of them.
 template <class Visit>
 void visit_frames(const World& world, const Track& track, uint64_t most, const Visit& visit) {
-  const uint64_t frames = world.frame_count();
-  const double start_s = world.time_s(0), step_s = world.step_s();
+  const uint64_t frames = world.clock.frame_count();
+  const double start_s = world.clock.time_s(0), step_s = world.clock.step_s();
   const auto frame_at = [&](double time_s) {
     return static_cast<uint64_t>(std::clamp((time_s - start_s) / step_s, 0.0, static_cast<double>(frames - 1)));
   };
   const uint64_t first = frame_at(track.samples.front().time_s), last = frame_at(track.samples.back().time_s);
   const uint64_t stride = (last - first) / most + 1;
   for (uint64_t frame = first; frame <= last; frame += stride)
-    if (const auto pose = pose_at(track, world.time_s(frame))) visit(world.time_s(frame), *pose);
+    if (const auto pose = pose_at(track, world.clock.time_s(frame))) visit(world.clock.time_s(frame), *pose);
 }
 
 // How many vehicles do so, and the first of them.
@@ -74,7 +74,7 @@ struct Count {
 class Drive {
  public:
   void look_at(const Surroundings& around, const World& world) {
-    const Trajectories& all = world.trajectories();
+    const Trajectories& all = world.fleet.trajectories;
     const uint64_t most = std::max<uint64_t>(most_places / std::max<size_t>(all.tracks.size(), 1), 1);
     const bool grounded = around.has_ground();
     for (const Track& track : all.tracks) {
@@ -114,7 +114,7 @@ class Drive {
 std::vector<std::string> vehicle_warnings(const Surroundings& around, const World& world) {
   Drive drive;
   drive.look_at(around, world);
-  return drive.warnings(world.trajectories().tracks.size());
+  return drive.warnings(world.fleet.trajectories.tracks.size());
 }
 
 }  // namespace wavetracer

@@ -9,8 +9,12 @@
 
 namespace wavetracer {
 
-// The frames of [time]: numbers that it leaves out are those of the trajectories, of which there is at least one. Adds
-// a warning where frames have no vehicle. Throws ConfigError where none would have one, and where no step is known.
-FrameClock make_clock(const TimeConfig& config, const Trajectories& trajectories, std::vector<std::string>& warnings);
+// The frames of [time]: numbers that it leaves out are those of the trajectories, of which there is at least one.
+// Throws ConfigError where no frame would have a vehicle, and where no step is known.
+FrameClock make_clock(const TimeConfig& config, const Trajectories& trajectories);
+
+// A warning if frames of that clock have no vehicle; empty if all have one.
+std::vector<std::string> empty_frames_warning(const TimeConfig& config, const Trajectories& trajectories,
+                                              const FrameClock& clock);
 
 }  // namespace wavetracer

@@ -1,13 +1,102 @@
 // Places are compared exactly: two ends are one because their configuration says so, not because they are near.
 #include "simulation/world_ends.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
+#include "base/spelling.hpp"
 #include "radio/antenna.hpp"
+#include "simulation/name_pattern.hpp"
 #include "simulation/world_links.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
+
+// Where a mount is on this vehicle, from the centre of the footprint.
+glm::dvec3 offset_of(const MountConfig& mount, const Fleet& fleet, uint32_t track) {
+  if (mount.node.empty()) return vector_of(mount.offset_m);
+  const Track& vehicle = fleet.trajectories.tracks[track];
+  const std::string who = fmt::format("[[mount]] \"{}\": node = \"{}\": the vehicle \"{}\" of type \"{}\"", mount.name,
+                                      mount.node, vehicle.id, fleet.trajectories.types[vehicle.type].name);
+  if (fleet.instance_of_track[track] == no_instance)
+    throw ConfigError(who + " has no body, and so no nodes: leave node out, or choose other vehicles by on");
+  const Scene& model = fleet.models[fleet.instances[fleet.instance_of_track[track]].model];
+  std::vector<std::string> names;
+  const SceneNode* found = nullptr;
+  for (const SceneNode& node : model.nodes) {
+    names.push_back(node.name);
+    if (node.name != mount.node) continue;
+    if (found && found->position_m != node.position_m)
+      throw ConfigError(who + " has several nodes of this name in its body, " + model.file + ": rename all but one");
+    found = &node;
+  }
+  if (!found)
+    throw ConfigError(fmt::format("{} has no such node in its body, {}{}", who, model.file,
+                                  names.empty() ? ", which has none" : spelling_hint(mount.node, names)));
+  return model.origin_m + found->position_m + vector_of(mount.offset_m);
+}
+
+glm::dvec3 mounted_position(const MountedEnd& end, const GroundBelow& ground, const Pose& pose) {
+  if (!end.above_ground) return position_at(pose, end.offset_m);
+  glm::dvec3 out = position_at(pose, {end.offset_m.x, end.offset_m.y, 0});
+  out.z = ground.height_m(out).value_or(pose.position_m.z) + end.offset_m.z;
+  return out;
+}
+
+EndState mounted_at(const MountedEnd& end, const Fleet& fleet, const GroundBelow& ground, const VehicleState& vehicle) {
+  return {.position_m = mounted_position(end, ground, vehicle.pose),
+          .rotation = glm::mat3_cast(vehicle.pose.orientation) * end.rotation,
+          .velocity_m_s = velocity_at(vehicle.pose, end.offset_m),
+          .instance = fleet.instance_of_track[end.track],
+          .present = vehicle.present};
+}
+
+// The end as it is where its vehicle first appears, in file coordinates.
+RadioEnd radio_end(const MountConfig& mount, const Track& vehicle, const EndState& first, const glm::dvec3& origin_m) {
+  const glm::dvec3 position_m = origin_m + first.position_m, velocity_m_s = first.velocity_m_s;
+  return {.name = vehicle.id + "/" + mount.name,
+          .position_m = {position_m.x, position_m.y, position_m.z},
+          .antenna = mount.antenna,
+          .polarization = mount.polarization,
+          .orientation_deg = mount.orientation_deg,
+          .velocity_m_s = {velocity_m_s.x, velocity_m_s.y, velocity_m_s.z},
+          .array = mount.array};
+}
+
+void add_mounted(EndsOfRole& role, const MountConfig& mount, const Fleet& fleet, const GroundBelow& ground,
+                 uint32_t track) {
+  const Track& vehicle = fleet.trajectories.tracks[track];
+  const MountedEnd end{track, offset_of(mount, fleet, track), rotation_of(mount.orientation_deg),
+                       mount.above == "ground"};
+  const EndState first = mounted_at(end, fleet, ground, vehicle_at(vehicle, vehicle.samples.front().time_s));
+  role.mounted.push_back(end);
+  role.ends.push_back(radio_end(mount, vehicle, first, ground.origin_m));
+}
+
+void require_carriers(const std::vector<MountConfig>& mounts, const Trajectories& trajectories) {
+  std::vector<std::string> names;
+  for (const Track& track : trajectories.tracks) names.push_back(track.id);
+  for (const VehicleType& type : trajectories.types) names.push_back(type.name);
+  for (const MountConfig& mount : mounts)
+    require_match(mount.on, names, "[[mount]] \"" + mount.name + "\", on", "vehicle and of no type");
+}
+
+}  // namespace
+
+std::optional<double> GroundBelow::height_m(const glm::dvec3& place_m) const {
+  const std::optional<double> z_m = ground->height_m(glm::dvec2(origin_m + place_m));
+  return z_m ? std::optional(*z_m - origin_m.z) : std::nullopt;
+}
+
+GroundBelow ground_below(const std::vector<MountConfig>& mounts, PlaceFinder& places, const glm::dvec3& origin_m) {
+  const bool asked = std::ranges::any_of(mounts, [](const MountConfig& m) { return m.above == "ground"; });
+  return {asked ? places.ground() : nullptr, origin_m};
+}
 
 EndsOfRole standing_ends(const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
   EndsOfRole out;
@@ -19,7 +108,39 @@ EndsOfRole standing_ends(const std::vector<RadioEnd>& ends, const glm::dvec3& or
   return out;
 }
 
-TwinEnds find_twins(const EndsOfRole& transmitters, const EndsOfRole& receivers) {
+WorldEnds with_mounts(WorldEnds standing, const std::vector<MountConfig>& mounts, const Fleet& fleet,
+                      const GroundBelow& ground, bool by_id) {
+  const Trajectories& trajectories = fleet.trajectories;
+  require_carriers(mounts, trajectories);
+  WorldEnds out = std::move(standing);
+  std::set<std::string> taken;
+  for (const auto* role : {&out.transmitters, &out.receivers})
+    for (const RadioEnd& end : role->ends) taken.insert(end.name);
+  for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
+    const Track& track = trajectories.tracks[k];
+    if (!track.mounts) continue;
+    for (const MountConfig& mount : mounts) {
+      const bool named = by_id && matches(mount.on, track.id);
+      if (!named && !matches(mount.on, trajectories.types[track.type].name)) continue;
+      if (const std::string name = track.id + "/" + mount.name; !taken.insert(name).second)
+        throw ConfigError(fmt::format(
+            "[[mount]] \"{}\": a radio end of the name \"{}\" exists already: rename one of them", mount.name, name));
+      if (mount.role != "receiver") add_mounted(out.transmitters, mount, fleet, ground, k);
+      if (mount.role != "transmitter") add_mounted(out.receivers, mount, fleet, ground, k);
+    }
+  }
+  return out;
+}
+
+std::vector<EndState> ends_at(const EndsOfRole& role, const Fleet& fleet, const GroundBelow& ground,
+                              const std::vector<VehicleState>& vehicles) {
+  std::vector<EndState> out = role.standing;
+  for (const MountedEnd& end : role.mounted) out.push_back(mounted_at(end, fleet, ground, vehicles[end.track]));
+  return out;
+}
+
+TwinEnds find_twins(const WorldEnds& ends) {
+  const auto& [transmitters, receivers] = ends;
   using PlaceKey = std::tuple<uint32_t, bool, double, double, double>;
   const auto place = [](const EndsOfRole& role, size_t i) {
     const bool stands = i < role.standing.size();

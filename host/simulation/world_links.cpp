@@ -39,7 +39,19 @@ void check_pairs(size_t transmitters, size_t receivers, uint64_t most, const cha
                   transmitters, receivers, where, most));
 }
 
+LinkSide side_of(const EndsOfRole& role) {
+  LinkSide out;
+  for (const RadioEnd& end : role.ends) out.names.push_back(end.name);
+  out.vehicles.assign(role.standing.size(), no_vehicle);
+  for (const MountedEnd& end : role.mounted) out.vehicles.push_back(end.track);
+  return out;
+}
+
 }  // namespace
+
+LinkRules link_rules(const LinksConfig& config, const WorldEnds& ends) {
+  return {config, side_of(ends.transmitters), side_of(ends.receivers)};
+}
 
 LinkRules::LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers)
     : config_(config),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/world_ends.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/world_state.hpp"
 
@@ -21,7 +22,6 @@ struct LinkSide {
 
 class LinkRules {
  public:
-  LinkRules() = default;
   // Throws ConfigError for a pattern of names that no end has, RuntimeError for more pairs than a drive can have.
   LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide receivers);
 
@@ -47,5 +47,8 @@ class LinkRules {
   LinkSide transmitters_, receivers_;
   std::vector<uint32_t> wanted_transmitters_, wanted_receivers_;  // by name
 };
+
+// The rules of [links] for the ends of a world. Throws as LinkRules.
+LinkRules link_rules(const LinksConfig& config, const WorldEnds& ends);
 
 }  // namespace wavetracer

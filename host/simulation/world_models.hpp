@@ -29,7 +29,8 @@ class VehicleModels {
   // The index into models() of a vehicle's body, which is built if it is new; empty if it has no body.
   std::optional<uint32_t> model_of(const VehicleType& type, std::string_view vehicle_id);
   // Each has its own file or kind, material and size.
-  std::vector<Scene>& models() { return models_; }
+  const std::vector<Scene>& models() const { return models_; }
+  std::vector<Scene> take_models() && { return std::move(models_); }
 
  private:
   using Key = std::tuple<std::string, std::string, double, double, double>;  // kind or file, material, sizes

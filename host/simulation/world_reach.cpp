@@ -23,7 +23,25 @@ double farthest(const glm::dvec3& p) {
 
 constexpr const char* check_trajectories = "check trajectories.offset_m and trajectories.scale";
 
-}  // namespace
+class Reach {
+ public:
+  explicit Reach(const glm::dvec3& origin_m) : origin_m_(origin_m) {}
+
+  // who: an end as messages name it, `transmitter "rsu"`.
+  void add_end(const std::string& who, const glm::dvec3& position_m);
+  // Adds a vehicle with all that is on it, which is radius_m from it at most.
+  void add_track(const Track& track, double radius_m);
+  void add_box(const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m);
+
+  // No coordinate is larger.
+  double metres() const { return reach_m_; }
+
+ private:
+  std::string too_far(const std::string& who, const glm::dvec3& position_m, double distance_m) const;
+
+  glm::dvec3 origin_m_;
+  double reach_m_ = 0;
+};
 
 std::string Reach::too_far(const std::string& who, const glm::dvec3& position_m, double distance_m) const {
   const glm::dvec3 p = origin_m_ + position_m;
@@ -63,6 +81,48 @@ void Reach::add_track(const Track& track, double radius_m) {
 
 void Reach::add_box(const glm::dvec3& lower_m, const glm::dvec3& upper_m, double radius_m) {
   reach_m_ = std::max({reach_m_, farthest(lower_m) + radius_m, farthest(upper_m) + radius_m});
+}
+
+// How far the ground below an antenna may be from its vehicle.
+double from_ground_m(const MountedEnd& end, const Trajectories& trajectories, const Scene& scene) {
+  if (!end.above_ground) return 0;
+  double out = 0;
+  for (const Sample& sample : trajectories.tracks[end.track].samples)
+    out = std::max({out, std::abs(sample.position_m.z - scene.lower.z), std::abs(sample.position_m.z - scene.upper.z)});
+  return out;
+}
+
+// How far antennas and corners of the body are from each vehicle, by track.
+std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Scene& scene) {
+  std::vector<double> out(fleet.trajectories.tracks.size(), 0);
+  for (const auto* role : {&ends.transmitters, &ends.receivers})
+    for (const MountedEnd& end : role->mounted)
+      out[end.track] =
+          std::max(out[end.track], glm::length(end.offset_m) + from_ground_m(end, fleet.trajectories, scene));
+  for (size_t i = 0; i < fleet.instances.size(); ++i) {
+    const Scene& model = fleet.models[fleet.instances[i].model];
+    const glm::dvec3 far_m = glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper));
+    double& radius_m = out[fleet.track_of_instance[i]];
+    radius_m = std::max(radius_m, glm::length(far_m));
+  }
+  return out;
+}
+
+}  // namespace
+
+double reach_of(const Fleet& fleet, const WorldEnds& ends, const std::optional<LivePlaces>& live, const Scene& scene) {
+  Reach reach(scene.origin_m);
+  for (const auto& [role, word] : {std::pair{&ends.transmitters, "transmitter"}, {&ends.receivers, "receiver"}})
+    for (size_t i = 0; i < role->standing.size(); ++i)
+      reach.add_end(fmt::format("{} \"{}\"", word, role->ends[i].name), role->standing[i].position_m);
+  const std::vector<double> radius_m = radii_m(fleet, ends, scene);
+  for (size_t k = 0; k < radius_m.size(); ++k) {
+    if (live)
+      reach.add_box(live->bounds().lower_m - scene.origin_m, live->bounds().upper_m - scene.origin_m, radius_m[k]);
+    else
+      reach.add_track(fleet.trajectories.tracks[k], radius_m[k]);
+  }
+  return reach.metres();
 }
 
 }  // namespace wavetracer

@@ -40,8 +40,8 @@ Config frame_world(const FrameFigure& figure, const Config& config, uint32_t fra
 // Describes the traffic around the transmitter. Vehicles without a body do not count.
 std::string world_words(const TracedWorld& traced) {
   size_t bodies = 0;
-  for (const Instance& instance : traced.world.instances())
-    bodies += !traced.world.models()[instance.model].triangles.empty();
+  for (const Instance& instance : traced.world.fleet.instances)
+    bodies += !traced.world.fleet.models[instance.model].triangles.empty();
   return bodies == 0 ? "a standing scene" : fmt::format("a scene with {} vehicles", bodies);
 }
 
@@ -152,7 +152,7 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   const Config config = frame_world(figure, request.config, wanted);
   TracedWorld traced(config, request.device);
   const std::string where = config.file.empty() ? "" : config.file + ": ";
-  if (traced.world.frame_count() == 1)
+  if (traced.world.clock.frame_count() == 1)
     throw ConfigError(
         fmt::format("{}{} compares the frames of a drive, and there is one frame alone: give trajectories "
                     "that last longer, or another [time]",

@@ -38,19 +38,22 @@ std::vector<glm::dvec3> read_vectors(const RayQueue& rays, size_t plane) {
 TracedWorld::TracedWorld(const Config& config, const std::string& device_text)
     : context(device_text),
       scene(load_scene(config)),
-      world(config, scene),
-      on_device(make_device_scene(context, scene, false, world.reach_m())),
+      world(make_world(config, scene)),
+      on_device(make_device_scene(context, scene, false, world.reach_m)),
       device(summary(context.info())) {
-  prove_device(context, {.instances = !world.instances().empty()});
-  if (world.instances().empty()) return;
-  placement.emplace(context, world.models(), world.instances(), on_device);
+  prove_device(context, {.instances = !world.fleet.instances.empty()});
+  if (world.fleet.instances.empty()) return;
+  auto [placed, place] =
+      with_instances(context, std::move(on_device), scene, world.fleet.models, world.fleet.instances);
+  on_device = std::move(placed);
+  placement.emplace(context, std::move(place), world.fleet.instances.size());
   placement->place(on_device, world.state(0).instances);
 }
 
 Drive plan_drive(const TracedWorld& traced, uint32_t frames, uint32_t least, const std::string& where) {
   return plan_drive(
-      traced.world.transmitters(), [&](uint32_t frame) { return traced.world.state(frame); },
-      traced.world.frame_count(), traced.scene.origin_m, frames, least, where);
+      traced.world.transmitters.ends, [&](uint32_t frame) { return traced.world.state(frame); },
+      traced.world.clock.frame_count(), traced.scene.origin_m, frames, least, where);
 }
 
 HitRecorder::HitRecorder(TracedWorld& traced, const TraceConfig& trace)

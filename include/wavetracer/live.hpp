@@ -63,11 +63,14 @@ struct LiveTraffic {
   DiscoveryMark discovery;  // see trace.discover_every_s
 };
 
-// A frame, and the names of its ends and vehicles that the sender of the poses uses. Absent ends have empty names.
-struct LiveFrame {
-  FrameResult result;
+// The names of the ends and vehicles of a frame that the sender of its poses uses. Absent ends have empty names.
+struct LiveNames {
   std::vector<std::string> transmitters, receivers;  // VEHICLE/MOUNT, or the name of a fixed end
   std::vector<std::string> instances;                // vehicle ids
+};
+
+struct LiveFrame : LiveNames {
+  FrameResult result;
 };
 
 }  // namespace wavetracer

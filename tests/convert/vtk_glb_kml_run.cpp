@@ -97,9 +97,9 @@ WaypointRows made_rays(uint32_t frame) {
 void write_geometry_run(const std::filesystem::path& folder) {
   Config config = parse_config(text, "/geometry.toml");
   const Scene scene = load_scene(config);
-  const World world(config, scene);
-  config.transmitters = world.transmitters();
-  config.receivers = world.receivers();
+  const World world = make_world(config, scene);
+  config.transmitters = world.transmitters.ends;
+  config.receivers = world.receivers.ends;
   config.output.waypoints = 2;
   std::vector<FrameResult> frames;
   for (uint32_t number = first_frame; number < first_frame + frame_count; ++number) {
@@ -114,7 +114,7 @@ void write_geometry_run(const std::filesystem::path& folder) {
     frame.waypoints = made_rays(number);
     frames.push_back(std::move(frame));
   }
-  write_outputs(folder, Run{config, scene, world.instances(), world.models(), {}}, frames);
+  write_outputs(folder, Run{config, scene, world.fleet.instances, world.fleet.models, {}}, frames);
 }
 
 }  // namespace wavetracer::test

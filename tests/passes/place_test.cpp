@@ -108,8 +108,10 @@ TEST_CASE("paths by instances are those of the baked scene, to rounding") {
     }
   const Exact one(baked, transmitters, receivers, sequences, 2);
   const Exact two(scene_of_triangles(traffic.still), transmitters, receivers, sequences, 2, [&](DeviceScene& scene) {
-    Place place(context(), traffic.models, traffic.instances, scene);
-    place(scene, traffic.placements);
+    PlacedScene placed = with_instances(context(), std::move(scene), scene_of_triangles(traffic.still), traffic.models,
+                                        traffic.instances);
+    placed.place(placed.scene, traffic.placements);
+    scene = std::move(placed.scene);
   });
   REQUIRE(one.solved.size() == two.solved.size());
   CHECK(one.solved.size() > 200);

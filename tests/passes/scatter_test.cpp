@@ -60,8 +60,9 @@ struct Run {
 Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequence>& sequences, uint32_t max_depth) {
   DeviceScene scene = make_device_scene(context(), world.scene, false, 100);
   if (!world.instances.empty()) {
-    Place place(context(), world.models, world.instances, scene);
-    place(scene, world.placements);
+    PlacedScene placed = with_instances(context(), std::move(scene), world.scene, world.models, world.instances);
+    placed.place(placed.scene, world.placements);
+    scene = std::move(placed.scene);
   }
   const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.receivers, world.links, world.listeners);
   Sequences set(context(), 4096);

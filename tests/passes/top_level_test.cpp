@@ -137,8 +137,10 @@ TEST_CASE("rays hit the same through the device's tree as through the host's") {
 
 TEST_CASE("instances move on: a tree is that of its frame alone") {
   Traffic traffic = with_gaps(40, 9);
-  DeviceScene scene = make_device_scene(context(), scene_of_triangles(traffic.still), false, 60);
-  InstancePlacement instances(context(), traffic.models, traffic.instances, scene, TopLevelBuild::device);
+  const Scene still = scene_of_triangles(traffic.still);
+  auto [scene, place] = with_instances(context(), make_device_scene(context(), still, false, 60), still, traffic.models,
+                                       traffic.instances);
+  InstancePlacement instances(context(), std::move(place), traffic.instances.size(), TopLevelBuild::device);
   instances.place(scene, traffic.placements);
   Random random(3);
   for (Placement& placement : traffic.placements) {

@@ -59,9 +59,11 @@ struct Traffic {
   }
 
   DeviceScene upload(TopLevelBuild build = TopLevelBuild::host) const {
-    DeviceScene scene = make_device_scene(context(), scene_of_triangles(still), false, 60);
-    InstancePlacement(context(), models, instances, scene, build).place(scene, placements);
-    return scene;
+    const Scene base = scene_of_triangles(still);
+    PlacedScene placed =
+        with_instances(context(), make_device_scene(context(), base, false, 60), base, models, instances);
+    InstancePlacement(context(), std::move(placed.place), instances.size(), build).place(placed.scene, placements);
+    return std::move(placed.scene);
   }
 };
 

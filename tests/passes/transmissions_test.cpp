@@ -158,8 +158,8 @@ TEST_CASE("limits: transmissions of a path, and interactions of all kinds") {
 }
 
 TEST_CASE("a surface that nothing passes blocks, and no other does") {
-  DeviceScene scene = make_device_scene(context(), reference::scene_of_quads({wall(0), wall(1), wall(2)}), false, 4000);
-  mark_opaque(scene, {false, true, false});
+  const DeviceScene scene = make_device_scene(context(), reference::scene_of_quads({wall(0), wall(1), wall(2)}), false,
+                                              4000, {false, true, false});
   const auto blocked = [&](double from, double to) {
     return pass(scene, {{{from, 0.1, 0.2}, {to, 0.3, 0.4}, {}, {}}}, 8, 8).front().blocked;
   };

@@ -36,8 +36,9 @@ Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, ui
             bool free_edges = true) {
   DeviceScene scene = make_device_scene(context(), world.scene, false, 100);
   if (!world.instances.empty()) {
-    Place place(context(), world.models, world.instances, scene);
-    place(scene, world.placements);
+    PlacedScene placed = with_instances(context(), std::move(scene), world.scene, world.models, world.instances);
+    placed.place(placed.scene, world.placements);
+    scene = std::move(placed.scene);
   }
   Wedges wedges(context(), world.scene, world.models, world.instances, free_edges);
   wedges(scene);

@@ -58,10 +58,9 @@ struct SightCount {
 };
 
 SightCount check(const SightWorld& world, bool transmission) {
-  DeviceScene scene = make_device_scene(context(), world.scene, false, 40);
   std::vector<bool> blocks(world.scene.surfaces.size(), true);
   for (size_t s = 0; transmission && s < blocks.size(); ++s) blocks[s] = s % 3 == 0;
-  mark_opaque(scene, blocks);
+  const DeviceScene scene = make_device_scene(context(), world.scene, false, 40, blocks);
   const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.transmitters, {{0, 1}}, {});
   const Wedges wedges(context(), world.scene, {}, {}, true);
   Sequences set(context(), 1 << 12);

@@ -272,8 +272,8 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
   Placement placement;
   placement.position_m = {3, 4, 0};
   placement.rotation = glm::mat3_cast(glm::angleAxis(0.4, glm::dvec3{0, 0, 1}));
-  DeviceScene scene = make_device_scene(context(), still, false, 60);
-  Place place(context(), models, instances, scene);
+  auto [scene, place] =
+      with_instances(context(), make_device_scene(context(), still, false, 60), still, models, instances);
   place(scene, std::vector{placement});
   Wedges wedges(context(), still, models, instances, true);
   wedges(scene);

@@ -48,8 +48,8 @@ double distance(const double* v, const glm::dvec3& expected) { return glm::dista
 
 TEST_CASE("wedges of instances are where their poses put them, frame after frame; those of absent ones are nowhere") {
   Fleet fleet;
-  DeviceScene scene = make_device_scene(context(), fleet.still, false, 60);
-  Place place(context(), fleet.models, fleet.instances, scene);
+  auto [scene, place] = with_instances(context(), make_device_scene(context(), fleet.still, false, 60), fleet.still,
+                                       fleet.models, fleet.instances);
   Wedges wedges(context(), fleet.still, fleet.models, fleet.instances, true);
   Random random(5);
   for (int frame = 0; frame < 3; ++frame) {

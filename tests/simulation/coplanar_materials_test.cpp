@@ -45,11 +45,11 @@ TEST_CASE("a body of a vehicle has one material in each place") {
     config.transmitters = {end("rsu", {0, 0, 6})};
     config.mounts = {mount("roof", "ego", "both", {0, 0, 2})};
     config.vehicle_types = {{.name = "passenger", .model = file.path().string()}};
-    const World world(config, static_scene());
-    const Scene& model = world.models().at(0);
+    const World world = make_world(config, static_scene());
+    const Scene& model = world.fleet.models.at(0);
     CHECK(model.report.covered_m2 == doctest::Approx(1));
     CHECK(model.surfaces.size() == 3);
-    const std::vector<std::string> said = model_warnings(world.models(), static_scene());
+    const std::vector<std::string> said = model_warnings(world.fleet.models, static_scene());
     REQUIRE(said.size() == 1);
     CHECK(said[0].find("on 1 m2") != std::string::npos);
   }

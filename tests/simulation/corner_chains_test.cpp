@@ -83,7 +83,7 @@ Config between(const SceneFile& file, const glm::dvec3& a, const glm::dvec3& b, 
   return config;
 }
 
-// How far the points of a path are from those, or infinity where it has more or fewer.
+// Returns the largest distance of the points of a path from the given ones, or infinity where it has more or fewer.
 double off(const Paths& paths, size_t path, const Points& points) {
   if (paths.depth[path] != points.size()) return std::numeric_limits<double>::infinity();
   double most = 0;

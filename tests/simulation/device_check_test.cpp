@@ -42,11 +42,11 @@ TEST_CASE("every known frame is what the device computes") {
     const CheckedFeatures features = features_of_frame(frame);
     if (check_all_pass(context, features)) continue;  // the paths are among what was checked
     const Config config = check_config(features);
-    Setup setup(context, config, check_scene(config), false);
+    Setup setup = make_setup(context, config, check_scene(config), false);
     FrameLoop frames(setup);
     const auto no_name = [](uint32_t) { return std::string(); };
     const KnownFrame found = known_of(frames
-                                          .run({.pose = [&] { return check_state(setup.world); },
+                                          .run({.pose = [&] { return check_state(setup.plan->world); },
                                                 .transmitter_name = no_name,
                                                 .receiver_name = no_name})
                                           .paths);

@@ -43,15 +43,15 @@ Columns row_of(const Paths& p, size_t i) {
 
 // Frames 0 and 1; returns how many interactions of which kind they have.
 std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
-  Setup s(config, "");
+  Setup s = make_setup(config, "");
   FrameLoop loop(s);
-  Config all = s.config;
-  all.trace = s.trace;
-  const FieldModel host(s.scene, all, s.world.models(), s.world.instances());
+  Config all = s.plan->asked;
+  all.trace = s.plan->trace;
+  const FieldModel host(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
   std::map<uint8_t, size_t> kinds;
   for (uint32_t frame = 0; frame < frames; ++frame) {
     const FrameResult found = loop.run({.frame = frame,
-                                        .pose = [&] { return s.world.state(frame); },
+                                        .pose = [&] { return s.plan->world.state(frame); },
                                         .transmitter_name = [](uint32_t) { return ""; },
                                         .receiver_name = [](uint32_t) { return ""; }});
     const Paths expected = host.compute(frame, read_visible(s), found.world);

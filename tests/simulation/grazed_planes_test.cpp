@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double frequency_hz = 1e9, light_m_s = 299792458.0;
-// Of the field in free space; besides, it changes by less than this for each metre of height.
+// Steps in units of the field in free space; besides, the field changes by less than this for each metre of height.
 constexpr double largest_step = 1e-3, largest_slope_per_m = 1;
 
 // Makes a block of 4.5 m between x = 15 and 19.5, whose roof is at z = 0; everything else of it is far away.
@@ -40,7 +40,7 @@ std::array<Complex, 2> field_at(const std::string& material, const glm::dmat4& p
   const double distance_m = glm::length(to - from);
   std::array<Complex, 2> sum{};
   for (size_t i = 0; i < paths.size(); ++i) {
-    // What goes around the far sides of the block is not asked for.
+    // Waves around the far sides of the block are left out.
     if (paths.delay_s[i] * light_m_s > distance_m + 1) continue;
     const double phase = -2 * std::numbers::pi * frequency_hz * (paths.delay_s[i] - distance_m / light_m_s);
     const Complex scale = std::polar(4 * std::numbers::pi * distance_m * frequency_hz / light_m_s, phase);

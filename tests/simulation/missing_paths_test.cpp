@@ -19,7 +19,7 @@ const Points left{{-10, 0, 2}}, right{{10, 0, 2}};
 MissingLinks missing(const std::vector<Part>& parts, const Config& config, const std::vector<Link>& found = {}) {
   const SceneFile file(parts);
   const Scene scene = load_scene_file(file.path(), {});
-  const World world(config, scene);
+  const World world = make_world(config, scene);
   FrameResult frame;
   frame.world = world.state(0);
   for (const Link& link : found) {

@@ -18,7 +18,7 @@ const std::vector<Part> town{{{ground}}, {house()}};
 Texts warnings_of(const std::vector<Part>& parts, const Config& config) {
   const SceneFile file(parts);
   const Scene scene = load_scene_file(file.path(), {});
-  return Texts(place_warnings(config, Surroundings(scene), World(config, scene)));
+  return Texts(place_warnings(config, Surroundings(scene), make_world(config, scene)));
 }
 
 Config ends(const Points& transmitters, const Points& receivers) {

@@ -31,7 +31,7 @@ class HillSide {
   }
   World world(const std::string& text) const {
     const Config parsed = config(text);
-    return World(parsed, load_scene(parsed));
+    return make_world(parsed, load_scene(parsed));
   }
 
  private:
@@ -67,13 +67,13 @@ TEST_CASE("ends in degrees and above the ground, the floor of a house not taken 
       "[[transmitter]]\nname = \"house\"\nposition_m = [110, 110, 20]\nabove = \"ground\"\n"
       "[[transmitter]]\nname = \"zero\"\nposition_m = [110, 110, 20]\n"
       "[[receiver]]\nname = \"rx\"\nposition_m = [-200, 5, 1.5]\nabove = \"ground\"\n");
-  const std::vector<RadioEnd>& tx = world.transmitters();
+  const std::vector<RadioEnd>& tx = world.transmitters.ends;
   check_place(tx[0].position_m, {-3.722323, 111.136340, 500 + slope * (-3.722323) + 2});
   check_place(tx[1].position_m, {110, 110, 531});
   check_place(tx[2].position_m, {110, 110, 20});
   check_place(tx[3].position_m, {0, 0, 506});
-  check_place(world.receivers()[0].position_m, {-200, 5, 481.5});
-  check_place(world.receivers()[1].position_m, {0, 0, 506});
+  check_place(world.receivers.ends[0].position_m, {-200, 5, 481.5});
+  check_place(world.receivers.ends[1].position_m, {0, 0, 506});
 }
 
 TEST_CASE("a track in degrees follows the ground, an antenna above it too") {
@@ -83,8 +83,8 @@ TEST_CASE("a track in degrees follows the ground, an antenna above it too") {
                   "[[mount]]\nname = \"above\"\noffset_m = [1, 0, 1.6]\nabove = \"ground\"\n"
                   "role = \"transmitter\"\n[time]\nstep_s = 5\n",
                   receiver));
-  REQUIRE(world.frame_count() == 3);
-  REQUIRE(world.transmitters().size() == 2);
+  REQUIRE(world.clock.frame_count() == 3);
+  REQUIRE(world.transmitters.ends.size() == 2);
   const glm::dvec3 roof = world.state(2).transmitters[0].position_m, above = world.state(2).transmitters[1].position_m,
                    first = world.state(0).transmitters[0].position_m;
   const double along = std::atan(slope);
@@ -101,14 +101,14 @@ TEST_CASE("trajectories in degrees, and metres above the ground") {
   const World world = HillSide().world(
       fmt::format("{}[trajectories]\nfile = \"{}\"\n[[mount]]\nname = \"roof\"\nrole = \"transmitter\"\n", receiver,
                   file.string()));
-  const Track& track = world.trajectories().tracks.at(0);
+  const Track& track = world.fleet.trajectories.tracks.at(0);
   CHECK(track.samples[1].position_m.z - track.samples[0].position_m.z ==
         doctest::Approx(slope * (track.samples[1].position_m.x - track.samples[0].position_m.x)));
   const auto metres = folder.write("metres.csv", "time,id,x,y\n0,a,0,0\n1,a,10,0\n");
   const World flat = HillSide().world(fmt::format(
       "{}[trajectories]\nfile = \"{}\"\nabove = \"ground\"\n[[mount]]\nname = \"roof\"\nrole = \"transmitter\"\n",
       receiver, metres.string()));
-  CHECK(flat.transmitters()[0].position_m[2] == doctest::Approx(500));
+  CHECK(flat.transmitters.ends[0].position_m[2] == doctest::Approx(500));
 }
 
 // By the series of Krueger to the sixth order, 48.138 north and 11.576 east is 70.665866 m east and 113.628350 m north.
@@ -119,7 +119,7 @@ TEST_CASE("grids between corners in degrees, or one corner in degrees and the ot
       "step_m = 50\nheight_m = 2\nabove = \"ground\"\n"
       "[[receiver_grid]]\nname = \"h\"\nx_min_m = -9.334134\ny_min_m = -6.371650\nnorth_east_wgs84 = [48.138, 11.576]\n"
       "step_m = 40\nheight_m = 700\n");
-  const std::vector<RadioEnd>& rx = world.receivers();
+  const std::vector<RadioEnd>& rx = world.receivers.ends;
   REQUIRE(rx.size() == 2 + 2 * 3);
   check_place(rx[0].position_m, {35.332933, 31.814175, 500 + slope * 35.332933 + 2});
   check_place(rx[1].position_m, {35.332933, 81.814175, 500 + slope * 35.332933 + 2});
@@ -134,7 +134,7 @@ TEST_CASE("what is said of the cells of a grid knows where its corners in degree
       "[[receiver_grid]]\nname = \"house\"\nsouth_west_wgs84 = [48.138, 11.576]\nx_max_m = 159.3\ny_max_m = 114\n"
       "step_m = 80\nheight_m = 512\n");
   const Scene scene = load_scene(config);
-  const World world(config, scene);
+  const World world = make_world(config, scene);
   const std::vector<std::string> said = place_warnings(config, Surroundings(scene), world);
   REQUIRE(said.size() == 1);
   CHECK(said[0] == "all of 1 receivers of grid \"house\" are inside closed bodies");
@@ -158,15 +158,15 @@ TEST_CASE("what has no place says which and why") {
   Config city = HillSide().config(receiver + tx + "position_wgs84 = [48.137, 11.575, 6]\n");
   city.scene.file.clear();
   city.scene.generate = "--seed 1 --blocks 1";
-  CHECK_THROWS_WITH_AS(World(city, load_scene(city)), doctest::Contains("needs a georeference.json"), ConfigError);
+  CHECK_THROWS_WITH_AS(make_world(city, load_scene(city)), doctest::Contains("needs a georeference.json"), ConfigError);
   const std::string grid = tx + "position_m = [0, 0, 600]\n[[receiver_grid]]\nname = \"g\"\n";
   has(problem(grid + "south_west_wgs84 = [48.138, 11.575]\nnorth_east_wgs84 = [48.137, 11.576]\n"),
       "[[receiver_grid]] \"g\": y_max_m = 2.49202 is below y_min_m = 111.136");
   Config map = HillSide().config(grid + "north_east_wgs84 = [48.138, 11.576]\n");
   map.scene = city.scene;
-  CHECK_THROWS_WITH_AS(World(map, load_scene(map)),
-                       doctest::Contains("[[receiver_grid]] \"g\", north_east_wgs84: a position in degrees needs "
-                                         "a georeference.json"),
+  CHECK_THROWS_WITH_AS(make_world(map, load_scene(map)),
+                       doctest::Contains("[[receiver_grid]] \"g\", north_east_wgs84: a position in degrees needs a "
+                                         "georeference.json"),
                        ConfigError);
 }
 

@@ -26,21 +26,21 @@ Config radios(const SceneFile& file, uint64_t rays, uint32_t max_depth) {
 
 // Returns the paths that a launch of these directions alone finds.
 Paths found(const Config& config, DirectionShare share) {
-  Setup s(config, "");
-  const WorldState state = s.world.state(0);
+  Setup s = make_setup(config, "");
+  const WorldState state = s.plan->world.state(0);
   const RadioEnds ends =
-      make_radio_ends(s.context, state.transmitters, state.receivers, state.links, s.origins.listeners);
-  s.discovery.sequences().clear();
-  s.discovery.find(s.device_scene, {.who = sending(state), .rays = *s.trace.rays, .share = share});
-  if (s.trace.diffraction)
-    s.discovery.find(s.device_scene, {.who = listening(state, s.origins),
-                                      .rays = *s.trace.rays / 3,
-                                      .share = share,
-                                      .followed = false,
-                                      .sorted = false});
+      make_radio_ends(s.context, state.transmitters, state.receivers, state.links, s.plan->origins.listeners);
+  s.discovery->sequences().clear();
+  s.discovery->find(s.device_scene, {.who = sending(state), .rays = *s.plan->trace.rays, .share = share});
+  if (s.plan->trace.diffraction)
+    s.discovery->find(s.device_scene, {.who = listening(state, s.plan->origins),
+                                       .rays = *s.plan->trace.rays / 3,
+                                       .share = share,
+                                       .followed = false,
+                                       .sorted = false});
   FrameAccount account(s.context, 0);
-  solve_paths(s.exact_paths, s.device_scene, ends, s.discovery.sequences(), true, s.frame_watch, account);
-  Counters& counters = s.discovery.sequences().counters();
+  solve_paths(s.exact_paths, s.device_scene, ends, s.discovery->sequences(), true, *s.frame_watch, account);
+  Counters& counters = s.discovery->sequences().counters();
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
   s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, false, counters);
   LeftOut left_out;

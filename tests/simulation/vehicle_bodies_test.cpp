@@ -26,7 +26,7 @@ Config ego(const std::string& type = "passenger") {
 
 glm::dvec3 roof_of(const Config& config) {
   const Scene scene = static_scene();
-  return World(config, scene).state(0).receivers.at(0).position_m + scene.origin_m;
+  return make_world(config, scene).state(0).receivers.at(0).position_m + scene.origin_m;
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ glm::dvec3 roof_of(const Config& config) {
 TEST_CASE("a GLB of four materials keeps them apart, and what names are in it is told where one is unknown") {
   Config config = ego();
   config.vehicle_types = {{.name = "passenger", .model = car_glb}};
-  const World world(config, static_scene());
-  const Scene& car = world.models().at(0);
+  const World world = make_world(config, static_scene());
+  const Scene& car = world.fleet.models.at(0);
   std::map<std::string, size_t> surfaces;
   for (const Surface& surface : car.surfaces) ++surfaces[car.materials[surface.material].name];
   CHECK(surfaces == std::map<std::string, size_t>{{"metal", 6}, {"vehicle_glass", 6}, {"plastic", 6}, {"Tyre", 24}});
@@ -87,8 +87,8 @@ TEST_CASE("persons and two-wheelers have bodies, of skin and metal") {
     CAPTURE(type);
     Config config = ego(type);
     config.mounts[0].node = "roof_antenna";
-    const World world(config, static_scene());
-    CHECK(world.models().at(0).materials.at(0).name == material);
+    const World world = make_world(config, static_scene());
+    CHECK(world.fleet.models.at(0).materials.at(0).name == material);
   }
 }
 
@@ -103,29 +103,29 @@ TEST_CASE("parked vehicles stand in all frames, carry nothing, and say nothing o
   config.parked[1].file = folder.write("lot.csv", "x,y,yaw,type\n1,2,-90,truck\n3,4,,\n").string();
   config.time.end_s = 3;  // a second after the drive
   const Scene scene = static_scene();
-  const World world(config, scene);
-  CHECK(world.frame_count() == 4);
-  REQUIRE(world.instances().size() == 5);
-  CHECK(world.receivers().size() == 1);
+  const World world = make_world(config, scene);
+  CHECK(world.clock.frame_count() == 4);
+  REQUIRE(world.fleet.instances.size() == 5);
+  CHECK(world.receivers.ends.size() == 1);
   std::map<std::string, size_t> at;
-  for (size_t i = 0; i < 5; ++i) at[world.instances()[i].id] = i;
-  CHECK(world.instances()[at.at("lot/0")].type == "truck");
-  CHECK(world.instances()[at.at("lot/1")].type == "passenger");
+  for (size_t i = 0; i < 5; ++i) at[world.fleet.instances[i].id] = i;
+  CHECK(world.fleet.instances[at.at("lot/0")].type == "truck");
+  CHECK(world.fleet.instances[at.at("lot/1")].type == "passenger");
   for (uint32_t frame = 0; frame < 4; ++frame) {
     CAPTURE(frame);
     const WorldState state = world.state(frame);
     CHECK(state.instances[at.at("ego")].present == (frame < 3));
     for (const char* id : {"kerb/0", "kerb/1", "lot/0", "lot/1"}) CHECK(state.instances[at.at(id)].present);
-    const Extent truck = extent_of(world.models()[world.instances()[at.at("lot/0")].model],
+    const Extent truck = extent_of(world.fleet.models[world.fleet.instances[at.at("lot/0")].model],
                                    state.instances[at.at("lot/0")], glm::dvec3(1, 2, 0) - scene.origin_m, -pi / 2);
     check_near(truck.upper, {3.55, 1.2, 2.4}, 1e-9);
     CHECK(state.instances[at.at("kerb/1")].velocity_m_s == glm::dvec3(0));
   }
   config.parked[0].mounts = true;
-  CHECK(World(config, scene).receivers().size() == 3);
+  CHECK(make_world(config, scene).receivers.ends.size() == 3);
   config.tracks.clear();
   config.time = {};
-  CHECK(World(config, scene).frame_count() == 1);
+  CHECK(make_world(config, scene).clock.frame_count() == 1);
 }
 
 TEST_CASE("a parked vehicle of no known type, or of a name that is taken, is an error") {
@@ -150,8 +150,8 @@ TEST_CASE("what is left out of the file of a vehicle is told, once for all that 
   config.materials.clear();
   config.vehicle_types = {{.name = "passenger", .model = folder.write("car.obj", box).string()}};
   const auto count = [&](const char* text) {
-    const World world(config, static_scene());
-    return std::ranges::count_if(world.warnings(), [&](const std::string& w) { return w.find(text) != w.npos; });
+    const World world = make_world(config, static_scene());
+    return std::ranges::count_if(world.warnings, [&](const std::string& w) { return w.find(text) != w.npos; });
   };
   CHECK(count("car.obj:15: 1 lines and points were left out") == 1);
   CHECK(count("is it in metres?") == 0);

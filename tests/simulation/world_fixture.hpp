@@ -37,7 +37,7 @@ inline void check_near(const glm::dvec3& a, const glm::dvec3& b, double toleranc
 template <class E>
 inline std::string error_of(const Config& config) {
   try {
-    const World world(config, static_scene());
+    const World world = make_world(config, static_scene());
   } catch (const E& e) {
     return e.what();
   }

@@ -15,7 +15,7 @@ TEST_CASE("links by name, kind, vehicle and distance") {
   // tx: rsu, turner/roof, truck1/roof; rx: base, turner/roof, truck1/roof, truck1/bumper
   const auto links = [&](const LinksConfig& rules) {
     config.links = rules;
-    return World(config, static_scene()).state(10).links;
+    return make_world(config, static_scene()).state(10).links;
   };
   using Links = std::vector<Link>;
   CHECK(links({}) == Links{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}, {2, 0}, {2, 1}});
@@ -38,10 +38,10 @@ TEST_CASE("ends that stand in the same place are one end; what stands keeps the 
   Config config;
   config.transmitters = {end("a", {5, 0, 6}), end("rsu", {0, 0, 6})};
   config.receivers = {end("rsu_rx", {0, 0, 6}), end("other", {1, 0, 6})};
-  const World world(config, static_scene());
+  const World world = make_world(config, static_scene());
   CHECK(world.state(0).links == std::vector<Link>{{0, 0}, {0, 1}, {1, 0}, {1, 1}});
-  CHECK(world.receiver_of_transmitter() == std::vector<uint32_t>{no_end, 0});
-  CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{1, no_end});
+  CHECK(world.twins.receiver_of_transmitter == std::vector<uint32_t>{no_end, 0});
+  CHECK(world.twins.transmitter_of_receiver == std::vector<uint32_t>{1, no_end});
 }
 
 TEST_CASE("a station is a transmitter and a receiver of one name, which are no link to each other") {
@@ -51,16 +51,16 @@ TEST_CASE("a station is a transmitter and a receiver of one name, which are no l
   config.stations = {end("rsu", {0, 0, 6}), end("other", {30, 0, 6})};
   config.stations[0].velocity_m_s = {1, 2, 3};
   config.receiver_grids = {{.name = "g", .x_min_m = 0, .x_max_m = 2, .y_min_m = 0, .y_max_m = 1, .step_m = 1}};
-  const World world(config, static_scene());
+  const World world = make_world(config, static_scene());
   const auto names = [](const std::vector<RadioEnd>& ends) {
     std::vector<std::string> out;
     for (const RadioEnd& end : ends) out.push_back(end.name);
     return out;
   };
-  CHECK(names(world.transmitters()) == std::vector<std::string>{"mast", "rsu", "other"});
-  CHECK(names(world.receivers()) == std::vector<std::string>{"car", "rsu", "other", "g/0,0", "g/1,0"});
-  CHECK(world.receiver_of_transmitter() == std::vector<uint32_t>{no_end, 1, 2});
-  CHECK(world.transmitter_of_receiver() == std::vector<uint32_t>{no_end, 1, 2, no_end, no_end});
+  CHECK(names(world.transmitters.ends) == std::vector<std::string>{"mast", "rsu", "other"});
+  CHECK(names(world.receivers.ends) == std::vector<std::string>{"car", "rsu", "other", "g/0,0", "g/1,0"});
+  CHECK(world.twins.receiver_of_transmitter == std::vector<uint32_t>{no_end, 1, 2});
+  CHECK(world.twins.transmitter_of_receiver == std::vector<uint32_t>{no_end, 1, 2, no_end, no_end});
   const WorldState state = world.state(0);
   CHECK(state.transmitters[1].position_m == state.receivers[1].position_m);
   CHECK(state.transmitters[1].velocity_m_s == glm::dvec3(1, 2, 3));
@@ -72,7 +72,7 @@ TEST_CASE("a station is a transmitter and a receiver of one name, which are no l
   CHECK(state.links == expected);
   config.links.transmitters = {"rsu"};  // a name chooses each role by itself
   config.links.receivers = {"other"};
-  CHECK(World(config, static_scene()).state(0).links == std::vector<Link>{{1, 2}});
+  CHECK(make_world(config, static_scene()).state(0).links == std::vector<Link>{{1, 2}});
 }
 
 TEST_CASE("two vehicles in one place: their antennas are linked, and none is to itself") {
@@ -80,7 +80,7 @@ TEST_CASE("two vehicles in one place: their antennas are linked, and none is to 
   config.tracks = {{.id = "a", .waypoints = {{0, 3, 4, 0}}}, {.id = "b", .waypoints = {{0, 3, 4, 0}}}};
   config.mounts = {mount("roof", "*", "both", {0, 0, 1.6})};
   config.links.same_vehicle = true;
-  CHECK(World(config, static_scene()).state(0).links == std::vector<Link>{{0, 1}, {1, 0}});
+  CHECK(make_world(config, static_scene()).state(0).links == std::vector<Link>{{0, 1}, {1, 0}});
 }
 
 TEST_CASE("more pairs than a drive or a frame can have are an error that says so") {
@@ -108,10 +108,10 @@ TEST_CASE("types, names and steps that are not known") {
   check_contains(error_of<InputError>(drive(folder, odd)), "the vehicle type 'spaceship' is unknown");
   Config config = drive(folder, odd);
   config.trajectories.default_type = "truck";
-  const World world(config, static_scene());
-  CHECK(world.instances()[1].type == "spaceship");
-  CHECK(world.models().size() == 2);
-  REQUIRE_FALSE(world.warnings().empty());
+  const World world = make_world(config, static_scene());
+  CHECK(world.fleet.instances[1].type == "spaceship");
+  CHECK(world.fleet.models.size() == 2);
+  REQUIRE_FALSE(world.warnings.empty());
   config.trajectories.default_type = "passengr";
   check_contains(error_of<ConfigError>(config), "default_type = \"passengr\" is neither a [[vehicle_type]] nor");
   check_contains(error_of<ConfigError>(config), "did you mean \"passenger\"?");
@@ -140,8 +140,8 @@ TEST_CASE("types, names and steps that are not known") {
   still.transmitters = {end("rsu", {0, 0, 6})};
   still.tracks = {{"ego", "passenger", {{3, 0, 0, 0}}}};
   still.mounts = {mount("roof", "*", "receiver", {0, 0, 1})};
-  CHECK(World(still, static_scene()).frame_count() == 1);
-  CHECK(World(still, static_scene()).time_s(0) == 3);
+  CHECK(make_world(still, static_scene()).clock.frame_count() == 1);
+  CHECK(make_world(still, static_scene()).clock.time_s(0) == 3);
   still.time.end_s = 4;
   check_contains(error_of<ConfigError>(still), "time.step_s is not given");
 }
@@ -151,20 +151,20 @@ TEST_CASE("reach holds every end and every corner of every frame, and is not far
   Config config = drive(folder);
   config.tracks = {{"swing", "truck", {{0, 0, 0, 0}, {0.5, 80, 10, 0}, {0.7, 80, 10, 0}, {2, 0, 0, 3}}}};
   config.time.step_s = 0.013;
-  const World world(config, static_scene());
+  const World world = make_world(config, static_scene());
   double largest = 0;
   const auto add = [&](const glm::dvec3& p) {
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   };
-  for (uint32_t frame = 0; frame < world.frame_count(); ++frame) {
+  for (uint32_t frame = 0; frame < world.clock.frame_count(); ++frame) {
     const WorldState state = world.state(frame);
     for (const EndState& e : state.transmitters) add(e.position_m);
     for (size_t i = 0; i < state.instances.size(); ++i)
-      for (const glm::dvec3& v : world.models()[world.instances()[i].model].vertices)
+      for (const glm::dvec3& v : world.fleet.models[world.fleet.instances[i].model].vertices)
         add(state.instances[i].position_m + state.instances[i].rotation * v);
   }
-  CHECK(world.reach_m() >= largest);
-  CHECK(world.reach_m() <= largest + 40);
+  CHECK(world.reach_m >= largest);
+  CHECK(world.reach_m <= largest + 40);
 }
 
 TEST_CASE("positions beyond 1000 km from the middle of the scene are errors by name, whoever gave them") {
@@ -194,7 +194,7 @@ TEST_CASE("positions beyond 1000 km from the middle of the scene are errors by n
   config.transmitters = {end("rsu", {std::nan(""), 0, 6})};
   check_contains(error_of<ConfigError>(config), "transmitter \"rsu\" is at [nan");
   config.transmitters = {end("rsu", {9.9e5, 0, 6})};
-  CHECK(World(config, static_scene()).reach_m() == 9.9e5 - 100);
+  CHECK(make_world(config, static_scene()).reach_m == 9.9e5 - 100);
   config.trajectories.file = folder.write("fast.csv", "time,id,x,y,speed\n0,a,0,0,0\n1,a,1,0,9e7\n").string();
   config.mounts[0].on = "a";
   check_contains(error_of<InputError>(config), "vehicle \"a\": between two samples its speed takes it ");
@@ -205,8 +205,8 @@ TEST_CASE("frames outside of the trajectories: all of them are an error, some a 
   Config config = drive(folder);  // 0 to 2 s in steps of 0.1 s
   const auto warning = [&](const TimeConfig& time) {
     config.time = time;
-    const World world(config, static_scene());
-    for (const std::string& text : world.warnings())
+    const World world = make_world(config, static_scene());
+    for (const std::string& text : world.warnings)
       if (text.find("frames have no vehicle") != text.npos) return text;
     return std::string();
   };
@@ -256,12 +256,12 @@ TEST_CASE("generated traffic drives a world of its own") {
   config.trajectories.generate = "--seed 1 --blocks 4 --vehicles 10 --seconds 1 --step 0.1";
   config.transmitters = {end("rsu", {0, 0, 6})};
   config.mounts = {mount("roof", "*", "receiver", {0, 0, 1.6})};
-  const World world(config, static_scene());
-  CHECK(world.frame_count() == 11);
-  CHECK(world.instances().size() == 10);
+  const World world = make_world(config, static_scene());
+  CHECK(world.clock.frame_count() == 11);
+  CHECK(world.fleet.instances.size() == 10);
   CHECK(world.state(10).links.size() == 10);
   config.trajectories.generate = "--vehicle 10";
-  CHECK_THROWS_AS(World(config, static_scene()), ConfigError);
+  CHECK_THROWS_AS(make_world(config, static_scene()), ConfigError);
 }
 
 TEST_CASE("patterns") {

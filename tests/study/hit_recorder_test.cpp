@@ -98,10 +98,10 @@ TEST_CASE("rays of an antenna on a vehicle pass that vehicle, and meet others wh
       "[time]\nstep_s = 0.5\n",
       "test");
   TracedWorld traced(config, "");
-  REQUIRE(traced.world.frame_count() == 3);
+  REQUIRE(traced.world.clock.frame_count() == 3);
   HitRecorder record(traced, launch());
   const uint32_t static_surfaces = static_cast<uint32_t>(traced.scene.surfaces.size()),
-                 second = traced.world.instances().at(1).first_surface;
+                 second = traced.world.fleet.instances.at(1).first_surface;
   double nearest_before_m = 0;
   for (const uint32_t frame : {0u, 1u, 2u}) {
     CAPTURE(frame);

@@ -64,16 +64,16 @@ TEST_CASE("traffic: the cold frame and those that count, by a mast or by vehicle
 TEST_CASE("the thesis' world: all that sends moves, from the first frame to the last") {
   const Config config = with_traffic(city(), "thesis", 20);
   const Scene scene = load_scene(config);
-  const World world(config, scene);
-  REQUIRE(world.frame_count() == 21);
-  REQUIRE(world.transmitters().size() == 3);
+  const World world = make_world(config, scene);
+  REQUIRE(world.clock.frame_count() == 21);
+  REQUIRE(world.transmitters.ends.size() == 3);
   const WorldState first = world.state(0), last = world.state(20);
   for (size_t i = 0; i < 3; ++i) {
     CHECK(first.transmitters[i].present);
     CHECK(last.transmitters[i].present);
     CHECK(glm::distance(first.transmitters[i].position_m, last.transmitters[i].position_m) > 0.5);
   }
-  CHECK(world.receivers().size() == 20 + city().receivers.size());
+  CHECK(world.receivers.ends.size() == 20 + city().receivers.size());
 }
 
 TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/h along +x, and nothing else sends") {
@@ -90,9 +90,9 @@ TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/
     CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
     CHECK(has_vehicles(config));
     const Scene scene = load_scene(config);
-    const World world(config, scene);
-    REQUIRE(world.frame_count() == 101);
-    REQUIRE(world.transmitters().size() == 1);
+    const World world = make_world(config, scene);
+    REQUIRE(world.clock.frame_count() == 101);
+    REQUIRE(world.transmitters.ends.size() == 1);
     for (const uint32_t frame : {0u, 37u, 100u}) {
       const WorldState state = world.state(frame);
       CHECK(state.time_s == doctest::Approx(0.01 * frame));
@@ -110,11 +110,11 @@ TEST_CASE("of stations the first is driven, all of them listen where they stand,
                                        "a.toml");
   const Config config = driven(standing, 10);
   CHECK_NOTHROW(parse_config(resolved_config(config), "resolved.toml"));
-  const World world(config, load_scene(config));
-  REQUIRE(world.transmitters().size() == 1);
-  CHECK(world.transmitters()[0].name == "rsu/rsu");
+  const World world = make_world(config, load_scene(config));
+  REQUIRE(world.transmitters.ends.size() == 1);
+  CHECK(world.transmitters.ends[0].name == "rsu/rsu");
   std::vector<std::string> names;
-  for (const RadioEnd& end : world.receivers()) names.push_back(end.name);
+  for (const RadioEnd& end : world.receivers.ends) names.push_back(end.name);
   CHECK(names == std::vector<std::string>{"car", "rsu", "far"});
 }
 

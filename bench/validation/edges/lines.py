@@ -176,7 +176,7 @@ def fields(paths, row, source, receivers):
 
 
 def are_whole(sets):
-    """Which receivers of a line have all diffracted paths of those aside and of the last three on their side; of that on
+    """Tells which receivers of a line have all diffracted paths of those aside and of the last three on their side; of that on
     the boundary, those of both. sets: with those aside."""
     sides, sets = [set().union(*sets[:4]), set().union(*sets[-4:])], sets[1:-1]
     return np.array([(sides[0] & sides[1] if at == 0 else sides[int(at > 0)]) <= found
@@ -195,10 +195,10 @@ def fitted(at, field, degree):
 
 
 def largest_step(field, whole):
-    """Of the field along one line, (point,), beyond what a smooth one would do, where it is, and the largest step beside
-    receivers that are not `whole`."""
+    """Returns the largest step of the field along one line, (point,), beyond what a smooth field would do; where it is; and
+    the largest step beside receivers that are not `whole`."""
     left, right = (OFFSETS_M <= 0) & whole, (OFFSETS_M >= 0) & whole
-    # Where receivers are left out a polynomial of a high degree would swing between those that are there.
+    # If receivers are left out, a polynomial of a high degree would swing between those that are there.
     fits = [fitted(OFFSETS_M[side], field[side], 5 if whole.all() else 2) for side in (left, right)]
     worst, at, late = 0.0, 0.0, 0.0
     for i in range(len(OFFSETS_M) - 1):

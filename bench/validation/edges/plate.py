@@ -19,7 +19,7 @@ TX = (0.3, 0.2)
 
 
 def covered(size, f_hz, legs, a, b):
-    """How much of a Fresnel zone the plate covers along one axis, 1 for a plate without end."""
+    """Returns the part of a Fresnel zone that the plate covers along one axis, 1 for a plate without end."""
     scale = np.sqrt(2 * f_hz / SPEED_OF_LIGHT * sum(legs) / (legs[0] * legs[1]))
     middle = (a * legs[1] + b * legs[0]) / sum(legs)
     (s0, c0), (s1, c1) = (fresnel((edge - middle) * scale) for edge in (-size / 2, size / 2))

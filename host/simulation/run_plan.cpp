@@ -1,0 +1,71 @@
+// Each value follows from those before it.
+#include "simulation/run_plan.hpp"
+
+#include "radio/carriers.hpp"
+#include "radio/opacity.hpp"
+#include "scene/materials.hpp"
+#include "simulation/feature_choice.hpp"
+
+namespace wavetracer {
+namespace {
+
+Config with_all_ends(Config config, const World& world) {
+  config.transmitters = world.transmitters.ends;
+  config.receivers = world.receivers.ends;
+  return config;
+}
+
+bool receives_by_spheres(const TraceConfig& trace) { return trace.reception == "sphere"; }
+
+// A sphere receives what this frame's rays meet.
+bool reuses(const TraceConfig& trace, const World& world, bool frames_follow) {
+  return trace.reuse && !receives_by_spheres(trace) && (world.clock.frame_count() > 1 || world.live || frames_follow);
+}
+
+}  // namespace
+
+bool RunPlan::by_spheres() const { return receives_by_spheres(trace); }
+
+Config RunPlan::computed() const {
+  Config out = asked;
+  out.trace = trace;
+  return out;
+}
+
+RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
+  World world = make_world(asked, scene);
+  Config config = with_all_ends(asked, world);
+  Features features = choose_features(config, scene, world);
+  const TraceConfig trace = with_features(config.trace, features);
+  Origins origins =
+      make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.diffraction);
+  const bool reuse = reuses(trace, world, frames_follow);
+  drop_used(scene.report.warnings, world.fleet.models);
+  return {.scene = std::move(scene),
+          .world = std::move(world),
+          .asked = std::move(config),
+          .features = std::move(features),
+          .trace = trace,
+          .origins = std::move(origins),
+          .reuse = reuse};
+}
+
+std::vector<bool> opaque_surfaces(const RunPlan& plan) {
+  std::vector<bool> out;
+  if (!plan.trace.transmission) return out;
+  const Fleet& fleet = plan.world.fleet;
+  for (const double carrier_hz : carriers_hz(plan.asked.radio)) {
+    const std::vector<bool> opaque = opaque_surfaces(plan.scene, fleet.models, fleet.instances, carrier_hz);
+    if (out.empty()) out.assign(opaque.size(), true);
+    for (size_t i = 0; i < out.size(); ++i) out[i] = out[i] && opaque[i];
+  }
+  return out;
+}
+
+std::vector<glm::dvec3> first_transmitters(const World& world) {
+  std::vector<glm::dvec3> out;
+  for (const EndState& end : world.state(0).transmitters) out.push_back(end.position_m);
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,44 @@
+// What a run computes, known before any device is asked: one value, made of the configuration and the scene.
+#pragma once
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "simulation/listeners.hpp"
+#include "simulation/world.hpp"
+#include "wavetracer/config.hpp"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/simulation.hpp"
+
+namespace wavetracer {
+
+struct RunPlan {
+  Scene scene;
+  World world;
+  // The configuration as it was given, with all ends of the world. Its trace is what messages and outputs speak of;
+  // what is computed follows from the one below.
+  Config asked;
+  Features features;
+  TraceConfig trace;  // [trace] without what the scene does not need
+  Origins origins;
+  bool reuse;  // frames reuse the sequences of earlier frames
+
+  // Receivers get the rays that pass through their spheres, instead of exact paths.
+  bool by_spheres() const;
+  // Rays may meet something.
+  bool has_surfaces() const { return !scene.surfaces.empty() || !world.fleet.instances.empty(); }
+  // `asked` with `trace`, for what needs all of a configuration. It copies all ends.
+  Config computed() const;
+};
+
+// frames_follow: frames of poses of the caller's own follow each other, also where the world has one frame; then they
+// reuse sequences if trace.reuse says so. Throws ConfigError or InputError.
+RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow);
+
+// Whether no wave of any carrier passes a surface, for each surface of the world; empty where nothing passes walls
+// anyhow.
+std::vector<bool> opaque_surfaces(const RunPlan& plan);
+
+// Where the transmitters of the first frame are, in recentred metres.
+std::vector<glm::dvec3> first_transmitters(const World& world);
+
+}  // namespace wavetracer
