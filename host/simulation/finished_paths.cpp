@@ -53,7 +53,6 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   if (most.rows > 0) {
     scan_.prefix(distinct_.rows().counts, 2 * places, "distinct");                                         // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
-    const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
       fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
