@@ -18,6 +18,7 @@
 
 #include "wavetracer/error.hpp"
 #include "wavetracer/kernel_time.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::gpu {
 
@@ -112,9 +113,9 @@ class Memory {
   std::shared_ptr<void> handle_;  // cl_mem
   Context* context_ = nullptr;
   size_t bytes_ = 0;
-  void read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait = true) const;
-  void write_bytes(const void* from, size_t offset, size_t bytes, const char* stage);
-  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const;
+  void read_bytes(void* to, size_t offset, size_t bytes, Stage stage, bool wait = true) const;
+  void write_bytes(const void* from, size_t offset, size_t bytes, Stage stage);
+  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, Stage stage) const;
 };
 
 // A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and done with the host's memory
@@ -126,25 +127,25 @@ class Buffer : public Memory {
  public:
   Buffer() = default;
   size_t size() const { return bytes_ / sizeof(T); }
-  void write(std::span<const T> data, size_t first = 0, const char* stage = "transfer") {
+  void write(std::span<const T> data, size_t first = 0, Stage stage = Stage::transfer) {
     write_bytes(data.data(), first * sizeof(T), data.size_bytes(), stage);
   }
-  std::vector<T> read(size_t first, size_t count, const char* stage = "transfer") const {
+  std::vector<T> read(size_t first, size_t count, Stage stage = Stage::transfer) const {
     std::vector<T> out(count);
     read_bytes(out.data(), first * sizeof(T), count * sizeof(T), stage);
     return out;
   }
   std::vector<T> read() const { return read(0, size()); }
   // The same into pinned memory, which has room for them. The elements stay there until it is used again.
-  std::span<const T> read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+  std::span<const T> read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
     read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
     return {static_cast<const T*>(to.data()), count};
   }
   // The same without waiting: the elements are there after the next read that waits.
-  void begin_read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+  void begin_read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
     read_to(to, first * sizeof(T), count * sizeof(T), false, stage);
   }
-  T read_one(size_t i, const char* stage = "transfer") const {
+  T read_one(size_t i, Stage stage = Stage::transfer) const {
     T out;
     read_bytes(&out, i * sizeof(T), sizeof(T), stage);
     return out;
@@ -156,14 +157,14 @@ class Buffer : public Memory {
 };
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
-// stage names the profiling sum that its time goes to. Memory arguments are Buffers, or pointers to Buffers, where a
+// stage: the profiling sum that its time goes to. Memory arguments are Buffers, or pointers to Buffers, where a
 // null pointer is NULL in the kernel too; the rest are plain values. A range of no items launches nothing, and then the
 // buffers need not exist: a list that has been empty so far may have none.
 class Kernel {
  public:
   Kernel() = default;
   template <class... Args>
-  void operator()(Range range, const char* stage, const Args&... args) {
+  void operator()(Range range, Stage stage, const Args&... args) {
     check_count(sizeof...(Args));
     if (range.empty()) return;
     unsigned i = 0;
@@ -179,7 +180,7 @@ class Kernel {
   void check_count(size_t count) const;
   void set_value(unsigned index, const void* value, size_t bytes);
   void set_memory(unsigned index, const Memory* memory);
-  void enqueue(Range range, const char* stage);
+  void enqueue(Range range, Stage stage);
   template <class T>
   void set(unsigned index, const T& value) {
     if constexpr (std::is_base_of_v<Memory, T>) {
@@ -218,12 +219,12 @@ class Context {
   // Throws DeviceError as buffer() does.
   HostMemory host_memory(size_t bytes, const char* name);
   // Fills with a repeated 1, 2, 4 or 8 byte pattern.
-  void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, const char* stage);
+  void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, Stage stage);
   template <class T>
-  void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, const char* stage = "transfer") {
+  void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, Stage stage = Stage::transfer) {
     fill(buffer, &value, sizeof(T), 0, buffer.bytes(), stage);
   }
-  void copy(const Memory& from, Memory& to, size_t bytes, const char* stage = "transfer");
+  void copy(const Memory& from, Memory& to, size_t bytes, Stage stage = Stage::transfer);
 
   // Kernel `kernel` of kernels/`program`.cl built with these definitions; compiled once a process, cached on disk. CPUs
   // take seconds to compile, so there it is built, and what is wrong with it is thrown (DeviceError), when it is first
@@ -238,8 +239,8 @@ class Context {
   // Hands what was enqueued to the device, and does not wait for it.
   void flush();
 
-  // Sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
-  std::map<std::string, double> profile();
+  // Sums of the profiling events since the last reset, seconds by the names of their stages; finishes the queue first.
+  StageSeconds profile();
   // The same by kernels, without copies; to be read after profile().
   KernelTimes kernel_times() const;
   void reset_profile();

@@ -5,9 +5,9 @@
 #include <deque>
 #include <map>
 #include <string>
-#include <string_view>
 #include "gpu/opencl.hpp"
 #include "wavetracer/kernel_time.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::gpu {
 
@@ -17,11 +17,11 @@ class Profile {
   bool on = true;
   // Keeps the event until its time can be read; waits for old ones where more than max_pending are kept.
   // kernel: what else the event counts for, or nullptr for a copy.
-  void add(std::string_view stage, cl::Event event, KernelTime* kernel = nullptr);
+  void add(Stage stage, cl::Event event, KernelTime* kernel = nullptr);
   // The sum of a kernel, "program/kernel"; it stays where it is until the next reset.
   KernelTime& kernel(const std::string& name) { return kernels_[name]; }
   // Waits for what is pending. Throws cl::Error where a command failed.
-  const std::map<std::string, double, std::less<>>& sums();
+  const std::map<Stage, double>& sums();
   // Of the kernels that ran. To be read after sums().
   const KernelTimes& kernels() const { return kernels_; }
   void reset();
@@ -37,7 +37,7 @@ class Profile {
   };
   void fold(size_t count);
 
-  std::map<std::string, double, std::less<>> sums_;
+  std::map<Stage, double> sums_;
   KernelTimes kernels_;
   std::deque<Pending> pending_;
 };

@@ -28,17 +28,17 @@ WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, c
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
       kept_(context.buffer<uint32_t>(words_of(kept_wedges_), "pairs of wedges")) {
   const wt_uint zero = 0;
-  context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, "wedge_pairs");
+  context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, Stage::wedge_pairs);
 }
 
 void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                             const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
                             const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
                             Counters& counters) {
-  kernel_({size_t{join.end - join.first} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
-          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, prefixes.order,
-          prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(),
-          join, sight.arguments(scene, join.count, kept_wedges_));
+  kernel_({size_t{join.end - join.first} * join.lanes, group_}, Stage::wedge_pairs, scene.leg_nodes(),
+          scene.leg_leaves(), scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys,
+          prefixes.order, prefixes.prefixes, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list,
+          counters.buffer(), join, sight.arguments(scene, join.count, kept_wedges_));
 }
 
 }  // namespace wavetracer
