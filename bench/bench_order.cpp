@@ -136,7 +136,7 @@ std::vector<Subject> measure(const Place& place, uint64_t rays, const Options& o
     for (size_t i = 0; i < subjects.size(); i++) {
       Subject& s = subjects[(run + i) % subjects.size()];
       const StageSeconds seconds = s.simulation.run_frame(0).seconds;
-      s.trace.push_back(1e3 * stage_seconds(seconds, "trace"));
+      s.trace.push_back(1e3 * stage_seconds(seconds, Stage::trace));
       s.order.push_back(1e3 * part_seconds(seconds, FramePart::order));
       s.unpaid.push_back(1e3 * part_seconds(seconds, FramePart::discovery));
       s.paid.push_back(s.unpaid.back() + s.order.back());

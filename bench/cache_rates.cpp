@@ -41,7 +41,7 @@ double median_seconds(uint32_t runs, const std::function<double()>& run) {
 
 // askers: see the kernel; 0: key after key.
 void ask(gpu::Context& context, Questions& questions, uint32_t first, uint32_t keys, uint32_t askers, uint32_t count) {
-  plain_kernel(context, "make_questions")(range(context, count), "bench", first, keys, askers, questions.cells,
+  plain_kernel(context, "make_questions")(range(context, count), Stage::transfer, first, keys, askers, questions.cells,
                                           questions.left, count);
 }
 
@@ -92,9 +92,9 @@ Rate RatedTable::find(Questions& questions, const Traffic& traffic) {
     return seconds_of(context_, [&] { find_questions(questions, traffic.readers); });
   });
   context_.fill(questions.outcome, 0);
-  plain_kernel(context_, "check_answers")(range(context_, questions.count), "bench", questions.cells, questions.left,
-                                          questions.count, questions.t, questions.primitives, questions.surfaces,
-                                          questions.outcome);
+  plain_kernel(context_, "check_answers")(range(context_, questions.count), Stage::transfer, questions.cells,
+                                          questions.left, questions.count, questions.t, questions.primitives,
+                                          questions.surfaces, questions.outcome);
   const std::vector<uint32_t> outcome = questions.outcome.read();
   const uint32_t answered = outcome[0], wrong = outcome[1];
   const uint32_t right = traffic.stored ? answered - wrong : questions.count - answered;
@@ -113,16 +113,16 @@ void OurTable::put_questions(Questions& questions, uint32_t count) {
   gpu::Definitions definitions = table_.definitions(false);
   definitions["WT_CACHE_TALLY"] = "1";
   context_.kernel("probe_cache_rate", "put_questions", definitions)(
-      range(context_, count), "bench", table_.entries, table_.heads, table_.used, table_.device_regions,
+      range(context_, count), Stage::transfer, table_.entries, table_.heads, table_.used, table_.device_regions,
       table_.counters, table_.widths, questions.cells, questions.left, count);
 }
 
 void OurTable::find_questions(Questions& questions, uint32_t readers) {
   table_.config.readers_number = readers;
   context_.kernel("probe_cache_rate", "find_questions", table_.definitions(true))(
-      range(context_, questions.count), "bench", table_.entries, table_.heads, table_.used, table_.device_regions,
-      table_.counters, table_.widths, questions.cells, questions.left, questions.count, questions.t,
-      questions.primitives, questions.surfaces);
+      range(context_, questions.count), Stage::transfer, table_.entries, table_.heads, table_.used,
+      table_.device_regions, table_.counters, table_.widths, questions.cells, questions.left, questions.count,
+      questions.t, questions.primitives, questions.surfaces);
 }
 
 uint64_t OurTable::kept() {
@@ -135,7 +135,7 @@ double OurTable::hash(Questions& questions) {
   gpu::Kernel run = context_.kernel("probe_cache_rate", "hash_questions", table_.definitions(true));
   return questions.count / median_seconds(questions.runs, [&] {
            return seconds_of(context_, [&] {
-             run(range(context_, questions.count), "bench", table_.widths, questions.cells, questions.left,
+             run(range(context_, questions.count), Stage::transfer, table_.widths, questions.cells, questions.left,
                  questions.count, questions.primitives);
            });
          });
@@ -153,18 +153,19 @@ gpu::Kernel ThesisTable::kernel(const char* name, uint32_t readers) const {
 }
 
 void ThesisTable::put_questions(Questions& questions, uint32_t count) {
-  kernel("thesis_put", no_wear)(range(context_, count), "bench", nodes_, questions.cells, questions.left, count, stamp,
-                                questions.surfaces);
+  kernel("thesis_put", no_wear)(range(context_, count), Stage::transfer, nodes_, questions.cells, questions.left, count,
+                                stamp, questions.surfaces);
 }
 
 void ThesisTable::find_questions(Questions& questions, uint32_t readers) {
-  kernel("thesis_find", readers)(range(context_, questions.count), "bench", nodes_, questions.cells, questions.left,
-                                 questions.count, stamp, questions.t, questions.primitives, questions.surfaces);
+  kernel("thesis_find", readers)(range(context_, questions.count), Stage::transfer, nodes_, questions.cells,
+                                 questions.left, questions.count, stamp, questions.t, questions.primitives,
+                                 questions.surfaces);
 }
 
 uint64_t ThesisTable::kept() {
   context_.fill(written_, 0);
-  kernel("thesis_count", no_wear)(range(context_, node_count_), "bench", nodes_, written_);
+  kernel("thesis_count", no_wear)(range(context_, node_count_), Stage::transfer, nodes_, written_);
   return written_.read_one(0);
 }
 
@@ -175,8 +176,8 @@ GatherRates gather_rates(gpu::Context& context, Questions& questions, uint64_t b
     gpu::Kernel run = plain_kernel(context, name);
     return questions.count / median_seconds(questions.runs, [&] {
              return seconds_of(context, [&] {
-               run(range(context, questions.count), "bench", memory, static_cast<uint32_t>(elements), questions.count,
-                   questions.primitives);
+               run(range(context, questions.count), Stage::transfer, memory, static_cast<uint32_t>(elements),
+                   questions.count, questions.primitives);
              });
            });
   };

@@ -60,13 +60,13 @@ std::vector<StageTimes> stage_times(gpu::Context& context, const SceneRays& rays
 
   std::vector<Launch> launches;
   for (const Segment& segment : rays.segments) launches.push_back(make_launch(context, segment));
-  enum Stage { hashing, missing, tracing, storing, hitting, stage_count };
+  enum CacheStage { hashing, missing, tracing, storing, hitting, stage_count };
   std::vector<std::array<std::vector<double>, stage_count>> seconds(launches.size());
   for (uint32_t run = 0; run <= runs; ++run) {
     table.clear(context);
     for (size_t k = 0; k < launches.size(); ++k) {
       Launch& l = launches[k];
-      const auto timed = [&](Stage stage, const auto& pass) {
+      const auto timed = [&](CacheStage stage, const auto& pass) {
         context.finish();
         context.reset_profile();
         pass();
@@ -75,7 +75,8 @@ std::vector<StageTimes> stage_times(gpu::Context& context, const SceneRays& rays
       };
       const auto look_up = [&] { lookup(scene, l.rays, l.hits, l.missed, table, movement, WT_NONE, 1, false); };
       timed(hashing, [&] {
-        hash({l.rays.count, local}, "bench", l.rays.planes, l.rays.capacity, l.rays.count, table.widths, l.hashes);
+        hash({l.rays.count, local}, Stage::transfer, l.rays.planes, l.rays.capacity, l.rays.count, table.widths,
+             l.hashes);
       });
       timed(missing, look_up);
       timed(tracing, [&] { trace(scene, l.rays, l.traced); });

@@ -19,12 +19,12 @@ double operations_per_second(gpu::Context& context, size_t runs, uint32_t lanes)
   const uint32_t items = context.info().cpu ? 1u << 12 : 1u << 20, rounds = context.info().cpu ? 1u << 13 : 1u << 12;
   auto out = context.buffer<Scalar>(size_t{items} * lanes, "sums");
   const gpu::Range range{items, context.info().cpu ? 16u : 256u};
-  kernel(range, "arithmetic", out, Scalar{0.5}, 1u);
+  kernel(range, Stage::transfer, out, Scalar{0.5}, 1u);
   std::vector<double> seconds;
   for (size_t run = 0; run < runs; run++) {
     context.finish();
     context.reset_profile();
-    kernel(range, "arithmetic", out, Scalar{0.5}, rounds);
+    kernel(range, Stage::transfer, out, Scalar{0.5}, rounds);
     seconds.push_back(device_seconds(context));
   }
   return 2.0 * items * rounds * chains * lanes / median(seconds);
@@ -37,7 +37,7 @@ double shortest_launch(gpu::Context& context, size_t runs) {
   for (size_t run = 0; run < 10 * runs; run++) {
     context.finish();
     context.reset_profile();
-    kernel({1, 1}, "launch", hits, 1u, met);
+    kernel({1, 1}, Stage::transfer, hits, 1u, met);
     shortest = std::min(shortest, device_seconds(context));
   }
   return shortest;

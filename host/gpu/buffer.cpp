@@ -102,13 +102,13 @@ HostMemory Context::host_memory(size_t bytes, const char* name) {
   return memory;
 }
 
-void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const {
+void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, Stage stage) const {
   if (bytes > to.bytes())
     throw std::out_of_range(fmt::format("reading {} bytes into {} bytes of the host", bytes, to.bytes()));
   read_bytes(to.data(), offset, bytes, stage, wait);
 }
 
-void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait) const {
+void Memory::read_bytes(void* to, size_t offset, size_t bytes, Stage stage, bool wait) const {
   if (bytes == 0 && offset <= bytes_) return;
   require(static_cast<bool>(handle_), "reading");
   Context::State& s = *context_->state_;
@@ -121,7 +121,7 @@ void Memory::read_bytes(void* to, size_t offset, size_t bytes, const char* stage
   s.profile.add(stage, std::move(event));
 }
 
-void Memory::write_bytes(const void* from, size_t offset, size_t bytes, const char* stage) {
+void Memory::write_bytes(const void* from, size_t offset, size_t bytes, Stage stage) {
   if (bytes == 0 && offset <= bytes_) return;
   require(static_cast<bool>(handle_), "writing");
   Context::State& s = *context_->state_;
@@ -136,7 +136,7 @@ void Memory::write_bytes(const void* from, size_t offset, size_t bytes, const ch
 }
 
 void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes,
-                   const char* stage) {
+                   Stage stage) {
   require(static_cast<bool>(memory.handle_), "filling");
   State& s = *state_;
   check_bounds(*s.allocations, memory.handle_.get(), memory.bytes_, "filling", offset, bytes);
@@ -167,7 +167,7 @@ void Context::fill(Memory& memory, const void* pattern, size_t pattern_bytes, si
   }
 }
 
-void Context::copy(const Memory& from, Memory& to, size_t bytes, const char* stage) {
+void Context::copy(const Memory& from, Memory& to, size_t bytes, Stage stage) {
   if (bytes == 0) return;
   require(from.handle_ && to.handle_, "copying");
   State& s = *state_;
@@ -177,7 +177,7 @@ void Context::copy(const Memory& from, Memory& to, size_t bytes, const char* sta
   s.copy(from.handle_.get(), 0, to.handle_.get(), 0, bytes, stage);
 }
 
-void Context::State::copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, const char* stage) {
+void Context::State::copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, Stage stage) {
   cl::Event event;
   const cl_int code = clEnqueueCopyBuffer(queue(), static_cast<cl_mem>(from), static_cast<cl_mem>(to), from_offset,
                                           to_offset, bytes, 0, nullptr, event_of(event));

@@ -100,11 +100,12 @@ void Context::flush() {
   }
 }
 
-std::map<std::string, double> Context::profile() {
+StageSeconds Context::profile() {
   finish();
   try {
-    const auto& sums = state_->profile.sums();
-    return {sums.begin(), sums.end()};
+    StageSeconds out;
+    for (const auto& [stage, seconds] : state_->profile.sums()) out.emplace(stage_name(stage), seconds);
+    return out;
   } catch (const cl::Error& error) {
     state_->fail(error.err(), "reading the profile");
   }

@@ -17,6 +17,7 @@
 
 #include "wavetracer/error.hpp"
 #include "wavetracer/kernel_time.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::gpu {
 
@@ -110,9 +111,9 @@ class Memory {
   std::shared_ptr<void> handle_;  // a cl_mem
   Context* context_ = nullptr;
   size_t bytes_ = 0;
-  void read_bytes(void* to, size_t offset, size_t bytes, const char* stage, bool wait = true) const;
-  void write_bytes(const void* from, size_t offset, size_t bytes, const char* stage);
-  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, const char* stage) const;
+  void read_bytes(void* to, size_t offset, size_t bytes, Stage stage, bool wait = true) const;
+  void write_bytes(const void* from, size_t offset, size_t bytes, Stage stage);
+  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, Stage stage) const;
 };
 
 // A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and do not use the host's memory
@@ -124,25 +125,25 @@ class Buffer : public Memory {
  public:
   Buffer() = default;
   size_t size() const { return bytes_ / sizeof(T); }
-  void write(std::span<const T> data, size_t first = 0, const char* stage = "transfer") {
+  void write(std::span<const T> data, size_t first = 0, Stage stage = Stage::transfer) {
     write_bytes(data.data(), first * sizeof(T), data.size_bytes(), stage);
   }
-  std::vector<T> read(size_t first, size_t count, const char* stage = "transfer") const {
+  std::vector<T> read(size_t first, size_t count, Stage stage = Stage::transfer) const {
     std::vector<T> out(count);
     read_bytes(out.data(), first * sizeof(T), count * sizeof(T), stage);
     return out;
   }
   std::vector<T> read() const { return read(0, size()); }
   // Reads into pinned memory, which must be large enough. The elements are valid until the memory is used again.
-  std::span<const T> read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+  std::span<const T> read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
     read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
     return {static_cast<const T*>(to.data()), count};
   }
   // Does the same without waiting: the elements are valid after the next read that waits.
-  void begin_read(size_t first, size_t count, const HostMemory& to, const char* stage = "transfer") const {
+  void begin_read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
     read_to(to, first * sizeof(T), count * sizeof(T), false, stage);
   }
-  T read_one(size_t i, const char* stage = "transfer") const {
+  T read_one(size_t i, Stage stage = Stage::transfer) const {
     T out;
     read_bytes(&out, i * sizeof(T), sizeof(T), stage);
     return out;
@@ -154,14 +155,14 @@ class Buffer : public Memory {
 };
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
-// stage: name of the profiling sum that its time is added to. Memory arguments are Buffers, or pointers to Buffers (a
+// stage: the profiling sum that its time is added to. Memory arguments are Buffers, or pointers to Buffers (a
 // null pointer is NULL in the kernel); other arguments are plain values. A range of no items launches nothing, and then
 // the buffers need not exist: a list that has been empty so far may have none.
 class Kernel {
  public:
   Kernel() = default;
   template <class... Args>
-  void operator()(Range range, const char* stage, const Args&... args) {
+  void operator()(Range range, Stage stage, const Args&... args) {
     check_count(sizeof...(Args));
     if (range.empty()) return;
     unsigned i = 0;
@@ -177,7 +178,7 @@ class Kernel {
   void check_count(size_t count) const;
   void set_value(unsigned index, const void* value, size_t bytes);
   void set_memory(unsigned index, const Memory* memory);
-  void enqueue(Range range, const char* stage);
+  void enqueue(Range range, Stage stage);
   template <class T>
   void set(unsigned index, const T& value) {
     if constexpr (std::is_base_of_v<Memory, T>) {
@@ -216,12 +217,12 @@ class Context {
   // Throws DeviceError as buffer() does.
   HostMemory host_memory(size_t bytes, const char* name);
   // Fills memory with a repeated pattern of 1, 2, 4 or 8 bytes.
-  void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, const char* stage);
+  void fill(Memory& memory, const void* pattern, size_t pattern_bytes, size_t offset, size_t bytes, Stage stage);
   template <class T>
-  void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, const char* stage = "transfer") {
+  void fill(Buffer<T>& buffer, const std::type_identity_t<T>& value, Stage stage = Stage::transfer) {
     fill(buffer, &value, sizeof(T), 0, buffer.bytes(), stage);
   }
-  void copy(const Memory& from, Memory& to, size_t bytes, const char* stage = "transfer");
+  void copy(const Memory& from, Memory& to, size_t bytes, Stage stage = Stage::transfer);
 
   // Returns kernel `kernel` of kernels/`program`.cl built with these definitions; it is compiled once per process and
   // cached on disk. CPUs take seconds to compile, so there it is built at its first launch, which throws its errors
@@ -238,7 +239,7 @@ class Context {
   void flush();
 
   // Returns sums of the profiling events since the last reset, seconds per stage; finishes the queue first.
-  std::map<std::string, double> profile();
+  StageSeconds profile();
   // Returns the same sums by kernel, without copies; call it after profile().
   KernelTimes kernel_times() const;
   void reset_profile();

@@ -63,7 +63,7 @@ void Kernel::set_memory(unsigned index, const Memory* memory) {
   throw std::logic_error(fmt::format("{} refuses a buffer: {}", s.describe(index), error_name(code)));
 }
 
-void Kernel::enqueue(Range range, const char* stage) {
+void Kernel::enqueue(Range range, Stage stage) {
   State& s = *state_;
   std::array<size_t, 3> padded;
   for (unsigned d = 0; d < 3; ++d) {

@@ -4,15 +4,13 @@
 
 namespace wavetracer::gpu {
 
-void Profile::add(std::string_view stage, cl::Event event, KernelTime* kernel) {
+void Profile::add(Stage stage, cl::Event event, KernelTime* kernel) {
   if (!on) return;
-  auto entry = sums_.find(stage);
-  if (entry == sums_.end()) entry = sums_.emplace(stage, 0.0).first;
-  pending_.push_back({std::move(event), &entry->second, kernel});
+  pending_.push_back({std::move(event), &sums_[stage], kernel});
   if (pending_.size() > max_pending) fold(max_pending / 2);
 }
 
-const std::map<std::string, double, std::less<>>& Profile::sums() {
+const std::map<Stage, double>& Profile::sums() {
   fold(pending_.size());
   return sums_;
 }

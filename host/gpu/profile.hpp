@@ -4,9 +4,9 @@
 #include <deque>
 #include <map>
 #include <string>
-#include <string_view>
 #include "gpu/opencl.hpp"
 #include "wavetracer/kernel_time.hpp"
+#include "wavetracer/stages.hpp"
 
 namespace wavetracer::gpu {
 
@@ -16,11 +16,11 @@ class Profile {
   bool on = true;
   // Keeps the event until its time can be read; waits for old ones if more than max_pending are kept. kernel: a second
   // sum that the event counts for, or nullptr for a copy.
-  void add(std::string_view stage, cl::Event event, KernelTime* kernel = nullptr);
+  void add(Stage stage, cl::Event event, KernelTime* kernel = nullptr);
   // Returns the sum of a kernel, "program/kernel"; the reference is valid until the next reset.
   KernelTime& kernel(const std::string& name) { return kernels_[name]; }
   // Waits for pending events. Throws cl::Error if a command failed.
-  const std::map<std::string, double, std::less<>>& sums();
+  const std::map<Stage, double>& sums();
   // Sums of the kernels that ran. Call it after sums().
   const KernelTimes& kernels() const { return kernels_; }
   void reset();
@@ -36,7 +36,7 @@ class Profile {
   };
   void fold(size_t count);
 
-  std::map<std::string, double, std::less<>> sums_;
+  std::map<Stage, double> sums_;
   KernelTimes kernels_;
   std::deque<Pending> pending_;
 };

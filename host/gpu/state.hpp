@@ -74,7 +74,7 @@ struct Context::State {
   const cl::Program& program(const std::string& name, const std::string& kernel, const std::string& options);
   cl::Program build_from_source(const std::string& name, const std::string& options, const std::string& source);
   // Enqueues a copy between two cl_mem; the ranges must not overlap.
-  void copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, const char* stage);
+  void copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, Stage stage);
   // Throws DeviceError (BufferError if memory ran out): what was tried, the error's name and what to lower.
   [[noreturn]] void fail(cl_int code, const std::string& action) const;
 };

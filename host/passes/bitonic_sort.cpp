@@ -59,21 +59,20 @@ size_t BitonicSort<Key>::temporary_words(uint32_t n) const {
 
 template <class Key>
 void BitonicSort<Key>::operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
-                                  gpu::Buffer<uint32_t>& temporary, const char* stage) {
+                                  gpu::Buffer<uint32_t>& temporary, Stage stage) {
   if (payload_ != Payload::none) require(values, n, "values");
   sort(keys, values, n, temporary, stage);
 }
 
 template <class Key>
-void BitonicSort<Key>::operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-                                  const char* stage) {
+void BitonicSort<Key>::operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, Stage stage) {
   if (payload_ != Payload::none) throw std::invalid_argument("bitonic_sort: a sort with payload was given no values");
   sort(keys, temporary, n, temporary, stage);
 }
 
 template <class Key>
 void BitonicSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
-                            gpu::Buffer<uint32_t>& temporary, const char* stage) {
+                            gpu::Buffer<uint32_t>& temporary, Stage stage) {
   require(keys, n, "keys");
   require(temporary, temporary_words(n), "temporary memory");
   if (n == 0) return;

@@ -25,16 +25,16 @@ class BitonicSort {
   // Sorts keys[0 .. n - 1], ascending and stable, and values[0 .. n - 1] with them (see Payload). What temporary holds
   // afterwards means nothing.
   void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-                  const char* stage = "sort");
+                  Stage stage = Stage::sort);
   // The same for Payload::none.
-  void operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, const char* stage = "sort");
+  void operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, Stage stage = Stage::sort);
 
  private:
   Payload payload_;
   uint32_t block_, items_, step_group_;
   gpu::Kernel sort_blocks_, one_step_, merge_blocks_, gather_;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-            const char* stage);
+            Stage stage);
 };
 
 extern template class BitonicSort<uint32_t>;

@@ -21,7 +21,7 @@ void Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_
   if (ages_ && !trie.ages) throw std::logic_error("bounces: the set of sequences keeps no ages");
   if (samples_ && !ends) throw std::logic_error("bounces: there is no list for the ends of samples");
   if (interactions > WT_MAX_DEPTH) throw std::logic_error("bounces: more interactions than rays may have");
-  kernel_(work_.range(rays.count), "trace", scene.leg_nodes(), scene.leg_leaves(), scene.moving, rays.planes,
+  kernel_(work_.range(rays.count), Stage::trace, scene.leg_nodes(), scene.leg_leaves(), scene.moving, rays.planes,
           scene.surfaces, trie.table, trie.quarters, trie.counters.buffer(), trie.ages, ends,
           wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
                                .extent_m = scene.extent_m,

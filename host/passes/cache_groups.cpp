@@ -10,7 +10,7 @@ namespace wavetracer {
 
 namespace {
 
-constexpr const char* stage = "cache_groups";
+constexpr Stage stage = Stage::cache_groups;
 
 // Twice the rays at least, so that a search takes few steps; a power of two.
 uint64_t places_for(uint64_t rays) { return std::bit_ceil(2 * rays); }

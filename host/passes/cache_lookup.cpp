@@ -20,7 +20,7 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
-  kernel_(work_.range(rays.count), "cache_lookup", rays.planes, hits.planes, missed, table.entries, table.heads,
+  kernel_(work_.range(rays.count), Stage::cache_lookup, rays.planes, hits.planes, missed, table.entries, table.heads,
           table.used, table.device_regions, table.counters, scene.surfaces, scene.exact_surfaces, movement.receivers,
           movement.instance_since, receptions, table.hits, table.uses, table.cycles,
           wt_cache_lookup_arguments{.capacity = rays.capacity,

@@ -16,24 +16,24 @@ CachePurge::CachePurge(gpu::Context& context, const CacheTable& table)
 }
 
 void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from) {
-  context.fill(old_, 0, "cache_purge");
+  context.fill(old_, 0, Stage::cache_purge);
   const gpu::Range entries = work_.range(table.regions.front().entries);
-  kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, "cache_purge", table.entries, table.heads,
-          table.used, table.device_regions, table.counters, keep_from, old_, table.uses);
+  kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, Stage::cache_purge, table.entries,
+          table.heads, table.used, table.device_regions, table.counters, keep_from, old_, table.uses);
   if (table.config.kind == "chained") clear_old_regions(context, table);
 }
 
 void CachePurge::clear_old_regions(gpu::Context& context, CacheTable& table) {
-  const std::vector<uint32_t> old = old_.read(0, old_.size(), "cache_purge");
-  const std::vector<uint32_t> used = table.used.read(0, table.used.size(), "cache_purge");
-  std::vector counters{table.counters.read_one(0, "cache_purge")};
+  const std::vector<uint32_t> old = old_.read(0, old_.size(), Stage::cache_purge);
+  const std::vector<uint32_t> used = table.used.read(0, table.used.size(), Stage::cache_purge);
+  std::vector counters{table.counters.read_one(0, Stage::cache_purge)};
   for (uint32_t r = 0; r < table.regions.size(); ++r) {
     const uint32_t filled = std::min(used[r], table.regions[r].entries);
     if (2 * uint64_t{old[r]} <= filled) continue;
     counters[0].evicted += filled;
     table.clear(context, r);
   }
-  table.counters.write(counters, 0, "cache_purge");
+  table.counters.write(counters, 0, Stage::cache_purge);
 }
 
 }  // namespace wavetracer

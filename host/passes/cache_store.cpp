@@ -21,7 +21,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   if (table.config.scope == "all" && (!receptions || !receivers))
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
-  kernel_(work_.range(missed.count), "cache_store", rays.planes, missed.planes, missed_hits.planes, indices,
+  kernel_(work_.range(missed.count), Stage::cache_store, rays.planes, missed.planes, missed_hits.planes, indices,
           hits.planes, table.entries, table.heads, table.used, table.device_regions, table.counters, receptions,
           receivers, table.cycles,
           wt_cache_store_arguments{.capacity = rays.capacity,

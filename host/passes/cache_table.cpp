@@ -72,7 +72,7 @@ uint32_t division_of(const CacheConfig& config) {
 
 template <class T>
 void fill(gpu::Context& context, gpu::Buffer<T>& buffer, uint32_t value, uint64_t first, uint64_t count) {
-  context.fill(buffer, &value, sizeof value, first * sizeof(T), count * sizeof(T), "cache_purge");
+  context.fill(buffer, &value, sizeof value, first * sizeof(T), count * sizeof(T), Stage::cache_purge);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
   const bool alone = tuning_of(context_.info()).alone;
   const ReceiverGroups& groups = ends.groups;
   return fill_list(
-      counters, &wt_counters::candidates, "candidates", [&] { return list_.size(); },
+      counters, &wt_counters::candidates, Stage::candidates, [&] { return list_.size(); },
       [&] {
         const wt_candidates_arguments arguments{.node_count = node_count,
                                                 .receiver_capacity = alone ? groups.capacity : ends.receiver_capacity,
@@ -48,11 +48,11 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                                                 .max_reflections = max_reflections_,
                                                 .capacity = static_cast<uint32_t>(list_.size())};
         if (alone)
-          kernel_(work_.range(node_count), "candidates", trie, nodes, ends.transmitters, ends.receivers,
+          kernel_(work_.range(node_count), Stage::candidates, trie, nodes, ends.transmitters, ends.receivers,
                   scene.exact_surfaces, scene.surfaces, groups.order, groups.places, groups.boxes, groups.links, list_,
                   counters.buffer(), arguments);
         else
-          kernel_(work_.groups(node_count), "candidates", trie, nodes, ends.transmitters, ends.receivers,
+          kernel_(work_.groups(node_count), Stage::candidates, trie, nodes, ends.transmitters, ends.receivers,
                   scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.linked, list_, counters.buffer(),
                   arguments);
       },

@@ -33,13 +33,13 @@ void Compact::check(const gpu::Buffer<float>& words, size_t first, uint32_t coun
 void Compact::count_blocks(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                            gpu::Buffer<uint32_t>& block_counts) {
   check(words, first, count, block_counts);
-  count_blocks_(work_.range(count), "compact", words, uint64_t{first}, count, block_counts);
+  count_blocks_(work_.range(count), Stage::compact, words, uint64_t{first}, count, block_counts);
 }
 
 void Compact::operator()(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                          const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices) {
   check(words, first, count, block_offsets);
-  compact_(work_.range(count), "compact", words, uint64_t{first}, count, block_offsets, indices);
+  compact_(work_.range(count), Stage::compact, words, uint64_t{first}, count, block_offsets, indices);
 }
 
 }  // namespace wavetracer

@@ -32,28 +32,28 @@ Counters::Counters(gpu::Context& context) : context_(context), buffer_(context.b
 }
 
 void Counters::zero() {
-  buffer_.write(std::vector<wt_counters>{{}}, 0, "sequences");
+  buffer_.write(std::vector<wt_counters>{{}}, 0, Stage::sequences);
   zeroed();
 }
 
-void Counters::restart(Count count, uint32_t from, const char* stage) {
+void Counters::restart(Count count, uint32_t from, Stage stage) {
   context_.fill(buffer_, &from, sizeof from, counter_word(count) * sizeof(wt_uint), sizeof from, stage);
 }
 
-void Counters::restart_nodes(uint32_t count, const char* stage) {
+void Counters::restart_nodes(uint32_t count, Stage stage) {
   const wt_uint start[] = {count, 0};
   static_assert(offsetof(wt_counters, exchanged) == offsetof(wt_counters, nodes) + sizeof(wt_uint));
   context_.fill(buffer_, start, sizeof start, offsetof(wt_counters, nodes), sizeof start, stage);
 }
 
-void Counters::restart_ended(const char* stage) {
+void Counters::restart_ended(Stage stage) {
   const wt_uint none = 0;
   context_.fill(buffer_, &none, sizeof none, offsetof(wt_counters, ended), sizeof(wt_counters::ended), stage);
 }
 
 uint64_t Counters::expected(Count count) const { return uint64_t{most_.*count} + most_.*count / 4 + 1024; }
 
-uint32_t Counters::length(Count count, size_t capacity, const char* stage) {
+uint32_t Counters::length(Count count, size_t capacity, Stage stage) {
   if (!foresees_) return read(stage).*count;
   const auto most = static_cast<uint32_t>(std::min<uint64_t>(expected(count), capacity));
   foreseen_.emplace_back(count, most);

@@ -28,15 +28,15 @@ class Counters {
     in_parts_ = false;
   }
   // One of them begins again with this number.
-  void restart(Count count, uint32_t from, const char* stage);
+  void restart(Count count, uint32_t from, Stage stage);
   // So many nodes are listed, and none after them.
-  void restart_nodes(uint32_t count, const char* stage);
+  void restart_nodes(uint32_t count, Stage stage);
   // A list is made in parts, of which the counters have the last alone: nothing is foreseen from this frame.
   void in_parts() { in_parts_ = true; }
   // Rays of bounces are counted from zero again.
-  void restart_ended(const char* stage);
+  void restart_ended(Stage stage);
   // As they are now; waits for the device.
-  wt_counters read(const char* stage) const { return buffer_.read_one(0, stage); }
+  wt_counters read(Stage stage) const { return buffer_.read_one(0, stage); }
 
   // Are lengths foreseen from now on? Not before a frame has settled.
   void foresee(bool on) { foresees_ = on && known_; }
@@ -45,7 +45,7 @@ class Counters {
   uint64_t expected(Count count) const;
   // The length of the list that `count` counts, which has room for `capacity` elements: read, and then it may be more
   // than that, or foreseen.
-  uint32_t length(Count count, size_t capacity, const char* stage);
+  uint32_t length(Count count, size_t capacity, Stage stage);
   // What the last frame counted.
   const wt_counters& last() const { return last_; }
   // The frame has ended with these counters: was all as foreseen? If so they are what the next frame foresees from. If

@@ -47,7 +47,7 @@ SolvedList& Crowns::operator()(const RadioEnds& ends) {
   }
   solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
   if (solved_.count > 0)
-    kernel_(work_.range(solved_.count), "crowns", links_, centres_, solved_.headers, solved_.vertices,
+    kernel_(work_.range(solved_.count), Stage::crowns, links_, centres_, solved_.headers, solved_.vertices,
             solved_.sequences,
             wt_crowns_arguments{.row_count = solved_.count,
                                 .rows_per_item = work_.per_item,

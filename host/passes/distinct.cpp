@@ -63,7 +63,7 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
                 .groups = ends.receiver_capacity / 16,
                 .twins = twins_,
                 .length_bits = std::min(most_length_bits, 32u - static_cast<uint32_t>(std::bit_width(links)))};
-  row_keys_({places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
+  row_keys_({places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences, ends.transmitters,
             ends.receivers, receiver_of_, transmitter_of_, ends.links, own, keys_, lengths_, counters.buffer(),
             arguments_);
   return rows_.places;
@@ -71,17 +71,17 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
 
 void Distinct::place(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                      const SolvedList& visible, Counters& counters) {
-  mark_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
+  mark_rows_({rows_.places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences,
              ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, wedges, keys_,
              order_, lengths_, stays_, quarters_, counters.buffer(), arguments_);
-  order_rows_({rows_.places, local_}, "distinct", visible.headers, visible.vertices, visible.sequences,
+  order_rows_({rows_.places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences,
               ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
               quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.quarters, arguments_);
 }
 
 std::map<Link, uint32_t> Distinct::left_out() {
-  const std::vector<uint8_t> stays = stays_.read(0, rows_.places, "distinct");
-  const std::vector<uint32_t> keys = keys_.read(0, rows_.places, "distinct");
+  const std::vector<uint8_t> stays = stays_.read(0, rows_.places, Stage::distinct);
+  const std::vector<uint32_t> keys = keys_.read(0, rows_.places, Stage::distinct);
   std::map<Link, uint32_t> out;
   for (size_t place = 0; place < stays.size(); ++place) {
     const uint32_t link = static_cast<uint32_t>(uint64_t{keys[place]} >> arguments_.length_bits);

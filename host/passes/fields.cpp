@@ -58,18 +58,18 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
   arguments_.max_depth = visible.max_depth;
-  kernel_(work_.range(rows.places), "fields", visible.headers, visible.vertices, visible.sequences, ends.transmitters,
-          ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays, rows.quarters,
-          rows.counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_, area_of_tile_,
-          scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside, rows_, vertices_,
-          arguments_);
+  kernel_(work_.range(rows.places), Stage::fields, visible.headers, visible.vertices, visible.sequences,
+          ends.transmitters, ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays,
+          rows.quarters, rows.counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_,
+          area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside,
+          rows_, vertices_, arguments_);
 }
 
 void Fields::begin_read(uint32_t frame, RowCounts expected) {
   read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())),
            static_cast<uint32_t>(std::min<size_t>(expected.vertices, vertices_.size()))};
-  rows_.begin_read(0, read_.rows, host_rows_, "fields");
-  vertices_.begin_read(0, read_.vertices, host_vertices_, "fields");
+  rows_.begin_read(0, read_.rows, host_rows_, Stage::fields);
+  vertices_.begin_read(0, read_.vertices, host_vertices_, Stage::fields);
   context_.flush();
   frame_ = frame;
   room_ = sized_columns(read_.rows, read_.vertices, frame, ports_);
@@ -77,19 +77,19 @@ void Fields::begin_read(uint32_t frame, RowCounts expected) {
 
 void Fields::begin_read_carrier(RowCounts expected) {
   read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())), 0};
-  rows_.begin_read(0, read_.rows, host_rows_, "fields");
+  rows_.begin_read(0, read_.rows, host_rows_, Stage::fields);
 }
 
 CarrierFields Fields::carrier(RowCounts count) {
-  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
+  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, Stage::fields);
   CarrierFields out;
   near_edges_ = fill_carrier(out, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows}, ports_);
   return out;
 }
 
 Paths Fields::columns(RowCounts count) {
-  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, "fields");
-  if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, "fields");
+  if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, Stage::fields);
+  if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, Stage::fields);
   Paths paths = std::exchange(room_, {});
   resize_columns(paths, count.rows, count.vertices, frame_);
   near_edges_ = fill_columns(paths, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},

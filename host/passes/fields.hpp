@@ -27,7 +27,9 @@ class Fields {
   void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                   const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
                   const Distinct& distinct, const RowList& rows, RowCounts most);
-  void set_materials(const std::vector<device::wt_material>& materials) { materials_.write(materials, 0, "fields"); }
+  void set_materials(const std::vector<device::wt_material>& materials) {
+    materials_.write(materials, 0, Stage::fields);
+  }
   // Begins to read the rows that were computed last, `expected` of them, and makes room for their columns while the
   // device works.
   void begin_read(uint32_t frame, RowCounts expected);

@@ -4,7 +4,7 @@
 
 namespace wavetracer {
 
-GatherRays::GatherRays(gpu::Context& context, const char* stage)
+GatherRays::GatherRays(gpu::Context& context, Stage stage)
     : stage_(stage),
       work_(tuning_of(context.info()).gather_rays),
       kernel_(context.kernel("gather_rays", "gather_rays", {{"WT_RAYS_PER_ITEM", work_.option()}})) {}

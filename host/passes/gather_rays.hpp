@@ -9,12 +9,12 @@ namespace wavetracer {
 class GatherRays {
  public:
   // stage: whose time it is.
-  explicit GatherRays(gpu::Context& context, const char* stage = "order");
+  explicit GatherRays(gpu::Context& context, Stage stage = Stage::order);
   // next becomes rays[order[0]], ..., rays[order[count - 1]].
   void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next);
 
  private:
-  const char* stage_;
+  Stage stage_;
   Work work_;
   gpu::Kernel kernel_;
 };

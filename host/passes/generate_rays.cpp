@@ -40,7 +40,7 @@ GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& direct
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
-  generate_(work_.range(count), "generate_rays", queue.planes, heights_->tables(), directions_.arguments(),
+  generate_(work_.range(count), Stage::generate_rays, queue.planes, heights_->tables(), directions_.arguments(),
             arguments_of(from, *heights_),
             wt_launch_arguments{.first_index = first,
                                 .stride = stride,
@@ -59,9 +59,9 @@ void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, u
   for (const Launcher& launcher : from) launchers.push_back(arguments_of(launcher, *heights_));
   if (launchers_.size() < launchers.size())
     launchers_ = context_.buffer<wt_launcher_arguments>(launchers.size(), "launchers");
-  launchers_.write(launchers, 0, "generate_rays");
-  generate_launchers_(work_.range(rays), "generate_rays", queue.planes, heights_->tables(), directions_.arguments(),
-                      launchers_, static_cast<uint32_t>(from.size()),
+  launchers_.write(launchers, 0, Stage::generate_rays);
+  generate_launchers_(work_.range(rays), Stage::generate_rays, queue.planes, heights_->tables(),
+                      directions_.arguments(), launchers_, static_cast<uint32_t>(from.size()),
                       wt_launch_arguments{.first_index = first,
                                           .stride = stride,
                                           .number = static_cast<uint32_t>(first / stride & 3),
@@ -74,7 +74,7 @@ void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, u
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
-  generate_ordered_(work_.range(count), "generate_rays", queue.planes, order, heights_->tables(),
+  generate_ordered_(work_.range(count), Stage::generate_rays, queue.planes, order, heights_->tables(),
                     directions_.arguments(), arguments_of(from, *heights_),
                     wt_launch_arguments{.first_index = first,
                                         .stride = 1,
@@ -90,7 +90,7 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
                            DirectionTurn turn) {
   queue.count = 0;
   check_room(queue, count);
-  generate_samples_(work_.range(count), "generate_rays", queue.planes, list.samples, launchers, heights_->tables(),
+  generate_samples_(work_.range(count), Stage::generate_rays, queue.planes, list.samples, launchers, heights_->tables(),
                     list.ends, directions.arguments(),
                     wt_samples_arguments{.capacity = queue.capacity,
                                          .first = first,

@@ -55,8 +55,8 @@ void by_parts(uint32_t items, uint32_t block, uint32_t most, const List& list, c
 // The same for a list whose length is one of the counters of the frame; when it grows it begins with `kept` elements.
 // Where lengths are foreseen the list is taken as it is, and this is a bound of its length.
 template <class Capacity, class Run, class Grow>
-uint32_t fill_list(Counters& counters, Counters::Count count, const char* stage, const Capacity& capacity,
-                   const Run& run, const Grow& grow, uint32_t kept = 0, uint32_t most = 0xFFFFFFFFu) {
+uint32_t fill_list(Counters& counters, Counters::Count count, Stage stage, const Capacity& capacity, const Run& run,
+                   const Grow& grow, uint32_t kept = 0, uint32_t most = 0xFFFFFFFFu) {
   return grow_until_filled(
       run, [&] { return counters.length(count, capacity(), stage); }, capacity,
       [&](size_t elements) {

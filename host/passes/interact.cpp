@@ -32,8 +32,9 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   if (to.transmitted && !options_.transmission) throw std::logic_error("interact: it was made without transmission");
   gpu::Kernel& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
-  kernel(work_.range(rays.count), "interact", rays.planes, hits.planes, hits.block_hits, scene.surfaces, trie.table,
-         trie.quarters, trie.counters.buffer(), planes(to.reflected), trie.ages, to.ends, planes(to.transmitted),
+  kernel(work_.range(rays.count), Stage::interact, rays.planes, hits.planes, hits.block_hits, scene.surfaces,
+         trie.table, trie.quarters, trie.counters.buffer(), planes(to.reflected), trie.ages, to.ends,
+         planes(to.transmitted),
          wt_interact_arguments{.capacity = rays.capacity,
                                .ray_count = rays.count,
                                .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),

@@ -18,17 +18,18 @@ const gpu::Buffer<uint32_t>* const unordered = nullptr;
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample) {
-  label_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample, unordered);
+  label_(work_.range(count), Stage::generate_rays, queue.planes, queue.capacity, first_slot, count, first_sample,
+         unordered);
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
                            const gpu::Buffer<uint32_t>& order) {
-  label_ordered_(work_.range(count), "generate_rays", queue.planes, queue.capacity, first_slot, count, first_sample,
-                 order);
+  label_ordered_(work_.range(count), Stage::generate_rays, queue.planes, queue.capacity, first_slot, count,
+                 first_sample, order);
 }
 
 void LabelRays::operator()(RayQueue& queue) {
-  label_samples_(work_.range(queue.count), "generate_rays", queue.planes, queue.capacity, 0u, queue.count, 0u,
+  label_samples_(work_.range(queue.count), Stage::generate_rays, queue.planes, queue.capacity, 0u, queue.count, 0u,
                  unordered);
 }
 

@@ -13,7 +13,7 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                            Blockers* blockers, const StepTables& steps) {
   const auto test = [&](uint32_t first_leg, size_t legs) {
     const gpu::Range paths_by_legs({solved.count, legs, 1}, {work_.group, 1, 1}, 2);
-    kernel_(paths_by_legs, "occlusion", scene.leg_nodes(), scene.leg_leaves(), scene.moving, ends.transmitters,
+    kernel_(paths_by_legs, Stage::occlusion, scene.leg_nodes(), scene.leg_leaves(), scene.moving, ends.transmitters,
             ends.receivers, scene.exact_surfaces, scene.exact_triangles, solved.headers, solved.vertices,
             solved.sequences, steps.wedges, steps.surface_of_tile, blockers ? &blockers->places : nullptr,
             counters.buffer(),

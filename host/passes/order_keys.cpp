@@ -51,12 +51,12 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
 }
 
 void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights, bool window) {
-  launch_keys_(work_.range(count), "order", keys, count, first, directions_.arguments(), heights_->tables(),
+  launch_keys_(work_.range(count), Stage::order, keys, count, first, directions_.arguments(), heights_->tables(),
                heights_->place(heights), window ? 1u : 0u, bins_);
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {
-  queue_keys_(work_.range(rays.count), "order", rays.planes, rays.capacity, rays.count, to_unit_, keys, bins_);
+  queue_keys_(work_.range(rays.count), Stage::order, rays.planes, rays.capacity, rays.count, to_unit_, keys, bins_);
 }
 
 }  // namespace wavetracer

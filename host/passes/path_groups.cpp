@@ -27,14 +27,14 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
   arguments_.row_count = rows.places;
   arguments_.row_capacity = static_cast<uint32_t>(waves_.size());
   arguments_.max_depth = visible.max_depth;
-  kernel_(work_.range(rows.places), "path_groups", visible.headers, visible.vertices, visible.sequences,
+  kernel_(work_.range(rows.places), Stage::path_groups, visible.headers, visible.vertices, visible.sequences,
           ends.transmitters, ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.counts,
           wedges, planes_of_, waves_, arguments_);
 }
 
 void PathGroups::begin_read(uint32_t expected) {
   read_ = std::min<size_t>(expected, waves_.size());
-  waves_.begin_read(0, read_, host_waves_, "path_groups");
+  waves_.begin_read(0, read_, host_waves_, Stage::path_groups);
   context_.flush();
   group_room_.resize(read_);
   weight_room_.resize(read_);
@@ -42,7 +42,7 @@ void PathGroups::begin_read(uint32_t expected) {
 
 void PathGroups::set(Paths& paths) {
   const size_t count = paths.size();
-  if (count > read_) waves_.read(0, count, host_waves_, "path_groups");
+  if (count > read_) waves_.read(0, count, host_waves_, Stage::path_groups);
   paths.group = std::exchange(group_room_, {});
   paths.group_weight = std::exchange(weight_room_, {});
   number_groups(paths, {static_cast<const device::wt_path_waves*>(host_waves_.data()), count});

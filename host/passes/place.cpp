@@ -235,9 +235,9 @@ void Place::surfaces(DeviceScene& scene, std::span<const Placement> placements) 
     }
     record.present = placements[i].present;
   }
-  scene.exact_instances.write(records_, 0, "place");
-  kernel_({surface_count_, local_}, "place", scene.exact_instances, model_surfaces_, surface_instances_, first_surface_,
-          surface_count_, scene.exact_surfaces, scene.surfaces);
+  scene.exact_instances.write(records_, 0, Stage::place);
+  kernel_({surface_count_, local_}, Stage::place, scene.exact_instances, model_surfaces_, surface_instances_,
+          first_surface_, surface_count_, scene.exact_surfaces, scene.surfaces);
 }
 
 void Place::write_top_level(DeviceScene& scene, std::span<const Placement> placements) {
@@ -253,7 +253,7 @@ void Place::write_top_level(DeviceScene& scene, std::span<const Placement> place
   std::vector<wt_instance> records;
   for (const uint32_t leaf : tree.order) records.push_back(instance_record(present_[leaf], placements[present_[leaf]]));
   std::ranges::copy(as_float4s(records), top_.begin() + static_cast<std::ptrdiff_t>(instances_at_));
-  scene.moving.write(top_, top_at, "place");
+  scene.moving.write(top_, top_at, Stage::place);
 }
 
 wt_instance Place::instance_record(uint32_t i, const Placement& placement) const {

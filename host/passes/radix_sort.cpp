@@ -68,22 +68,21 @@ size_t RadixSort<Key>::temporary_words(uint32_t n) const {
 
 template <class Key>
 void RadixSort<Key>::operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
-                                gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit,
-                                const char* stage) {
+                                gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit, Stage stage) {
   if (payload_ != Payload::none) require("values", values.size(), n, n);
   sort(keys, values, n, temporary, first_bit, end_bit, stage);
 }
 
 template <class Key>
 void RadixSort<Key>::operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-                                unsigned first_bit, unsigned end_bit, const char* stage) {
+                                unsigned first_bit, unsigned end_bit, Stage stage) {
   if (payload_ != Payload::none) throw std::logic_error("radix_sort: a sort with a payload was given no values");
   sort(keys, temporary, n, temporary, first_bit, end_bit, stage);
 }
 
 template <class Key>
 void RadixSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
-                          gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit, const char* stage) {
+                          gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit, Stage stage) {
   if (first_bit > end_bit || end_bit > key_bits) {
     throw std::invalid_argument(
         fmt::format("radix_sort: bits {} to {} are no range of keys of {} bits", first_bit, end_bit, key_bits));

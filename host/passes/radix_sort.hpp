@@ -35,15 +35,15 @@ class RadixSort {
   // order. What lies behind n stays. stage: the profiling sum that the time goes to. Throws std::invalid_argument if a
   // buffer is too small or the bits are no range of the key's.
   void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-                  unsigned first_bit = 0, unsigned end_bit = key_bits, const char* stage = "sort");
+                  unsigned first_bit = 0, unsigned end_bit = key_bits, Stage stage = Stage::sort);
   // The same for Payload::none; with any other it is a std::logic_error.
   void operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary, unsigned first_bit = 0,
-                  unsigned end_bit = key_bits, const char* stage = "sort");
+                  unsigned end_bit = key_bits, Stage stage = Stage::sort);
 
  private:
   uint32_t chunk_of(uint32_t n) const;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-            unsigned first_bit, unsigned end_bit, const char* stage);
+            unsigned first_bit, unsigned end_bit, Stage stage);
 
   Payload payload_;
   RadixTuning tuning_;

@@ -22,7 +22,7 @@ Receive::Receive(gpu::Context& context, double radius_m)
 
 void Receive::begin_batch() {
   count_ = 0;
-  counter_.write(std::vector{count_}, 0, "receive");
+  counter_.write(std::vector{count_}, 0, Stage::receive);
 }
 
 void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth) {
@@ -38,8 +38,8 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
                      uint32_t depth, const gpu::Memory* traced, const gpu::Memory* answered) {
   count_ = grow_until_filled(
       [&] {
-        kernel(work_.range(rays.count), "receive", rays.planes, hits.planes, ends.receiver_planes, ends.links, list_,
-               counter_, traced, answered,
+        kernel(work_.range(rays.count), Stage::receive, rays.planes, hits.planes, ends.receiver_planes, ends.links,
+               list_, counter_, traced, answered,
                wt_receive_arguments{.capacity = rays.capacity,
                                     .ray_count = rays.count,
                                     .receiver_capacity = ends.receiver_capacity,
@@ -47,20 +47,20 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
                                     .depth = depth,
                                     .out_capacity = static_cast<uint32_t>(list_.size())});
       },
-      [&] { return counter_.read_one(0, "receive"); }, [&] { return list_.size(); },
+      [&] { return counter_.read_one(0, Stage::receive); }, [&] { return list_.size(); },
       [&](size_t entries) {
         auto longer = context_.buffer<wt_reception>(entries, {"receptions", advice::spheres});
-        context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), "receive");
+        context_.copy(list_, longer, size_t{count_} * sizeof(wt_reception), Stage::receive);
         list_ = longer;
-        counter_.write(std::vector{count_}, 0, "receive");
+        counter_.write(std::vector{count_}, 0, Stage::receive);
       });
 }
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
-  first_(work_.range(rays.count), "receive", rays.planes, hits.planes, ends.receiver_planes, ends.links, first,
+  first_(work_.range(rays.count), Stage::receive, rays.planes, hits.planes, ends.receiver_planes, ends.links, first,
          wt_receive_arguments{rays.capacity, rays.count, ends.receiver_capacity, radius_m_, 0, 0});
 }
 
-std::vector<wt_reception> Receive::list() const { return list_.read(0, count_, "receive"); }
+std::vector<wt_reception> Receive::list() const { return list_.read(0, count_, Stage::receive); }
 
 }  // namespace wavetracer

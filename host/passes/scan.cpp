@@ -28,7 +28,7 @@ Scan::Scan(gpu::Context& context, const ScanTuning& form)
   scan_ = context.kernel("scan", "scan", definitions);
 }
 
-void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
+void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
   if (count > counts.size())
     throw std::invalid_argument(fmt::format("scan: {} counts of a buffer of {}", count, counts.size()));
   if (count == 0) return;
@@ -42,7 +42,7 @@ void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* sta
   scan_({groups * form_.items, form_.items}, stage, counts, count, words, sums_, total_);
 }
 
-uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage) {
+uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
   prefix(counts, count, stage);
   return count == 0 ? 0 : total_.read_one(0, stage);
 }

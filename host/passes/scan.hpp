@@ -11,10 +11,10 @@ class Scan {
   explicit Scan(gpu::Context& context);
   Scan(gpu::Context& context, const ScanTuning& form);
   // Scans counts[0 .. count - 1], and waits for nothing.
-  void prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
+  void prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage = Stage::scan);
   // The same, and returns their sum, modulo 2^32.
   // stage: the profiling sum that the time goes to.
-  uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
+  uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage = Stage::scan);
 
  private:
   ScanTuning form_;

@@ -55,12 +55,12 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
   const auto capacity = [&] { return static_cast<uint32_t>(entries_.size() / 4); };
   return grow_until_filled(
       [&] {
-        context_.fill(count_, 0, "scatter");
-        lit_({size_t{node_count} * groups, local_}, "scatter", trie, nodes, ends.transmitters, ends.receivers,
+        context_.fill(count_, 0, Stage::scatter);
+        lit_({size_t{node_count} * groups, local_}, Stage::scatter, trie, nodes, ends.transmitters, ends.receivers,
              ends.links, scene.exact_surfaces, tiles_of_, entries_, count_, counters.buffer(),
              wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()});
       },
-      [&] { return count_.read_one(0, "scatter"); }, capacity,
+      [&] { return count_.read_one(0, Stage::scatter); }, capacity,
       [&](size_t larger) {
         first_row_ = context_.buffer<uint32_t>(larger + 1, {"rows of tiles", advice::tiles});
         entries_ =
@@ -69,7 +69,7 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
 }
 
 std::vector<uint32_t> Scatter::place_rows(uint32_t entry_count) {
-  const std::vector<uint32_t> entries = entries_.read(0, 4 * size_t{entry_count}, "scatter");
+  const std::vector<uint32_t> entries = entries_.read(0, 4 * size_t{entry_count}, Stage::scatter);
   std::vector<uint32_t> first_row{0};
   uint64_t rows = 0;
   for (size_t i = 0; i < entries.size(); i += 4) {
@@ -88,9 +88,9 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   const uint32_t entry_count = any ? find_lit(scene, ends, trie, nodes, node_count, counters) : 0;
   if (entry_count == 0) return solved_;
   const std::vector<uint32_t> first_row = place_rows(entry_count);
-  first_row_.write(first_row, 0, "scatter");
+  first_row_.write(first_row, 0, Stage::scatter);
   solved_.count = first_row.back();
-  scatter_(tiles_work_.range(solved_.count), "scatter", trie, quarters, entries_, first_row_, scene.exact_surfaces,
+  scatter_(tiles_work_.range(solved_.count), Stage::scatter, trie, quarters, entries_, first_row_, scene.exact_surfaces,
            tiles_of_, centres_, scene.exact_instances, solved_.headers, solved_.vertices, solved_.sequences,
            wt_scatter_arguments{entry_count, solved_.count, tiles_work_.per_item, solved_.max_depth});
   return solved_;

@@ -31,14 +31,14 @@ void Sequences::resize(uint64_t slots) {
   quarters_ = context_.buffer<uint32_t>(slots, "quarters of sequences");
   if (keep_ages_) {
     ages_ = context_.buffer<uint32_t>(slots, "ages of sequences");
-    context_.fill(ages_, 0, "sequences");
+    context_.fill(ages_, 0, Stage::sequences);
   }
   table_ = context_.buffer<uint64_t>(slots, "sequences");  // last, as it says how many slots there are
   clear();
 }
 
 void Sequences::clear() {
-  clear_(slots_work_.range(table_.size()), "sequences", table_, quarters_, static_cast<uint32_t>(table_.size()),
+  clear_(slots_work_.range(table_.size()), Stage::sequences, table_, quarters_, static_cast<uint32_t>(table_.size()),
          counters_.buffer());
   counters_.zeroed();
 }
@@ -53,16 +53,16 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
       throw RuntimeError("the set of distinct sequences has outgrown 2^29 slots; lower trace.rays or trace.max_depth");
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
-      regrow_(work_.range(old_table.size()), "sequences", old_table, static_cast<uint32_t>(old_table.size()), depth,
-              moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_, counters_.buffer(),
-              keep_ages_ ? &old_ages : nullptr, ages(), oldest);
+      regrow_(work_.range(old_table.size()), Stage::sequences, old_table, static_cast<uint32_t>(old_table.size()),
+              depth, moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_,
+              counters_.buffer(), keep_ages_ ? &old_ages : nullptr, ages(), oldest);
     if (!overflowed()) return moved;
   }
 }
 
 void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
   const gpu::Buffer<uint32_t> moved = rebuild(table_.size() * 4, max_depth, 0);
-  if (listed_count > 0) follow_(work_.range(listed_count), "sequences", nodes_, listed_count, moved);
+  if (listed_count > 0) follow_(work_.range(listed_count), Stage::sequences, nodes_, listed_count, moved);
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
@@ -71,7 +71,7 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
-  keep_(work_.range(solved.count), "sequences", table_, solved.headers, solved.count, solved.counter,
+  keep_(work_.range(solved.count), Stage::sequences, table_, solved.headers, solved.count, solved.counter,
         counters_.buffer(), ages_, now());
 }
 
@@ -79,16 +79,16 @@ uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t no
   const size_t room = nodes_.size() - node_count;
   const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(node_count);
   for (bool grew = false;; grew = true) {
-    commute_(work_.range(size_t{node_count} * lanes), "sequences", table_, static_cast<uint32_t>(table_.size() - 1),
-             nodes_, node_count, static_cast<uint32_t>(nodes_.size()), surfaces, quarters_, counters_.buffer(), ages(),
-             now(), lanes);
-    const uint32_t added = counters_.length(&wt_counters::exchanged, room, "sequences");
+    commute_(work_.range(size_t{node_count} * lanes), Stage::sequences, table_,
+             static_cast<uint32_t>(table_.size() - 1), nodes_, node_count, static_cast<uint32_t>(nodes_.size()),
+             surfaces, quarters_, counters_.buffer(), ages(), now(), lanes);
+    const uint32_t added = counters_.length(&wt_counters::exchanged, room, Stage::sequences);
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
     // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
     // full.
     regrow(max_depth, node_count);
-    counters_.restart_nodes(node_count, "sequences");
+    counters_.restart_nodes(node_count, Stage::sequences);
   }
 }
 
@@ -98,7 +98,7 @@ void Sequences::write_roots(uint32_t transmitter_count) {
     nodes_ = context_.buffer<uint32_t>(4 * size_t{transmitter_count}, "sequence list");
   std::vector<uint32_t> roots(transmitter_count);
   std::iota(roots.begin(), roots.end(), WT_ROOT);
-  nodes_.write(roots, 0, "sequences");
+  nodes_.write(roots, 0, Stage::sequences);
   roots_ = transmitter_count;
 }
 
@@ -112,12 +112,12 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
   return grow_until_filled(
       [&] {
         write_roots(transmitter_count);
-        counters_.restart_nodes(transmitter_count, "sequences");
-        collect_(slots_work_.range(table_.size()), "sequences", table_, static_cast<uint32_t>(table_.size()), nodes_,
-                 static_cast<uint32_t>(nodes_.size()), counters_.buffer());
+        counters_.restart_nodes(transmitter_count, Stage::sequences);
+        collect_(slots_work_.range(table_.size()), Stage::sequences, table_, static_cast<uint32_t>(table_.size()),
+                 nodes_, static_cast<uint32_t>(nodes_.size()), counters_.buffer());
       },
-      [&] { return counters_.length(&wt_counters::nodes, nodes_.size(), "sequences"); }, [&] { return nodes_.size(); },
-      reserve);
+      [&] { return counters_.length(&wt_counters::nodes, nodes_.size(), Stage::sequences); },
+      [&] { return nodes_.size(); }, reserve);
 }
 
 }  // namespace wavetracer

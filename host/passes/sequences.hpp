@@ -36,7 +36,7 @@ class Sequences {
   // Drops the sequences that no ray and no path has met for `frames` frames.
   void forget(uint32_t frames, uint32_t max_depth);
   // Did an insertion fail since the last clear() or regrow()?
-  bool overflowed() const { return counters_.read("sequences").trie_overflow != 0; }
+  bool overflowed() const { return counters_.read(Stage::sequences).trie_overflow != 0; }
   // Moves every node of at most max_depth surfaces to a table four times as large. The first listed_count entries of
   // nodes() go on to name the nodes that they named.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);

@@ -26,7 +26,7 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                               uint32_t candidate_count, Counters& counters, const Blockers* blockers) {
   if (remembers_ && !blockers) throw std::logic_error("solve: there is no table of what hid paths");
   const auto run = [&](const auto&... table) {
-    kernel_(work_.range(candidate_count), "solve", trie, quarters, ends.transmitters, ends.receivers,
+    kernel_(work_.range(candidate_count), Stage::solve, trie, quarters, ends.transmitters, ends.receivers,
             scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, solved_.headers,
             solved_.vertices, solved_.sequences, counters.buffer(), table...,
             wt_solve_arguments{.candidate_count = candidate_count,
@@ -37,11 +37,11 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                                .wavelength_m = 0});
   };
   solved_.count = fill_list(
-      counters, &wt_counters::solved, "solve", [&] { return solved_.headers.size(); },
+      counters, &wt_counters::solved, Stage::solve, [&] { return solved_.headers.size(); },
       [&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
       [&](size_t rows) {
         solved_.reserve(context_, rows);
-        counters.restart(&wt_counters::hidden, 0, "solve");
+        counters.restart(&wt_counters::hidden, 0, Stage::solve);
       });
   return solved_;
 }

@@ -27,9 +27,9 @@ struct SolvedList {
   // Copies the rows of a list of the same depth to the beginning of this one, which has room for them.
   void copy_from(gpu::Context& context, const SolvedList& list) {
     const size_t rows = list.count;
-    context.copy(list.headers, headers, rows * sizeof(wt_solved), "visible");
-    context.copy(list.vertices, vertices, 3 * rows * max_depth * sizeof(double), "visible");
-    context.copy(list.sequences, sequences, rows * max_depth * sizeof(uint32_t), "visible");
+    context.copy(list.headers, headers, rows * sizeof(wt_solved), Stage::visible);
+    context.copy(list.vertices, vertices, 3 * rows * max_depth * sizeof(double), Stage::visible);
+    context.copy(list.sequences, sequences, rows * max_depth * sizeof(uint32_t), Stage::visible);
     count = list.count;
     counter = list.counter;
   }

@@ -22,7 +22,7 @@ void Sort::reserve(uint32_t n) {
 }
 
 void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
-                      const char* stage) {
+                      Stage stage) {
   if (temporary_.size() < words(n)) reserve(n + std::min(n / 4, ~n));  // they are often a few more the next time
   if (n <= bitonic_.block())
     bitonic_(keys, order, n, temporary_, stage);

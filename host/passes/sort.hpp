@@ -15,7 +15,7 @@ class Sort {
   // Sorts keys[0 .. n - 1] by their lowest `bits` bits, above which they must be zero; order[i] becomes the place that
   // the i-th had. Buffers may be longer than n.
   void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
-                  const char* stage = "sort");
+                  Stage stage = Stage::sort);
 
  private:
   size_t words(uint32_t n) const;  // of temporary memory for up to n keys

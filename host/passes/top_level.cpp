@@ -27,17 +27,17 @@ TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bo
 }
 
 InstanceOrder& TopLevelTree::keys(const DeviceScene& scene) {
-  instance_keys_({instances_.count, local_}, "place", scene.exact_instances, bodies_, instances_.count, scene.extent_m,
-                 boxes_, instances_.keys);
+  instance_keys_({instances_.count, local_}, Stage::place, scene.exact_instances, bodies_, instances_.count,
+                 scene.extent_m, boxes_, instances_.keys);
   return instances_;
 }
 
 void TopLevelTree::operator()(DeviceScene& scene, uint32_t present) {
   const uint32_t leaf_count = std::max(present, 2u);
-  leaves_({leaf_count, local_}, "place", instances_.order, scene.exact_instances, bodies_, boxes_, present, leaf_count,
-          tree_, scene.moving);
-  inner_boxes_({group_, group_}, "place", leaf_count, tree_);
-  top_nodes_({leaf_count - 1, local_}, "place", tree_, present, leaf_count, scene.extent_m, scene.moving);
+  leaves_({leaf_count, local_}, Stage::place, instances_.order, scene.exact_instances, bodies_, boxes_, present,
+          leaf_count, tree_, scene.moving);
+  inner_boxes_({group_, group_}, Stage::place, leaf_count, tree_);
+  top_nodes_({leaf_count - 1, local_}, Stage::place, tree_, present, leaf_count, scene.extent_m, scene.moving);
 }
 
 }  // namespace wavetracer

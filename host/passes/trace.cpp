@@ -43,15 +43,15 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
   const uint32_t blocks = (rays.count + block_ - 1) / block_;
   switch (shape_) {
     case TraceShape::bvh2:
-      kernel_(launch_.range(rays.count, block_), "trace", scene.nodes2, scene.triangles2, scene.triangle_slots,
+      kernel_(launch_.range(rays.count, block_), Stage::trace, scene.nodes2, scene.triangles2, scene.triangle_slots,
               scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::bvh8:
-      kernel_(launch_.range(blocks, blocks_group_), "trace", scene.nodes8, scene.blocks8, scene.moving, scene.extent_m,
-              rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
+      kernel_(launch_.range(blocks, blocks_group_), Stage::trace, scene.nodes8, scene.blocks8, scene.moving,
+              scene.extent_m, rays.planes, rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;
     case TraceShape::packet16:
-      kernel_(launch_.range(blocks, blocks_group_), "trace", scene.packet_nodes2, scene.triangles2,
+      kernel_(launch_.range(blocks, blocks_group_), Stage::trace, scene.packet_nodes2, scene.triangles2,
               scene.triangle_slots, scene.nodes8, scene.blocks8, scene.moving, scene.extent_m, rays.planes,
               rays.capacity, rays.count, hits.planes, hits.block_hits);
       break;

@@ -12,8 +12,8 @@ TraceMoving::TraceMoving(gpu::Context& context, const DeviceScene& scene)
 }
 
 void TraceMoving::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits) {
-  kernel_(work_.range(rays.count), "trace_moving", scene.moving, scene.extent_m, rays.planes, rays.capacity, rays.count,
-          hits.planes);
+  kernel_(work_.range(rays.count), Stage::trace_moving, scene.moving, scene.extent_m, rays.planes, rays.capacity,
+          rays.count, hits.planes);
 }
 
 }  // namespace wavetracer

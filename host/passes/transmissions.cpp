@@ -14,7 +14,7 @@ Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, ui
 
 void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                                const StepTables& steps) {
-  kernel_(work_.range(solved.count), "transmissions", scene.leg_nodes(), scene.leg_leaves(), scene.moving,
+  kernel_(work_.range(solved.count), Stage::transmissions, scene.leg_nodes(), scene.leg_leaves(), scene.moving,
           ends.transmitters, ends.receivers, scene.exact_surfaces, scene.exact_triangles, scene.surfaces,
           solved.headers, solved.vertices, solved.sequences, steps.wedges, steps.surface_of_tile, counters.buffer(),
           wt_legs_arguments{.triangle_slots = scene.triangle_slots,

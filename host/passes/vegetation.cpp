@@ -64,7 +64,7 @@ const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const S
   if (lengths_.size() < lengths)
     lengths_ = context_.buffer<double>(lengths + lengths / 4, {"lengths in vegetation", advice::links});
   if (lengths > 0)
-    kernel_(work_.range(visible.count), "vegetation", nodes_, volumes_, triangles_, earlier_, ends.transmitters,
+    kernel_(work_.range(visible.count), Stage::vegetation, nodes_, volumes_, triangles_, earlier_, ends.transmitters,
             ends.receivers, visible.headers, visible.vertices, counters.buffer(), lengths_,
             wt_vegetation_arguments{.visible_count = visible.count,
                                     .visible_counter = visible.counter,

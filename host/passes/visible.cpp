@@ -18,9 +18,9 @@ Visible::Visible(gpu::Context& context, uint32_t max_depth)
 void Visible::operator()(const SolvedList& solved, Counters& counters) {
   if (solved.count == 0) return;
   visible_.count = fill_list(
-      counters, &wt_counters::visible, "visible", [&] { return visible_.headers.size(); },
+      counters, &wt_counters::visible, Stage::visible, [&] { return visible_.headers.size(); },
       [&] {
-        kernel_({solved.count, local_}, "visible", solved.headers, solved.vertices, solved.sequences, solved.count,
+        kernel_({solved.count, local_}, Stage::visible, solved.headers, solved.vertices, solved.sequences, solved.count,
                 solved.counter, solved.max_depth, visible_.headers, visible_.vertices, visible_.sequences,
                 static_cast<uint32_t>(visible_.headers.size()), counters.buffer());
       },

@@ -24,8 +24,8 @@ void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
 
 void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
                            const gpu::Buffer<float>* traced) {
-  kernel_({rays.count, local_}, "waypoints", rays.planes, hits.planes, traced, rays.capacity, rays.count, first_sample_,
-          depth, stride_, list_);
+  kernel_({rays.count, local_}, Stage::waypoints, rays.planes, hits.planes, traced, rays.capacity, rays.count,
+          first_sample_, depth, stride_, list_);
 }
 
 std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
@@ -39,8 +39,8 @@ std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
   for (uint32_t& slot : slots) slot -= first_sample_;
   samples_.write(slots);
   const size_t count = samples.size() * stride_;
-  gather_({count, local_}, "waypoints", list_, samples_, static_cast<uint32_t>(samples.size()), stride_, rows_);
-  return rows_.read(0, count, "waypoints");
+  gather_({count, local_}, Stage::waypoints, list_, samples_, static_cast<uint32_t>(samples.size()), stride_, rows_);
+  return rows_.read(0, count, Stage::waypoints);
 }
 
 }  // namespace wavetracer

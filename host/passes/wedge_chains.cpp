@@ -28,7 +28,7 @@ WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t 
 SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                     Counters& counters) {
   const auto run = [&] {
-    roofs_(work_.range(size_t{WT_STRINGS} * ends.transmitter_count * ends.receiver_capacity), "wedge_chains",
+    roofs_(work_.range(size_t{WT_STRINGS} * ends.transmitter_count * ends.receiver_capacity), Stage::wedge_chains,
            wedges.wedges, first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers,
            ends.links, solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
            wt_wedge_chains_arguments{.map = map_,
@@ -41,7 +41,7 @@ SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& w
                                      .padding = 0});
   };
   solved_.count = fill_list(
-      counters, &wt_counters::chains, "wedge_chains", [&] { return solved_.headers.size(); }, run,
+      counters, &wt_counters::chains, Stage::wedge_chains, [&] { return solved_.headers.size(); }, run,
       [&](size_t rows) { solved_.reserve(context_, rows); });
   return solved_;
 }

@@ -56,13 +56,13 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .groups = ends.receiver_capacity / 16,
                                             .max_depth = max_depth_,
                                             .capacity = static_cast<uint32_t>(list_.size())};
-    kernel_({items, group_}, "wedge_join", prefixes.keys, prefixes.sorted, receiver_of_origin_, ends.links,
+    kernel_({items, group_}, Stage::wedge_join, prefixes.keys, prefixes.sorted, receiver_of_origin_, ends.links,
             wedges.wedges, scene.surfaces, list_, counters.buffer(), arguments);
     if (pairs && max_depth_ >= 2)
       (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
   };
   return fill_list(
-      counters, &wt_counters::wedge_candidates, "wedge_join", [&] { return list_.size(); }, run,
+      counters, &wt_counters::wedge_candidates, Stage::wedge_join, [&] { return list_.size(); }, run,
       [&](size_t entries) {
         list_ = context_.buffer<wt_wedge_candidate>(entries, {"wedge candidates", advice::links});
       },

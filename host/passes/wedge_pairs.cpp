@@ -31,7 +31,7 @@ WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, c
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
       kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")) {
   const wt_uint zero = 0;
-  context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, "wedge_pairs");
+  context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, Stage::wedge_pairs);
 }
 
 void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes) {
@@ -42,9 +42,9 @@ void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefi
   }
   run_count_ = 0;
   if (prefixes.count == 0) return;
-  mark_(mark_work_.range(prefixes.count), "wedge_pairs", prefixes.keys, wedges.wedges, heads_, prefixes.count);
+  mark_(mark_work_.range(prefixes.count), Stage::wedge_pairs, prefixes.keys, wedges.wedges, heads_, prefixes.count);
   compact_.count_blocks(heads_, 0, prefixes.count, blocks_);
-  run_count_ = scan_(blocks_, compact_.blocks(prefixes.count), "wedge_pairs");
+  run_count_ = scan_(blocks_, compact_.blocks(prefixes.count), Stage::wedge_pairs);
   compact_(heads_, 0, prefixes.count, blocks_, runs_);
 }
 
@@ -52,9 +52,9 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
                             const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
                             Counters& counters) {
-  kernel_({size_t{join.end - join.first} * join.lanes, group_}, "wedge_pairs", scene.leg_nodes(), scene.leg_leaves(),
-          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_, prefixes.sorted,
-          receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), join,
+  kernel_({size_t{join.end - join.first} * join.lanes, group_}, Stage::wedge_pairs, scene.leg_nodes(),
+          scene.leg_leaves(), scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_,
+          prefixes.sorted, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), join,
           sight.arguments(scene, join.count, kept_wedges_), run_count_);
 }
 

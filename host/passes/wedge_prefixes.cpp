@@ -30,23 +30,24 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   const Counters::Count count = &wt_counters::wedge_prefixes;
   list_.count = grow_until_filled(  // read in each frame: a sort needs to know
       [&] {
-        kernel_(work_.range(node_count), "wedge_prefixes", trie, quarters, nodes, ends.transmitters,
+        kernel_(work_.range(node_count), Stage::wedge_prefixes, trie, quarters, nodes, ends.transmitters,
                 scene.exact_surfaces, scene.surfaces, wedges.first, wedges.sides, wedges.of_surfaces, wedges.wedges,
                 list_.keys, list_.prefixes, counters.buffer(),
                 wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
                                             static_cast<uint32_t>(list_.keys.size())});
       },
-      [&] { return counters.read("wedge_prefixes").*count; }, [&] { return list_.keys.size(); },
+      [&] { return counters.read(Stage::wedge_prefixes).*count; }, [&] { return list_.keys.size(); },
       [&](size_t entries) {
         reserve(entries);
-        counters.restart(count, 0, "wedge_prefixes");
+        counters.restart(count, 0, Stage::wedge_prefixes);
       });
   return list_;
 }
 
 void WedgePrefixes::place(WedgePrefixList& list) {
   if (list.count > 0)
-    place_(work_.range(list.count), "wedge_prefixes", list.keys, list.order, list.prefixes, list.sorted, list.count);
+    place_(work_.range(list.count), Stage::wedge_prefixes, list.keys, list.order, list.prefixes, list.sorted,
+           list.count);
 }
 
 }  // namespace wavetracer

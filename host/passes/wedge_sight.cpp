@@ -36,7 +36,7 @@ wt_sight_arguments WedgeSight::arguments(const DeviceScene& scene, uint32_t coun
 
 void WedgeSight::operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes) {
   if (prefixes.count == 0) return;
-  kernel_(work_.range(prefixes.count), "wedge_sight", scene.leg_nodes(), scene.leg_leaves(), scene.exact_surfaces,
+  kernel_(work_.range(prefixes.count), Stage::wedge_sight, scene.leg_nodes(), scene.leg_leaves(), scene.exact_surfaces,
           first_sides_, sides_, wedges.wedges, prefixes.keys, prefixes.prefixes, arguments(scene, prefixes.count, 0));
 }
 

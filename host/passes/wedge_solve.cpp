@@ -21,9 +21,9 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                                    uint32_t candidate_count, Counters& counters) {
   const auto run = [&] {
-    kernel_(work_.range(candidate_count), "wedge_solve", trie, ends.transmitters, ends.receivers, scene.exact_surfaces,
-            scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates, solved_.headers, solved_.vertices,
-            solved_.sequences, counters.buffer(),
+    kernel_(work_.range(candidate_count), Stage::wedge_solve, trie, ends.transmitters, ends.receivers,
+            scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates,
+            solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
             wt_solve_arguments{.candidate_count = candidate_count,
                                .max_depth = solved_.max_depth,
                                .capacity = static_cast<uint32_t>(solved_.headers.size()),
@@ -32,7 +32,7 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                .wavelength_m = wavelength_m_});
   };
   solved_.count = fill_list(
-      counters, &wt_counters::wedge_solved, "wedge_solve", [&] { return solved_.headers.size(); }, run,
+      counters, &wt_counters::wedge_solved, Stage::wedge_solve, [&] { return solved_.headers.size(); }, run,
       [&](size_t rows) { solved_.reserve(context_, rows); });
   return solved_;
 }

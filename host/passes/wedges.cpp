@@ -80,7 +80,7 @@ unsigned Wedges::key_bits() const {
 
 void Wedges::operator()(const DeviceScene& scene) {
   if (moving_count_ > 0)
-    kernel_({moving_count_, local_}, "wedges", scene.exact_instances, models_, static_count_, moving_count_,
+    kernel_({moving_count_, local_}, Stage::wedges, scene.exact_instances, models_, static_count_, moving_count_,
             list_.wedges);
 }
 

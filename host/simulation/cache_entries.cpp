@@ -9,7 +9,7 @@ namespace {
 
 using namespace device;
 
-constexpr const char* read_stage = "cache_purge";
+constexpr Stage read_stage = Stage::cache_purge;
 constexpr uint32_t removed_tag = 1;  // WT_CACHE_REMOVED of lib/cache_concurrent.clh; 0 is a free one
 
 struct Tables {

@@ -67,7 +67,7 @@ MissTracer::MissTracer(gpu::Context& context, const DeviceScene& scene, const Ca
       trails_(trails),
       compact_(context),
       scan_(context),
-      gather_(context, "cache_gather"),
+      gather_(context, Stage::cache_gather),
       trace_(context, scene, shape, launch, table.config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
       store_(context, table) {}
 

@@ -87,8 +87,8 @@ Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const 
       [&](uint32_t done) {
         out.candidates += std::exchange(part.candidates, 0);
         out.solved += std::exchange(part.solved, 0);
-        counters.restart(&wt_counters::wedge_candidates, 0, "wedge_join");
-        counters.restart(&wt_counters::wedge_solved, 0, "wedge_solve");
+        counters.restart(&wt_counters::wedge_candidates, 0, Stage::wedge_join);
+        counters.restart(&wt_counters::wedge_solved, 0, Stage::wedge_solve);
         counters.in_parts();
         told(done);
       },

@@ -44,14 +44,14 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   RowCounts most{}, expected{};
   const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
   if (places > 0) {
-    sort_(distinct_.sort_keys(), distinct_.order(), places, 32, "distinct");  // sort
-    distinct_.place(scene, wedges, ends, visible, counters);                  // distinct
-    most = {counters.length(&wt_counters::rows, places, "distinct"),
-            counters.length(&wt_counters::row_vertices, size_t{places} * visible.max_depth, "distinct")};
+    sort_(distinct_.sort_keys(), distinct_.order(), places, 32, Stage::distinct);  // sort
+    distinct_.place(scene, wedges, ends, visible, counters);                       // distinct
+    most = {counters.length(&wt_counters::rows, places, Stage::distinct),
+            counters.length(&wt_counters::row_vertices, size_t{places} * visible.max_depth, Stage::distinct)};
     expected = counters.foresees() ? expected_rows(counters.last()) : most;
   }
   if (most.rows > 0) {
-    scan_.prefix(distinct_.rows().counts, 2 * places, "distinct");                                         // scan
+    scan_.prefix(distinct_.rows().counts, 2 * places, Stage::distinct);                                    // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
@@ -91,9 +91,9 @@ void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList
       for (int axis = 0; axis < 3; ++axis) vertices[3 * to + axis] = paths.vertex[from][axis];
     }
   }
-  visible.headers.write(headers, 0, "distinct");
-  visible.vertices.write(vertices, 0, "distinct");
-  visible.sequences.write(steps, 0, "distinct");
+  visible.headers.write(headers, 0, Stage::distinct);
+  visible.vertices.write(vertices, 0, Stage::distinct);
+  visible.sequences.write(steps, 0, Stage::distinct);
 }
 
 }  // namespace wavetracer

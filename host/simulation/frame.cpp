@@ -73,7 +73,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
     block = make_link_block(out.world.links, task.transmitters.value_or(TransmitterRange{0, no_end}),
                             task.receivers.value_or(ReceiverRange{}), plan_.world.twins.receiver_of_transmitter,
                             plan_.world.twins.transmitter_of_receiver, plan_.origins);
-  account.end_stage("poses");
+  account.end_stage(Stage::poses);
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level
   const std::vector<Link>& links = block ? block->solved : out.world.links;
@@ -112,10 +112,10 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
     task.left_out->merge(left_out);
   else if (!task.compiling)
     account.left_out(left_out, task.transmitter_name, task.receiver_name);
-  account.end_stage("columns");
+  account.end_stage(Stage::columns);
   if (s_.elements.on() && !task.compiling && !task.receivers) {
     s_.elements(out);
-    account.end_stage("elements");
+    account.end_stage(Stage::elements);
   }
   return account.close();
 }
@@ -135,9 +135,9 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
                                   ? receive_paths(ends, account)
                                   : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, *s_.frame_watch,
                                                 account);  // sequences to visible
-    account.end_stage("paths");
+    account.end_stage(Stage::paths);
     finish_paths(task.frame, world, ends, block ? &block->own : nullptr, true);  // distinct to fields
-    out.counted = counters.read("fields");
+    out.counted = counters.read(Stage::fields);
     account.device_done();
     account.counted(out.counted, ends.transmitter_count, besides);
     settled = !alike || counters.settle(out.counted);
@@ -152,13 +152,13 @@ Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, con
   Sequences& set = s_.discovery->sequences();
   set.counters().zero();
   solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
-  account.end_stage("paths");
+  account.end_stage(Stage::paths);
   finish_paths(task.frame, world, ends, nullptr, false);
-  const wt_counters counted = set.counters().read("fields");
+  const wt_counters counted = set.counters().read(Stage::fields);
   account.device_done();
   LeftOut left_out;
   Paths out = s_.finish.take(counted, left_out, nullptr);
-  account.end_stage("columns");
+  account.end_stage(Stage::columns);
   return out;
 }
 
@@ -220,7 +220,7 @@ Uncounted FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account)
   account.device_done();
   SolvedList& visible = s_.exact_paths.visible.list();
   upload_visible(s_.context, s_.trails->paths(), visible);
-  set.counters().restart(&wt_counters::visible, visible.count, "visible");
+  set.counters().restart(&wt_counters::visible, visible.count, Stage::visible);
   return {};
 }
 

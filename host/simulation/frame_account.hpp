@@ -19,7 +19,7 @@ class FrameAccount {
   FrameAccount(gpu::Context& context, uint32_t frame);
 
   // Ends a stage of the host: its seconds are those since the stage before, or since device_done().
-  void end_stage(const char* name) { host_stages_[name] += host_.lap(); }
+  void end_stage(Stage stage) { host_stages_[std::string(stage_name(stage))] += host_.lap(); }
   // The device has finished what the host waited for: the time until now belongs to no stage of the host.
   void device_done() { host_.lap(); }
 

@@ -104,7 +104,7 @@ void RayCache::begin_frame(const WorldState& world) {
   ++frame_;
   frame_summary_ = {};
   frame_summary_.on = true;
-  table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, "cache_purge");
+  table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, Stage::cache_purge);
   if (touch_) purge();
   touch_ = table_.evicts() && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
              return used_[r] > filling * table_.regions[r].entries;
@@ -137,7 +137,7 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
     frame_summary_.evicted += used_[r];
     table_.clear(context_, static_cast<uint32_t>(r));
   }
-  if (changed) table_.device_regions.write(table_.regions, 0, "cache_purge");
+  if (changed) table_.device_regions.write(table_.regions, 0, Stage::cache_purge);
 }
 
 // Section 3.2.3, movement of objects: entries on instances that have moved are stale.
@@ -150,7 +150,7 @@ void RayCache::note_movement(std::span<const Placement> instances) {
     instance_since_[i] = frame_;
     placements_[i] = instances[i];
   }
-  movement_.instance_since.write(instance_since_, 0, "cache_purge");
+  movement_.instance_since.write(instance_since_, 0, Stage::cache_purge);
 }
 
 // Algorithm 4: entries say which receiver they reach, and stand while they do.
@@ -163,7 +163,7 @@ void RayCache::note_receivers(const std::vector<EndState>& receivers) {
   if (movement_.receivers.size() != centres.size())
     movement_.receivers = context_.buffer(centres, "receivers");
   else
-    movement_.receivers.write(centres, 0, "cache_purge");
+    movement_.receivers.write(centres, 0, Stage::cache_purge);
 }
 
 void RayCache::reserve(uint64_t rays) {
@@ -199,8 +199,8 @@ void RayCache::account(uint32_t depth, uint64_t lookups, const MissCounts& misse
 }
 
 CacheSummary RayCache::summary() {
-  counters_ = table_.counters.read_one(0, "cache_purge");
-  used_ = table_.used.read(0, used_.size(), "cache_purge");
+  counters_ = table_.counters.read_one(0, Stage::cache_purge);
+  used_ = table_.used.read(0, used_.size(), Stage::cache_purge);
   // The chained table counts what it would have handed out.
   for (size_t r = 0; r < used_.size(); ++r) used_[r] = std::min(used_[r], table_.regions[r].entries);
   CacheSummary s = frame_summary_;
@@ -226,7 +226,7 @@ void RayCache::add_entries(uint32_t frame, CacheEntryRows& rows) const {
 
 // Groups of 0, 1, 2, 3 to 4, 5 to 8, ... answers, of entries that were written.
 std::vector<uint64_t> RayCache::entries_by_hits() const {
-  const std::vector<uint32_t> hits = table_.hits.read(0, table_.hits.size(), "cache_purge");
+  const std::vector<uint32_t> hits = table_.hits.read(0, table_.hits.size(), Stage::cache_purge);
   std::vector<uint64_t> groups;
   uint64_t answering = 0, written = 0;
   for (const uint32_t count : hits) {

@@ -70,7 +70,7 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, u
   }
   launchers_ = context_.buffer(records, "launchers");
   if (hits_.size() != slots) hits_ = context_.buffer<uint32_t>(slots, "hits of sequences");
-  context_.fill(hits_, 0, "refine");
+  context_.fill(hits_, 0, Stage::refine);
   // From high above walls are seen edge on: of 42 paths of a platform at 20 km two were lost, one level finer none.
   const uint32_t finer = finer_ + (std::ranges::any_of(launchers, &Launcher::window) ? 1 : 0);
   begin_level(launchers.size(), level_of(frame, finer, config_.max_rays));
@@ -94,9 +94,9 @@ void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
   list.count = static_cast<uint32_t>(count);
   std::vector<uint32_t> plane(count);
   for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i % list.cells());
-  list.samples.write(plane, 0, "refine");
+  list.samples.write(plane, 0, Stage::refine);
   for (size_t i = 0; i < count; ++i) plane[i] = static_cast<uint32_t>(i / list.cells());
-  list.samples.write(plane, list.capacity, "refine");
+  list.samples.write(plane, list.capacity, Stage::refine);
   first_launchers_ = launcher_count;
 }
 

@@ -13,10 +13,8 @@ namespace {
 // Seconds that the sample's rays take on the device, warm.
 double sample_seconds(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample,
                       const std::vector<glm::dvec3>& transmitters) {
-  return warm_seconds(context, scene, sample, {}, transmitters, [](const auto& stages) {
-    const auto trace = stages.find("trace");
-    return trace == stages.end() ? 0.0 : trace->second;
-  });
+  return warm_seconds(context, scene, sample, {}, transmitters,
+                      [](const StageSeconds& stages) { return stage_seconds(stages, Stage::trace); });
 }
 
 }  // namespace

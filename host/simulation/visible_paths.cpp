@@ -9,7 +9,7 @@ namespace wavetracer {
 
 PathGeometry read_visible(Setup& setup) {
   const SolvedList& list = setup.exact_paths.visible.list();
-  const uint32_t count = setup.discovery->sequences().counters().read("transfer").visible;
+  const uint32_t count = setup.discovery->sequences().counters().read(Stage::transfer).visible;
   const auto headers = list.headers.read(0, count);
   const auto steps = list.sequences.read(0, size_t{count} * list.max_depth);
   const auto vertices = list.vertices.read(0, 3 * steps.size());

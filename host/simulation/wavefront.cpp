@@ -46,11 +46,11 @@ bool Wavefront::trace(const DeviceScene& scene, RayFollower& follower, Discovery
   waiting_.clear();
   trace_reflected(scene, follower, counts, {1, depth_.transmissions}, ends);
   while (!waiting_.empty()) {
-    const Stage stage = waiting_.back();
+    const Waiting from = waiting_.back();
     waiting_.pop_back();
-    std::swap(rays_, transmitted_[stage.depth - 2]);
+    std::swap(rays_, transmitted_[from.depth - 2]);
     // The end of a sample is that of the ray that was never transmitted.
-    trace_reflected(scene, follower, counts, stage, nullptr);
+    trace_reflected(scene, follower, counts, from, nullptr);
   }
   return !sequences_.overflowed();
 }
@@ -58,31 +58,31 @@ bool Wavefront::trace(const DeviceScene& scene, RayFollower& follower, Discovery
 bool Wavefront::trace_at_once(const DeviceScene& scene, Bounces& bounces, const gpu::Buffer<uint32_t>* ends,
                               DiscoveryCounts& counts) {
   Counters& counters = sequences_.counters();
-  if (!counters.foresees()) counters.restart_ended("trace");
+  if (!counters.foresees()) counters.restart_ended(Stage::trace);
   bounces(scene, rays_, depth_.interactions, sequences_.trie(), ends);
   if (counters.foresees()) {
     counts.unread += rays_.count;
     return true;
   }
-  const wt_counters after = counters.read("trace");
+  const wt_counters after = counters.read(Stage::trace);
   counts.add_ended(rays_.count, after.ended);
   return after.trie_overflow == 0;
 }
 
-void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,
+void Wavefront::trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Waiting from,
                                 const gpu::Buffer<uint32_t>* ends) {
   Interact& interact = ends ? *interact_samples_ : interact_;
-  const uint32_t last = depth_.reflections > 0 ? segments(follower) : stage.depth;
-  for (uint32_t depth = stage.depth; depth <= last && rays_.count > 0; ++depth) {
+  const uint32_t last = depth_.reflections > 0 ? segments(follower) : from.depth;
+  for (uint32_t depth = from.depth; depth <= last && rays_.count > 0; ++depth) {
     source_.sort(rays_, next_, depth);         // order_keys, sort, gather_rays
     finder_.find(scene, rays_, hits_, depth);  // cache_lookup, trace, cache_store (ray_cache.cpp)
     follower.follow(rays_, hits_, depth - 1, finder_.answered(depth));              // waypoints, receive
     finder_.count_blocks(rays_, hits_, depth);                                      // compact
     const uint32_t hit_count = scan_(hits_.block_hits, hits_.blocks(rays_.count));  // scan
     RaysOnward onward{.reflected = depth == last ? nullptr : &next_, .ends = ends};
-    if (stage.transmissions > 0 && depth < depth_.interactions) {
+    if (from.transmissions > 0 && depth < depth_.interactions) {
       onward.transmitted = &transmitted_[depth - 1];
-      waiting_.push_back({depth + 1, stage.transmissions - 1});
+      waiting_.push_back({depth + 1, from.transmissions - 1});
     }
     if (depth <= depth_.interactions) interact(scene, rays_, hits_, hit_count, sequences_.trie(), onward);  // interact
     counts.segments_per_depth[depth - 1] += rays_.count;

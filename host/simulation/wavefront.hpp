@@ -36,14 +36,14 @@ class Wavefront {
 
  private:
   // What the rays of a queue have in common: the number of their segment, from 1, and how many surfaces they may pass.
-  struct Stage {
+  struct Waiting {
     uint32_t depth, transmissions;
   };
   bool trace_at_once(const DeviceScene& scene, Bounces& bounces, const gpu::Buffer<uint32_t>* ends,
                      DiscoveryCounts& counts);
-  // The queue and what is reflected of it. Queues of transmitted rays are left in transmitted_, and their stages, from
-  // the lowest depth to the highest, in waiting_.
-  void trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Stage stage,
+  // The queue and what is reflected of it. Queues of transmitted rays are left in transmitted_, and what they have in
+  // common, from the lowest depth to the highest, in waiting_.
+  void trace_reflected(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts, Waiting from,
                        const gpu::Buffer<uint32_t>* ends);
 
   gpu::Context& context_;
@@ -58,7 +58,7 @@ class Wavefront {
   std::optional<Bounces> bounces_, bounces_samples_;
   RayQueue rays_, next_;
   std::vector<RayQueue> transmitted_;  // for each depth from 2 on, where rays are transmitted
-  std::vector<Stage> waiting_;
+  std::vector<Waiting> waiting_;
   HitList hits_;
 };
 

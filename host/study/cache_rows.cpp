@@ -32,12 +32,12 @@ std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
 CacheTimes cache_times(const StageSeconds& seconds) {
   return {.loop_s = part_seconds(seconds, FramePart::discovery) + part_seconds(seconds, FramePart::order) +
                     part_seconds(seconds, FramePart::cache),
-          .lookup_s = stage_seconds(seconds, "cache_lookup"),
-          .gather_s = stage_seconds(seconds, "cache_gather"),
-          .store_s = stage_seconds(seconds, "cache_store"),
-          .group_s = stage_seconds(seconds, "cache_groups"),
-          .purge_s = stage_seconds(seconds, "cache_purge"),
-          .trace_s = stage_seconds(seconds, "trace") + stage_seconds(seconds, "trace_moving")};
+          .lookup_s = stage_seconds(seconds, Stage::cache_lookup),
+          .gather_s = stage_seconds(seconds, Stage::cache_gather),
+          .store_s = stage_seconds(seconds, Stage::cache_store),
+          .group_s = stage_seconds(seconds, Stage::cache_groups),
+          .purge_s = stage_seconds(seconds, Stage::cache_purge),
+          .trace_s = stage_seconds(seconds, Stage::trace) + stage_seconds(seconds, Stage::trace_moving)};
 }
 
 CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>)) {

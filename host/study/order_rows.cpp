@@ -86,7 +86,7 @@ OrderTimes summarise(const std::vector<StageSeconds>& samples, double (*summary)
     for (const auto& [stage, seconds] : sample) values[stage].push_back(seconds);
   StageSeconds summaries;
   for (const auto& [stage, seconds] : values) summaries[stage] = summary(seconds);
-  return {.trace_s = stage_seconds(summaries, "trace"),
+  return {.trace_s = stage_seconds(summaries, Stage::trace),
           .order_s = part_seconds(summaries, FramePart::order),
           .unpaid_s = part_seconds(summaries, FramePart::discovery),
           .frame_s = part_seconds(summaries, FramePart::whole)};

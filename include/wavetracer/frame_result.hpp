@@ -14,6 +14,7 @@
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/ray_waypoints.hpp"
+#include "wavetracer/stages.hpp"
 #include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
@@ -54,9 +55,6 @@ struct CacheSummary {
   // empty.
   std::vector<uint64_t> entries_by_hits;
 };
-
-// Seconds per stage: device stages from profiling events, host stages from a steady clock.
-using StageSeconds = std::map<std::string, double>;
 
 // Links without a path: the reasons for the first few, in words, and their number. Receivers of grids are counted
 // separately, because receivers inside of houses have no path.

@@ -35,7 +35,7 @@ kernel void environment(global uint* out) {
 
 uint32_t run_value(gpu::Context& context, const char* value) {
   auto out = context.buffer(std::vector<uint32_t>{0}, "out");
-  context.kernel("test", "value", {{"VALUE", value}})({1, 1}, "test", out);
+  context.kernel("test", "value", {{"VALUE", value}})({1, 1}, Stage::transfer, out);
   return out.read_one(0);
 }
 
@@ -66,7 +66,7 @@ TEST_CASE("a program knows its kind of device and exactly one back-end of memory
   kernels.add("test.cl", value_kernels);
   gpu::Context context;
   auto out = context.buffer(std::vector<uint32_t>{0, 0}, "out");
-  context.kernel("test", "environment", {{"VALUE", "0"}})({1, 1}, "test", out);
+  context.kernel("test", "environment", {{"VALUE", "0"}})({1, 1}, Stage::transfer, out);
   CHECK(out.read() == std::vector<uint32_t>{1, 1});
 }
 
@@ -108,7 +108,7 @@ kernel void arithmetic(global const float* in, global float* out) {
   const std::vector<float> in{1 + e, 1 + e, -(1 + 2 * e), 10.0f, 3.0f};
   auto input = context.buffer(in, "in");
   auto out = context.buffer<float>(3, "out");
-  context.kernel("test", "arithmetic")({1, 1}, "test", input, out);
+  context.kernel("test", "arithmetic")({1, 1}, Stage::transfer, input, out);
   CHECK(out.read_one(0) == 0.0f);
   if (context.info().correctly_rounded_divide) {
     CHECK(out.read_one(1) == 10.0f / 3.0f);
@@ -124,7 +124,7 @@ TEST_CASE("a program that does not build is an error with its name, options and 
   gpu::Context context;
   auto out = context.buffer<uint32_t>(1, "out");
   const std::string message = message_of<DeviceError>([&] {
-    context.kernel("broken", "k", {{"SOME_DEFINITION", "3"}})({1, 1}, "test", out);
+    context.kernel("broken", "k", {{"SOME_DEFINITION", "3"}})({1, 1}, Stage::transfer, out);
   });
   CHECK(contains(message, "\"broken\""));
   CHECK(contains(message, "-DSOME_DEFINITION=3"));
@@ -132,9 +132,9 @@ TEST_CASE("a program that does not build is an error with its name, options and 
   CHECK(contains(message, context.info().name));
   CHECK(contains(message, (kernels.kernels() / "broken.cl").string() + ":4"));
   kernels.add("broken.cl", "kernel void k(global uint* out) { out[0] = 1; }\n");
-  CHECK_NOTHROW(context.kernel("broken", "k")({1, 1}, "test", out));
+  CHECK_NOTHROW(context.kernel("broken", "k")({1, 1}, Stage::transfer, out));
   CHECK(contains(message_of<DeviceError>([&] {
-                   context.kernel("broken", "absent")({1, 1}, "test", out);
+                   context.kernel("broken", "absent")({1, 1}, Stage::transfer, out);
                  }),
                  "\"absent\""));
 }
@@ -149,7 +149,7 @@ TEST_CASE("a second context takes the program from disk, and it computes the sam
   gpu::Context second;
   CHECK(run_value(second, "11") == 11);
   CHECK(second.builds_from_source() == 0);
-  CHECK_THROWS_AS(second.kernel("test", "value", {{"VALUE", "11"}})({1, 1}, "test"), std::logic_error);
+  CHECK_THROWS_AS(second.kernel("test", "value", {{"VALUE", "11"}})({1, 1}, Stage::transfer), std::logic_error);
 
   // Another source under the same program name is another program.
   kernels.add("test.cl", std::string(value_kernels) + "// changed\n");

@@ -81,9 +81,9 @@ TEST_CASE_FIXTURE(Fixture, "over no elements nothing is launched or moved, with 
   auto out = context.buffer(std::vector<uint32_t>(4, 7u), "out");
   gpu::Kernel add = kernel("add");
   for (const gpu::Range& range : {gpu::Range{0, 4}, gpu::Range({4, 0, 1}, {4, 1, 1}, 2)}) {
-    CHECK_NOTHROW(add(range, "test", out, 1u, float4{}, 1.0));
-    CHECK_NOTHROW(add(range, "test", none, 1u, float4{}, 1.0));
-    CHECK_THROWS_AS(add(range, "test", out), std::logic_error);
+    CHECK_NOTHROW(add(range, Stage::transfer, out, 1u, float4{}, 1.0));
+    CHECK_NOTHROW(add(range, Stage::transfer, none, 1u, float4{}, 1.0));
+    CHECK_THROWS_AS(add(range, Stage::transfer, out), std::logic_error);
   }
   CHECK(out.read() == std::vector<uint32_t>(4, 7u));
 }
@@ -95,8 +95,8 @@ TEST_CASE_FIXTURE(Fixture, "a buffer of no elements has no elements and can stil
   CHECK(empty.read().empty());
   CHECK_THROWS_AS(empty.read_one(0), std::out_of_range);
   context.fill(empty, 1u);
-  kernel("add")({0, 64}, "test", empty, 0u, float4{}, 1.0);
-  kernel("add")({64, 64}, "test", empty, 0u, float4{}, 1.0);
+  kernel("add")({0, 64}, Stage::transfer, empty, 0u, float4{}, 1.0);
+  kernel("add")({64, 64}, Stage::transfer, empty, 0u, float4{}, 1.0);
   context.finish();
   CHECK(context.buffer(std::vector<uint32_t>{}, "from nothing").size() == 1);
 }
@@ -106,11 +106,11 @@ TEST_CASE_FIXTURE(Fixture, "fill repeats its pattern, copy copies, and both chec
   context.fill(words, 0xdeadbeefu);
   CHECK(words.read() == std::vector<uint32_t>(6, 0xdeadbeefu));
   const uint64_t pattern = 0x0000000200000001ull;
-  context.fill(words, &pattern, 8, 8, 16, "transfer");
+  context.fill(words, &pattern, 8, 8, 16, Stage::transfer);
   CHECK(words.read() == std::vector<uint32_t>{0xdeadbeefu, 0xdeadbeefu, 1, 2, 1, 2});
-  CHECK_THROWS_AS(context.fill(words, &pattern, 8, 4, 8, "transfer"), std::logic_error);
-  CHECK_THROWS_AS(context.fill(words, &pattern, 3, 0, 3, "transfer"), std::logic_error);
-  CHECK_THROWS_AS(context.fill(words, &pattern, 8, 24, 8, "transfer"), std::out_of_range);
+  CHECK_THROWS_AS(context.fill(words, &pattern, 8, 4, 8, Stage::transfer), std::logic_error);
+  CHECK_THROWS_AS(context.fill(words, &pattern, 3, 0, 3, Stage::transfer), std::logic_error);
+  CHECK_THROWS_AS(context.fill(words, &pattern, 8, 24, 8, Stage::transfer), std::out_of_range);
   auto shorter = context.buffer(std::vector<uint32_t>{9, 9, 9}, "shorter");
   context.copy(words, shorter, 8);
   CHECK(shorter.read() == std::vector<uint32_t>{0xdeadbeefu, 0xdeadbeefu, 9});
@@ -136,7 +136,7 @@ TEST_CASE_FIXTURE(Fixture, "a fill of more elements than drivers can count is wh
   CHECK(wrong == 0);
   // Only an end is filled, at an offset that is no multiple of the seed's size.
   const uint64_t pattern = 0x0807060504030201ull;
-  context.fill(bytes, &pattern, 1, count - 5, 5, "transfer");
+  context.fill(bytes, &pattern, 1, count - 5, 5, Stage::transfer);
   CHECK(bytes.read(count - 6, 6) == std::vector<uint8_t>{0xa5, 1, 1, 1, 1, 1});
 }
 
@@ -157,21 +157,21 @@ TEST_CASE_FIXTURE(Fixture, "a buffer larger than the device allows is an error t
 
 TEST_CASE_FIXTURE(Fixture, "a launch covers its range, padded to whole work-groups") {
   auto out = context.buffer(std::vector<uint32_t>(100, 1u), "out");
-  kernel("add")({100, 64}, "test", out, 100u, float4{}, 3.0);
+  kernel("add")({100, 64}, Stage::transfer, out, 100u, float4{}, 3.0);
   std::vector<uint32_t> expected(100);
   for (uint32_t i = 0; i < 100; ++i) expected[i] = 1 + 3 * i;
   CHECK(out.read() == expected);
   auto largest = context.buffer(std::vector<uint32_t>{0}, "largest");
-  kernel("ids")({100, 64}, "test", largest, 0u);
+  kernel("ids")({100, 64}, Stage::transfer, largest, 0u);
   CHECK(largest.read_one(0) == 127);
 }
 
 TEST_CASE_FIXTURE(Fixture, "an empty range launches nothing, with its arguments checked all the same") {
   auto largest = context.buffer(std::vector<uint32_t>{7}, "largest");
-  kernel("ids")({0, 64}, "test", largest, 0u);
+  kernel("ids")({0, 64}, Stage::transfer, largest, 0u);
   CHECK(largest.read_one(0) == 7);
-  CHECK_THROWS_AS(kernel("ids")({0, 64}, "test", largest), std::logic_error);
-  CHECK_THROWS_AS(kernel("ids")({1, 0}, "test", largest, 0u), std::logic_error);
+  CHECK_THROWS_AS(kernel("ids")({0, 64}, Stage::transfer, largest), std::logic_error);
+  CHECK_THROWS_AS(kernel("ids")({1, 0}, Stage::transfer, largest, 0u), std::logic_error);
 }
 
 TEST_CASE_FIXTURE(Fixture, "wrong arguments are named") {
@@ -179,27 +179,29 @@ TEST_CASE_FIXTURE(Fixture, "wrong arguments are named") {
   gpu::Kernel add = kernel("add");
   CHECK(add.name() == "add");
   const gpu::Range one{1, 1};
-  const std::string count = message_of<std::logic_error>([&] { add(one, "test", out, 1u); });
+  const std::string count = message_of<std::logic_error>([&] { add(one, Stage::transfer, out, 1u); });
   CHECK(contains(count, "kernel add takes 4 arguments, 2 were given"));
-  const std::string size = message_of<std::logic_error>([&] { add(one, "test", out, uint64_t{1}, float4{}, 1.0); });
+  const std::string size =
+      message_of<std::logic_error>([&] { add(one, Stage::transfer, out, uint64_t{1}, float4{}, 1.0); });
   CHECK(contains(size, "argument 1"));
   CHECK(contains(size, "kernel add"));
-  const std::string vector_size = message_of<std::logic_error>([&] { add(one, "test", out, 1u, 1.0f, 1.0); });
+  const std::string vector_size = message_of<std::logic_error>([&] { add(one, Stage::transfer, out, 1u, 1.0f, 1.0); });
   CHECK(contains(vector_size, "argument 2"));
   const std::string not_a_buffer =
-      message_of<std::logic_error>([&] { add(one, "test", uint64_t{0}, 1u, float4{}, 1.0); });
+      message_of<std::logic_error>([&] { add(one, Stage::transfer, uint64_t{0}, 1u, float4{}, 1.0); });
   CHECK(contains(not_a_buffer, "argument 0"));
-  const std::string not_a_value = message_of<std::logic_error>([&] { add(one, "test", out, out, float4{}, 1.0); });
+  const std::string not_a_value =
+      message_of<std::logic_error>([&] { add(one, Stage::transfer, out, out, float4{}, 1.0); });
   CHECK(contains(not_a_value, "argument 1"));
   const gpu::Buffer<uint32_t>* const absent = nullptr;  // fits if there is memory
-  const std::string no_buffer = message_of<std::logic_error>([&] { add(one, "test", out, absent, float4{}, 1.0); });
+  const std::string no_buffer = message_of<std::logic_error>([&] { add(one, Stage::transfer, out, absent, float4{}, 1.0); });
   CHECK(contains(no_buffer, "argument 1"));
   const std::string unallocated =
-      message_of<std::logic_error>([&] { add(one, "test", gpu::Buffer<uint32_t>(), 1u, float4{}, 1.0); });
+      message_of<std::logic_error>([&] { add(one, Stage::transfer, gpu::Buffer<uint32_t>(), 1u, float4{}, 1.0); });
   CHECK(contains(unallocated, "argument 0"));
   CHECK(contains(unallocated, "never allocated"));
   gpu::Kernel never_made;
-  CHECK_THROWS_AS(never_made(one, "test"), std::logic_error);
+  CHECK_THROWS_AS(never_made(one, Stage::transfer), std::logic_error);
 }
 
 TEST_CASE_FIXTURE(Fixture, "records are passed by value, local pointers and buffers of other contexts are refused") {
@@ -207,19 +209,21 @@ TEST_CASE_FIXTURE(Fixture, "records are passed by value, local pointers and buff
   struct Three {
     uint32_t a, b, c;
   };
-  kernel("records")({1, 1}, "test", out, Three{1, 2, 3});
+  kernel("records")({1, 1}, Stage::transfer, out, Three{1, 2, 3});
   CHECK(out.read_one(0) == 3);
-  CHECK_THROWS_AS(kernel("with_local")({1, 1}, "test", out, 64u), std::logic_error);
+  CHECK_THROWS_AS(kernel("with_local")({1, 1}, Stage::transfer, out, 64u), std::logic_error);
   gpu::Context other;
   auto foreign = other.buffer(std::vector<uint32_t>(1), "foreign");
-  CHECK_THROWS_AS(kernel("records")({1, 1}, "test", foreign, Three{1, 2, 3}), std::logic_error);
+  CHECK_THROWS_AS(kernel("records")({1, 1}, Stage::transfer, foreign, Three{1, 2, 3}), std::logic_error);
 }
 
 TEST_CASE_FIXTURE(Fixture,
                   "a work-group larger than the device allows is an error that names the kernel and the range") {
   auto largest = context.buffer(std::vector<uint32_t>{0}, "largest");
   const size_t too_large = 2 * context.info().max_work_group;
-  const std::string message = message_of<DeviceError>([&] { kernel("ids")({1, too_large}, "test", largest, 0u); });
+  const std::string message = message_of<DeviceError>([&] {
+    kernel("ids")({1, too_large}, Stage::transfer, largest, 0u);
+  });
   CHECK(contains(message, "kernel ids"));
   CHECK(contains(message, std::to_string(too_large)));
   CHECK(contains(message, "CL_INVALID_WORK_"));  // ..._GROUP_SIZE, or ..._ITEM_SIZE: both limits are exceeded
@@ -230,14 +234,14 @@ TEST_CASE_FIXTURE(Fixture, "profiles sum by stage, over more launches than event
   gpu::Kernel ids = kernel("ids");
   context.reset_profile();
   CHECK(context.profile().empty());
-  for (int i = 0; i < 5000; ++i) ids({1, 1}, "many", largest, 0u);
-  ids({64, 64}, "one", largest, 0u);
+  for (int i = 0; i < 5000; ++i) ids({1, 1}, Stage::trace, largest, 0u);
+  ids({64, 64}, Stage::solve, largest, 0u);
   largest.read_one(0);
   const auto profile = context.profile();
   REQUIRE(profile.size() == 3);
-  CHECK(profile.at("many") > 0);
-  CHECK(profile.at("one") > 0);
-  CHECK(profile.at("many") > profile.at("one"));
+  CHECK(profile.at("trace") > 0);
+  CHECK(profile.at("solve") > 0);
+  CHECK(profile.at("trace") > profile.at("solve"));
   CHECK(profile.at("transfer") >= 0);
   CHECK(context.profile() == profile);
   const KernelTimes times = context.kernel_times();
@@ -246,7 +250,7 @@ TEST_CASE_FIXTURE(Fixture, "profiles sum by stage, over more launches than event
   CHECK(name.ends_with("/ids"));
   CHECK(time.launches == 5001);
   CHECK(time.items == 5064);
-  CHECK(time.seconds == doctest::Approx(profile.at("many") + profile.at("one")));
+  CHECK(time.seconds == doctest::Approx(profile.at("trace") + profile.at("solve")));
   context.reset_profile();
   CHECK(context.profile().empty());
   CHECK(context.kernel_times().empty());

@@ -65,6 +65,6 @@ TEST_CASE("sizes and offsets agree between host and device") {
   kernels.add("layout.cl", includes + "kernel void layout(global uint* out) {\n" + body + "}\n");
   gpu::Context context;
   auto out = context.buffer<uint32_t>(expected.size(), "out");
-  context.kernel("layout", "layout")({1, 1}, "test", out);
+  context.kernel("layout", "layout")({1, 1}, Stage::transfer, out);
   CHECK(out.read() == expected);
 }

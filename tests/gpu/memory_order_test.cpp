@@ -26,7 +26,7 @@ TEST_CASE("fetch-add hands out every place once") {
   const uint32_t count = scaled(context, 1u << 22);
   auto counter = context.buffer(std::vector<uint32_t>{0}, "counter");
   auto places = context.buffer<uint32_t>(count, "places");
-  context.kernel("probe_memory_order", "take_places")({count, group}, "probe", counter, places, count);
+  context.kernel("probe_memory_order", "take_places")({count, group}, Stage::transfer, counter, places, count);
   CHECK(counter.read_one(0) == count);
   std::vector<bool> taken(count);
   size_t wrong = 0;
@@ -55,7 +55,7 @@ TEST_CASE("a set claimed by 64-bit compare-and-swap inserts each word once") {
   auto lost = context.buffer<uint32_t>(1, "lost");
   context.fill(table, 0);
   for (auto* buffer : {&inserted, &winners, &lost}) context.fill(*buffer, 0);
-  context.kernel("probe_memory_order", "insert_words")({count, group}, "probe", input, count, table, slots - 1,
+  context.kernel("probe_memory_order", "insert_words")({count, group}, Stage::transfer, input, count, table, slots - 1,
                                                        inserted, winners, lost);
 
   CHECK(lost.read_one(0) == 0);
@@ -84,8 +84,8 @@ TEST_CASE("the lowest of many words stays, and one work-item is the first") {
   auto table = context.buffer(std::vector<uint32_t>(slots, 0xFFFFFFFFu), "table");
   auto first = context.buffer(std::vector<uint32_t>(slots, 0xFFFFFFFFu), "first");
   auto firsts = context.buffer(std::vector<uint32_t>(1), "firsts");
-  context.kernel("probe_memory_order", "keep_lowest")({count, group}, "probe", context.buffer(words, "words"), count,
-                                                      table, slots, first, firsts);
+  context.kernel("probe_memory_order", "keep_lowest")({count, group}, Stage::transfer, context.buffer(words, "words"),
+                                                      count, table, slots, first, firsts);
   CHECK(table.read() == lowest);
   CHECK(firsts.read_one(0) == slots);
   const std::vector<uint32_t> came = first.read();
@@ -102,7 +102,7 @@ TEST_CASE("a full set loses words and says how many") {
   auto inserted = context.buffer(std::vector<uint32_t>(1), "inserted");
   auto winners = context.buffer(std::vector<uint32_t>(slots), "winners");
   auto lost = context.buffer(std::vector<uint32_t>(1), "lost");
-  context.kernel("probe_memory_order", "insert_words")({count, group}, "probe", input, count, table, slots - 1,
+  context.kernel("probe_memory_order", "insert_words")({count, group}, Stage::transfer, input, count, table, slots - 1,
                                                        inserted, winners, lost);
   CHECK(inserted.read_one(0) == slots);
   CHECK(lost.read_one(0) == count - slots);
@@ -117,8 +117,8 @@ TEST_CASE("what is published by release and acquire is never torn") {
   for (const uint32_t distance : {1u, 4u, 16u}) {
     CAPTURE(distance);
     for (auto* buffer : {&payload, &flags, &seen}) context.fill(*buffer, 0);
-    context.kernel("probe_memory_order", "publish")({2 * size_t{pairs}, group}, "probe", payload, flags, seen, pairs,
-                                                    distance);
+    context.kernel("probe_memory_order", "publish")({2 * size_t{pairs}, group}, Stage::transfer, payload, flags, seen,
+                                                    pairs, distance);
     const std::vector<uint32_t> states = seen.read(), published = flags.read();
     CHECK(std::count(states.begin(), states.end(), 2u) == 0);
     CHECK(std::count(published.begin(), published.end(), 1u) == pairs);
@@ -136,8 +136,8 @@ TEST_CASE("one of two claims a word by 32-bit compare-and-swap, and the fence or
     CAPTURE(distance);
     for (auto* buffer : {&owners, &flags, &wins}) context.fill(*buffer, 0);
     context.fill(words, 0);
-    context.kernel("probe_memory_order", "claim")({2 * size_t{pairs}, group}, "probe", owners, words, flags, wins,
-                                                  pairs, distance);
+    context.kernel("probe_memory_order", "claim")({2 * size_t{pairs}, group}, Stage::transfer, owners, words, flags,
+                                                  wins, pairs, distance);
     const std::vector<uint32_t> owner = owners.read(), won = wins.read();
     const std::vector<uint64_t> word = words.read();
     size_t wrong = 0;

@@ -47,13 +47,13 @@ Curve::Curve(gpu::Context& context, const std::string& name, uint32_t lanes)
 void Curve::encode(const gpu::Buffer<uint32_t>& points, uint32_t stride, uint32_t count, gpu::Buffer<uint64_t>& codes,
                    uint32_t level) {
   const uint32_t bits = checked(level, points.size(), stride, count, codes.size());
-  encode_(range(count), "curves", points, stride, count, bits, codes);
+  encode_(range(count), Stage::transfer, points, stride, count, bits, codes);
 }
 
 void Curve::decode(const gpu::Buffer<uint64_t>& codes, uint32_t count, gpu::Buffer<uint32_t>& points, uint32_t stride,
                    uint32_t level) {
   const uint32_t bits = checked(level, points.size(), stride, count, codes.size());
-  decode_(range(count), "curves", codes, count, bits, points, stride);
+  decode_(range(count), Stage::transfer, codes, count, bits, points, stride);
 }
 
 uint32_t Curve::checked(uint32_t level, size_t words, uint32_t stride, uint32_t count, size_t codes) const {

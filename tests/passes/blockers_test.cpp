@@ -39,7 +39,7 @@ struct Frames {
     SolvedList& list = (remember ? remembering : plain)(scene, ends, set.table(), set.quarters(), find.list(), count,
                                                         set.counters(), remember ? &blockers : nullptr);
     if (list.count > 0) occlusion(scene, ends, list, set.counters(), remember ? &blockers : nullptr);
-    hidden = set.counters().read("solve").hidden;
+    hidden = set.counters().read(Stage::solve).hidden;
     solved = list.count + hidden;
     Found out;
     if (list.count == 0) return out;

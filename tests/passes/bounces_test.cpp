@@ -65,7 +65,7 @@ Discovered at_once(const DeviceScene& scene, const std::vector<Ray>& rays, uint3
   set.begin_frame();
   gpu::Buffer<uint32_t> ends = roots_of(rays);
   Bounces(context(), scene, true, true)(scene, with_samples(rays), interactions, set.trie(), &ends);
-  const wt_counters after = set.counters().read("trace");
+  const wt_counters after = set.counters().read(Stage::trace);
   CHECK(after.trie_overflow == 0);
   return outcome(set, ends, {after.ended, after.ended + interactions + 1});
 }

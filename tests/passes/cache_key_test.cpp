@@ -202,7 +202,7 @@ TEST_CASE("the device computes the same keys, hashes and buckets") {
   for (const uint32_t method : {1u, 2u, 3u})
     for (const uint32_t division : {200000u, WT_CACHE_MAX_DIVISION}) {
       const uint32_t buckets = 7 + method * 1000003;
-      kernel({count, 64}, "probe", d, l, s, count, division, method, widths, buckets, out);
+      kernel({count, 64}, Stage::transfer, d, l, s, count, division, method, widths, buckets, out);
       const std::vector<uint64_t> words = out.read();
       size_t wrong = 0;
       for (uint32_t i = 0; i < count; ++i) {

@@ -38,7 +38,7 @@ class ThesisTable {
  public:
   bool put(uint64_t cells, uint32_t left) {
     auto taken = context().buffer<uint32_t>(1, "taken");
-    kernel("thesis_put")({1, 1}, "probe", nodes_, word(cells), word(left), 1u, stamp, taken);
+    kernel("thesis_put")({1, 1}, Stage::transfer, nodes_, word(cells), word(left), 1u, stamp, taken);
     return taken.read_one(0) != 0;
   }
   // Returns the primitive that thesis_put stores under a key.
@@ -46,7 +46,7 @@ class ThesisTable {
   uint32_t find(uint64_t cells, uint32_t left) {
     auto t = context().buffer<float>(1, "t");
     auto primitive = context().buffer<uint32_t>(1, "primitive"), surface = context().buffer<uint32_t>(1, "surface");
-    kernel("thesis_find")({1, 1}, "probe", nodes_, word(cells), word(left), 1u, stamp, t, primitive, surface);
+    kernel("thesis_find")({1, 1}, Stage::transfer, nodes_, word(cells), word(left), 1u, stamp, t, primitive, surface);
     return primitive.read_one(0);
   }
 

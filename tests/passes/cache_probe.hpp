@@ -53,8 +53,9 @@ class CacheProbe {
   // Runs a kernel, whose first arguments are the table.
   template <class... Args>
   void run(const char* name, size_t items, const Args&... args) {
-    context_.kernel("probe_cache", name, table.definitions(false))(
-        {items, 64}, "probe", table.entries, table.heads, table.used, table.device_regions, table.counters, args...);
+    context_.kernel("probe_cache", name, table.definitions(false))({items, 64}, Stage::transfer, table.entries,
+                                                                   table.heads, table.used, table.device_regions,
+                                                                   table.counters, args...);
   }
 
   struct Outcome {

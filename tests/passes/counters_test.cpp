@@ -13,8 +13,8 @@ namespace {
 constexpr size_t list_room = 1 << 20;
 
 void count_to(Counters& counters, uint32_t candidates, uint32_t solved) {
-  counters.restart(&wt_counters::candidates, candidates, "test");
-  counters.restart(&wt_counters::solved, solved, "test");
+  counters.restart(&wt_counters::candidates, candidates, Stage::transfer);
+  counters.restart(&wt_counters::solved, solved, Stage::transfer);
 }
 
 // Runs a frame with two lists; returns whether it was as foreseen.
@@ -22,14 +22,14 @@ bool settles(Counters& counters, bool foresee, uint32_t candidates, uint32_t sol
   counters.foresee(foresee);
   counters.zero();
   count_to(counters, candidates, solved);
-  const uint32_t first = counters.length(&wt_counters::candidates, capacity, "test");
-  const uint32_t second = counters.length(&wt_counters::solved, capacity, "test");
+  const uint32_t first = counters.length(&wt_counters::candidates, capacity, Stage::transfer);
+  const uint32_t second = counters.length(&wt_counters::solved, capacity, Stage::transfer);
   if (!counters.foresees()) {
     CHECK(first == candidates);
     CHECK(second == solved);
   }
   CHECK(first <= std::max<size_t>(capacity, candidates));
-  return counters.settle(counters.read("test"));
+  return counters.settle(counters.read(Stage::transfer));
 }
 
 }  // namespace
@@ -39,16 +39,16 @@ TEST_CASE("each counter by its word") {
   CHECK(counter_word(&wt_counters::candidates) == offsetof(wt_counters, candidates) / 4);
   Counters counters(context());
   count_to(counters, 7, 9);
-  counters.restart_nodes(5, "test");
-  wt_counters now = counters.read("test");
+  counters.restart_nodes(5, Stage::transfer);
+  wt_counters now = counters.read(Stage::transfer);
   CHECK(now.candidates == 7);
   CHECK(now.solved == 9);
   CHECK(now.nodes == 5);
   CHECK(now.exchanged == 0);
   CHECK(now.visible == 0);
-  counters.restart_ended("test");
+  counters.restart_ended(Stage::transfer);
   counters.zero();
-  now = counters.read("test");
+  now = counters.read(Stage::transfer);
   CHECK(now.candidates == 0);
 }
 
@@ -60,8 +60,9 @@ TEST_CASE("nothing is foreseen before a frame has settled; then lengths are boun
   counters.foresee(true);
   CHECK(counters.foresees());
   counters.zero();
-  CHECK(counters.length(&wt_counters::candidates, list_room, "test") >= 12'500);
-  CHECK(counters.length(&wt_counters::candidates, 11'000, "test") == 11'000);  // limited to the room of the list
+  CHECK(counters.length(&wt_counters::candidates, list_room, Stage::transfer) >= 12'500);
+  CHECK(counters.length(&wt_counters::candidates, 11'000, Stage::transfer) ==
+        11'000);  // limited to the room of the list
   CHECK(counters.last().candidates == 10'000);
 }
 
@@ -84,6 +85,6 @@ TEST_CASE("a full set of sequences does not settle where lengths are foreseen") 
   REQUIRE(settles(counters, false, 100, 100));
   counters.foresee(true);
   counters.zero();
-  counters.restart(&wt_counters::trie_overflow, 1, "test");
-  CHECK(!counters.settle(counters.read("test")));
+  counters.restart(&wt_counters::trie_overflow, 1, Stage::transfer);
+  CHECK(!counters.settle(counters.read(Stage::transfer)));
 }

@@ -222,11 +222,11 @@ TEST_CASE("the device's maps are the host's, bit for bit") {
     const gpu::Range range{n / lanes, 16};
     auto words = context().buffer<uint32_t>(5 * n, "words");
     context().kernel("probe_direction_maps", "directions_to_words", definitions)(
-        range, "probe", context().buffer(planes, "directions"), static_cast<uint32_t>(n), level, bins, words);
+        range, Stage::transfer, context().buffer(planes, "directions"), static_cast<uint32_t>(n), level, bins, words);
     CHECK(words.read() == expected);
     auto centres = context().buffer<float>(3 * n, "directions");
     context().kernel("probe_direction_maps", "cells_to_directions", definitions)(
-        range, "probe", context().buffer(cells, "cells"), static_cast<uint32_t>(n), level, centres);
+        range, Stage::transfer, context().buffer(cells, "cells"), static_cast<uint32_t>(n), level, centres);
     CHECK(centres.read() == expected_centres);
   }
 }

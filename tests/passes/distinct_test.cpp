@@ -165,7 +165,7 @@ std::vector<Path> by_device(const Ends& ends, const std::vector<Path>& found, co
   if (places == 0) return {};
   sort(distinct.sort_keys(), distinct.order(), places, 32);
   distinct.place(scene, nullptr, on_device, visible, counters);
-  const wt_counters totals = counters.read("distinct");
+  const wt_counters totals = counters.read(Stage::distinct);
   if (left_out && totals.near_rows > 0) *left_out = distinct.left_out();
   gpu::Buffer<uint32_t>& of_places = distinct.rows().counts;
   const std::vector<uint32_t> counts = of_places.read(0, places), of = distinct.rows().rows.read(0, places);

@@ -104,7 +104,7 @@ TEST_CASE("vegetation: no paths, and a length that only the device knows") {
   vegetation(ends, none, counters);
   SolvedList list = upload_rows(rows, 3);
   list.counter = counter_word(&wt_counters::visible);
-  counters.restart(&wt_counters::visible, 4, "test");
+  counters.restart(&wt_counters::visible, 4, Stage::transfer);
   vegetation(ends, upload_rows(rows, 3), counters);  // all of them
   const std::vector<double> all = vegetation(ends, list, counters).read(0, rows.size() * table.material.size());
   const std::vector<double> wanted = by_all_volumes(table, rows);

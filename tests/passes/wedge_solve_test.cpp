@@ -56,7 +56,7 @@ std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3
                           {q.wedges[0], q.wedges.size() > 1 ? q.wedges[1] : WT_NONE},
                           q.receiver,
                           WT_ALL_QUARTERS});
-  set.counters().restart(&wt_counters::wedge_candidates, static_cast<uint32_t>(candidates.size()), "wedge_solve");
+  set.counters().restart(&wt_counters::wedge_candidates, static_cast<uint32_t>(candidates.size()), Stage::wedge_solve);
   WedgeSolve pass(context(), max_depth, every_wave_m);
   const SolvedList& list = pass(uploaded, wedges.list(), ends, set.table(), context().buffer(candidates, "candidates"),
                                 static_cast<uint32_t>(candidates.size()), set.counters());
@@ -277,7 +277,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
   place(scene, std::vector{placement});
   Wedges wedges(context(), still, models, instances, true);
   wedges(scene);
-  const Wedge moved = wedge_of(wedges.list().wedges.read_one(0, "test"));
+  const Wedge moved = wedge_of(wedges.list().wedges.read_one(0, Stage::transfer));
   const glm::dvec3 a{-2, 3, 0.6}, b{9, 5.5, 1.4};
   const auto expected = reference::diffraction_point(moved, a, b);
   REQUIRE(expected);
@@ -292,7 +292,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
       WedgeSolve pass(context(), 3, every_wave_m);
       const auto candidates = context().buffer(
           std::vector<wt_wedge_candidate>{{WT_ROOT, WT_ROOT | 1, {0, WT_NONE}, 0, WT_ALL_QUARTERS}}, "candidates");
-      set.counters().restart(&wt_counters::wedge_candidates, 1, "wedge_solve");
+      set.counters().restart(&wt_counters::wedge_candidates, 1, Stage::wedge_solve);
       const SolvedList& list = pass(scene, wedges.list(), ends, set.table(), candidates, 1, set.counters());
       CHECK(list.count == (own_tx || own_rx ? 0 : 1));
       if (list.count) CHECK(glm::distance(download_rows(list)[0].points[0], *expected) < 1e-6);

@@ -44,7 +44,7 @@ Paths found(const Config& config, DirectionShare share) {
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
   s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, false, counters);
   LeftOut left_out;
-  return s.finish.take(counters.read("fields"), left_out, nullptr);
+  return s.finish.take(counters.read(Stage::fields), left_out, nullptr);
 }
 
 bool same_path(const Paths& a, size_t i, const Paths& b, size_t j) {

@@ -29,7 +29,7 @@ TEST_CASE("parts add up to all stages") {
     sum += part_seconds(seconds, part);
   CHECK(sum == all);
   CHECK(part_seconds({{"order", 2}, {"sort", 3}, {"trace", 5}}, FramePart::order) == 5);
-  CHECK(stage_seconds({{"order", 2}}, "sort") == 0);
+  CHECK(stage_seconds({{"order", 2}}, Stage::sort) == 0);
 }
 
 TEST_CASE("a stage that is not listed is a mistake in the program") {
