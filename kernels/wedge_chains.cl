@@ -1,15 +1,15 @@
-// wedge_chains: paths over several edges, by the string of each link. Of a link only a few chains of edges are tried,
-// those that a string between its ends touches when it is pulled tight, and these are solved at once, in double: no
-// pairs of edges are listed, and no ray is needed. Produces rows as wedge_solve does; legs are not tested here.
+// wedge_chains: paths over several edges, found by the string of each link. For a link only a few chains of edges are
+// tried, those that a string between its ends touches when it is pulled tight. They are solved at once, in double: no
+// pairs of edges are listed, and no ray is needed. It produces rows as wedge_solve does; legs are not tested here.
 #include "lib/string_sets.clh"
 
-// So often the string is pulled again, over the way that was found, and after so many pulls a way that still leaves an
-// edge slips off it.
+// The string is pulled at most this often, each time over the way that was found. After WT_SLIPS_AFTER pulls a way that
+// still leaves an edge slips off it.
 #define WT_PULLS 12
 #define WT_SLIPS_AFTER 3
 
-// Adds the upright edges of the chain, at which the curtain bends, to what the string over it touches. 0 where these
-// are more than `most` edges.
+// Adds the upright edges of the chain, at which the curtain bends, to the edges that the string over it touches.
+// Returns 0 if there are more than `most` edges.
 inline int keep_uprights(const global wt_wedge* wedges, const wt_edge_chain* chain, const wt_curtain* curtain,
                          uint most, wt_edge_chain* next, double* along) {
   for (uint i = 0; i < chain->count; ++i) {
@@ -20,11 +20,11 @@ inline int keep_uprights(const global wt_wedge* wedges, const wt_edge_chain* cha
   return 1;
 }
 
-// A way that leaves an edge of a roof slips off the corner of the house there: the upright edge below takes the place
-// of that edge, and of those beside it that meet it in that corner. Returns how many edges it leaves, or WT_NONE where
-// there is no upright edge.
+// A way that leaves an edge of a roof slips off the corner of the house there: the upright edge below replaces that
+// edge and its neighbours that meet it in that corner. Returns the number of edges that the way leaves, or WT_NONE
+// where there is no upright edge.
 inline uint slip_off(const wt_edge_map* map, wt_edge_chain* chain) {
-  uint kept = 0, left = 0, corner = WT_NONE;  // around which upright edge it has just gone
+  uint kept = 0, left = 0, corner = WT_NONE;  // corner: the upright edge that the way has just gone around
   for (uint i = 0; i < chain->count; ++i) {
     uint wedge = chain->wedges[i];
     double place = chain->places[i];
@@ -77,11 +77,11 @@ inline int is_same_chain(const wt_edge_chain* a, const wt_edge_chain* b) {
   return same;
 }
 
-// The string over the roofs, in the vertical plane through both ends. Its way is the shortest over its edges, which
-// runs beside that plane where edges are not square to it; there other edges may stand, so the string is pulled again
+// Pulls the string over the roofs, in the vertical plane through both ends. Its way is the shortest over its edges,
+// which leaves that plane where edges are not square to it. Other edges may stand there, so the string is pulled again
 // over the line of the way in plan, until it touches the same edges. Where it slips off the corner of a roof it goes
-// around the upright edge there. aside: the plane in which it is pulled first is bent in its middle, by this part of
-// the distance. 0 where this does not end, or with no edges or too many.
+// around the upright edge there. aside: the plane of the first pull is bent in its middle, by this part of the
+// distance. Returns 0 if this does not end, or there are no edges or too many.
 inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid, double3 a, double3 b, double aside,
                       uint most, wt_edge_chain* chain) {
   wt_curtain curtain;
@@ -110,9 +110,10 @@ inline int over_roofs(const wt_edge_map* map, const wt_edge_map_arguments* grid,
   return 0;
 }
 
-// WT_STRINGS work-items for each pair of a transmitter and a receiver: what slips off the corners of a roof in one
-// plane may hold in the next. Most strings end at the same edges, and are one path. Both ways of a link find the same
-// bits: the string is pulled from the end of the lower coordinates. first, listed, radii, uprights: see wt_edge_map.
+// WT_STRINGS work-items for each pair of a transmitter and a receiver: a string that slips off the corners of a roof in
+// one plane may hold in the next. Most strings end at the same edges, and are one path. Both directions of a link find
+// the same bits: the string is pulled from the end with the lower coordinates. first, listed, radii, uprights: see
+// wt_edge_map.
 kernel void roof_chains(const global wt_wedge* wedges, const global uint* first, const global uint* listed,
                         const global double* radii, const global uint* uprights,
                         const global wt_exact_instance* instances, const global double4* transmitters,
