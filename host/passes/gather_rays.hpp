@@ -1,5 +1,5 @@
-// gather_rays: rays of a queue into another, permuted or picked.
-// Assumes two queues of one capacity, the second with no more planes than the first.
+// gather_rays: copies rays of a queue into another, permuted or selected. It needs two queues of one capacity, the
+// second with no more planes than the first.
 #pragma once
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
@@ -8,7 +8,7 @@ namespace wavetracer {
 
 class GatherRays {
  public:
-  // stage: whose time it is.
+  // stage: the stage under whose name the time is counted.
   explicit GatherRays(gpu::Context& context, const char* stage = "order");
   // next becomes rays[order[0]], ..., rays[order[count - 1]].
   void operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next);

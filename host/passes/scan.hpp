@@ -1,5 +1,5 @@
-// scan: exclusive prefix sums of block counts, in place, and their total.
-// One launch where few work-items suffice, else two: sums of chunks, then each chunk from the sum before it.
+// scan: exclusive prefix sums of block counts, in place, and their total. It is one launch where few work-items
+// suffice, else two: the sums of chunks, then each chunk from the sum before it.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/tuning.hpp"
@@ -12,8 +12,7 @@ class Scan {
   Scan(gpu::Context& context, const ScanTuning& form);
   // Scans counts[0 .. count - 1], and waits for nothing.
   void prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
-  // The same, and returns their sum, modulo 2^32.
-  // stage: the profiling sum that the time goes to.
+  // The same, and returns their sum, modulo 2^32. stage: the profiling sum that the time is added to.
   uint32_t operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, const char* stage = "scan");
 
  private:

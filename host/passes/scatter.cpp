@@ -1,5 +1,5 @@
 // Host side of kernels/scatter.cl.
-// Which receivers a surface may serve holds for all its tiles, so the rows are counted before any is written.
+// All tiles of a surface may serve the same receivers, so the rows are counted before any is written.
 #include "passes/scatter.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
       first_row_(context.buffer<uint32_t>(1024 + 1, {"rows of tiles", advice::tiles})),
       count_(context.buffer<uint32_t>(1, {"lit surfaces", advice::tiles})) {
   std::vector<double> centres;
-  std::vector<uint32_t> first_centre;  // of each part
+  std::vector<uint32_t> first_centre;  // first centre of each part
   for (uint32_t part = 0; part < tiles.part_count(); ++part) {
     first_centre.push_back(static_cast<uint32_t>(centres.size() / 3));
     for (const Tile& tile : tiles.tiles(part))
@@ -63,8 +63,8 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
       [&] { return count_.read_one(0, "scatter"); }, capacity,
       [&](size_t larger) {
         first_row_ = context_.buffer<uint32_t>(larger + 1, {"rows of tiles", advice::tiles});
-        entries_ =
-            context_.buffer<uint32_t>(4 * larger, {"lit surfaces", advice::tiles});  // says how much room there is
+        entries_ = context_.buffer<uint32_t>(4 * larger,
+                                             {"lit surfaces", advice::tiles});  // its size tells what room there is
       });
 }
 

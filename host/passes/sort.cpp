@@ -1,5 +1,5 @@
-// Where the sorts cross: one block of the bitonic one (passes/tuning.hpp).
-// One launch there, and no temporary memory.
+// The sorts cross at one block of the bitonic one (passes/tuning.hpp), which is one launch and needs no temporary
+// memory.
 #include "passes/sort.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void Sort::reserve(uint32_t n) {
 
 void Sort::operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
                       const char* stage) {
-  if (temporary_.size() < words(n)) reserve(n + std::min(n / 4, ~n));  // they are often a few more the next time
+  if (temporary_.size() < words(n)) reserve(n + std::min(n / 4, ~n));  // the next time there are often a few more
   if (n <= bitonic_.block())
     bitonic_(keys, order, n, temporary_, stage);
   else
