@@ -63,8 +63,8 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
       [&] { return count_.read_one(0, "scatter"); }, capacity,
       [&](size_t larger) {
         first_row_ = context_.buffer<uint32_t>(larger + 1, {"rows of tiles", advice::tiles});
-        entries_ = context_.buffer<uint32_t>(4 * larger,
-                                             {"lit surfaces", advice::tiles});  // its size tells what room there is
+        entries_ =
+            context_.buffer<uint32_t>(4 * larger, {"lit surfaces", advice::tiles});  // says how much room there is
       });
 }
 
