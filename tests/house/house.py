@@ -196,7 +196,7 @@ def unlicensed(root):
 # Words that begin a relative clause or a genitive without a main clause.
 BARE = r"(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Which|Where|How|Likewise)\b"
 BARE_SENTENCE = r"(?<=[.?!] )(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Likewise)\b"
-ENGLISH_FOLDERS = (*FOLDERS, "cmake", "python")
+ENGLISH_FOLDERS = (*FOLDERS, "cmake", "docs", "python")
 ENGLISH_FILES = ("CMakeLists.txt", "dev", ".ci/run")
 ENGLISH_SUFFIXES = SUFFIXES | {".py", ".cmake", ".sh", ".js", ".txt", ".map", ".supp"}
 # Folders whose comments are not rewritten yet; the list is to become empty.
