@@ -199,8 +199,8 @@ BARE_SENTENCE = r"(?<=[.?!] )(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Likew
 ENGLISH_FOLDERS = (*FOLDERS, "cmake", "docs", "python")
 ENGLISH_FILES = ("CMakeLists.txt", "dev", ".ci/run")
 ENGLISH_SUFFIXES = SUFFIXES | {".py", ".cmake", ".sh", ".js", ".txt", ".map", ".supp"}
-# Folders whose comments are not rewritten yet; the list is to become empty.
-NOT_YET_ENGLISH = ("host/simulation/",)
+# Beginnings of paths whose comments are not rewritten yet; the list is to become empty.
+NOT_YET_ENGLISH = ("host/simulation/plan", "host/simulation/setup", "host/simulation/world")
 
 
 def comments(lines, mark):
