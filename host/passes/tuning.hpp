@@ -54,7 +54,7 @@ struct Tuning {
   bool alone;  // work-items take runs of elements by themselves (CPUs); else groups take blocks together
 
   uint32_t block;            // rays per block: the unit in which hits are counted and rays are compacted
-  uint32_t blocks_per_item;  // blocks that an item of interact and compact takes, where `alone`
+  uint32_t blocks_per_item;  // blocks that an item of interact and compact takes in turn, if alone
   Work blocks;               // interact and compact: elements are the rays or words
 
   Work generate_rays, order_keys, label_rays, gather_rays;

@@ -10,7 +10,7 @@ namespace wavetracer {
 namespace {
 
 // The number of wedges for which the bits of known pairs are kept; their memory is limited to this, 23,000 wedges. If
-// there are more (corners come first), each frame tests the others again.
+// there are more, each frame tests the last ones again; corners are last.
 uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
   const uint64_t most = std::min({uint64_t{1} << 31, device.max_buffer, device.global_memory / 16});
   const auto room = static_cast<uint64_t>(std::sqrt(static_cast<double>(most) / sizeof(wt_uint)));

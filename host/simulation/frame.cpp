@@ -34,7 +34,7 @@ FrameLoop::FrameLoop(Setup& setup) : s_(setup), clock_(setup.config.trace.discov
     try {
       solve({.pose = [this] { return s_.world.state(0); }, .compiling = true});
     } catch (const gpu::BufferError&) {
-      // Real frames shorten their lists, or report them.
+      // Real frames shorten their lists, or report the error.
     }
     forget();
   }

@@ -141,8 +141,8 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_prefixes_arguments;
 
-// Numbers for wedge_join and wedge_pairs: `lanes` work-items share the prefixes first to end - 1. Each work-item takes
-// one of them at a time, in order, as the transmitter's prefix.
+// Numbers for wedge_join and wedge_pairs: `lanes` work-items take each of the prefixes first to end - 1, in their
+// order, as the transmitter's prefix of a pair.
 typedef struct {
   wt_uint count;  // the number of all prefixes
   wt_uint first;

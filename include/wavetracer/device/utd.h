@@ -214,9 +214,9 @@ inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int o
 }
 
 // In a corner an image of several reflections has two boundaries, one for each order of the faces. Away from them their
-// terms nearly cancel (exactly at a right angle, and where nothing is bent), and there the weight of the one is that of
-// the other. near: 1 on the boundary, 0 far away. Between boundaries the mean of the waves from both ends makes the
-// coefficient reciprocal.
+// terms nearly cancel (exactly at a right angle, and where nothing is bent); there the image with two reflections fewer
+// takes its place. near: 1 on the boundary, 0 far away. Between boundaries the mean of the waves from both ends makes
+// the coefficient reciprocal.
 inline wt_matrix wt_corner_jump(const wt_bend* bend, wt_boundary boundary, int odd, double near) {
   const wt_corner* corner = &bend->corner;
   const int image = boundary.image, images = image < 0 ? -image : image;
