@@ -34,7 +34,7 @@ THEMES = {
                   halo="#ffffff", tx="#d4213d", rx="#0b6fa8", diffraction="#00804a", transmission="#000000",
                   scattering="#4a78a8", stops=PLASMA[:-1][::-1]),
 }
-# Values of /vertices/interaction. Each but reflection has a mark: an outline about the point, filled or as lines.
+# Values of /vertices/interaction. Each except reflection has a mark: an outline about the point, filled or as lines.
 REFLECTION = 1
 MARKS = {8: ("diffraction", "m0,-5l5,5l-5,5l-5,-5z", True),
          4: ("transmission", "m-3.5,-3.5l7,7m0,-7l-7,7", False),
@@ -87,7 +87,7 @@ def colour(stops, t):
 
 
 class View:
-    """From metres to pixels: x to the right, y up."""
+    """Turns metres into pixels: x to the right, y up."""
 
     def __init__(self, window, width):
         self.x0, self.y0, self.x1, self.y1 = window
@@ -99,7 +99,7 @@ class View:
         return np.stack([(points[..., 0] - self.x0) * self.scale, (self.y1 - points[..., 1]) * self.scale], axis=-1)
 
     def sees(self, triangles):
-        """Which triangles (n, 3, 3) have a bounding box that meets the window."""
+        """A flag for each triangle (n, 3, 3): its bounding box meets the window."""
         low, high = triangles.min(axis=1), triangles.max(axis=1)
         return (high[:, 0] > self.x0) & (low[:, 0] < self.x1) & (high[:, 1] > self.y0) & (low[:, 1] < self.y1)
 
@@ -137,7 +137,7 @@ def draw_buildings(view, triangles, theme):
         if shape:
             fill = mix(theme["low"], theme["high"], k / steps)
             out.append(f'<path d="{shape}" fill="{fill}" stroke="{fill}" stroke-width="0.7" stroke-linejoin="round"/>')
-    # A wall from above is a line: the longest side of its triangle's projection. Each line once.
+    # A wall from above is a line: the longest side of its triangle's projection. Each line is drawn once.
     lines = set()
     for corners in np.round(view(triangles[steep]), 1):
         a, b, c = map(tuple, corners)
@@ -147,7 +147,7 @@ def draw_buildings(view, triangles, theme):
 
 
 def draw_edges(view, edges, theme):
-    """Edges as lines; upright ones are dots from above. Each once."""
+    """Draws edges as lines; upright ones are dots from above. Each is drawn once."""
     near = (edges.max(axis=1)[:, :2] > [view.x0, view.y0]) & (edges.min(axis=1)[:, :2] < [view.x1, view.y1])
     lines = {tuple(np.round(ends, 1).ravel()) for ends in view(edges[near.all(axis=1)])}
     shape = "".join(f"M{x0:.1f},{y0:.1f}L{x1:.1f},{y1:.1f}" for x0, y0, x1, y1 in sorted(lines))
@@ -165,7 +165,7 @@ def mark(kind, places, theme, opacity=1.0):
 
 
 def draw_paths(view, rows, low_db, high_db, theme):
-    """Lines, points of reflection in their colour, and above all lines the other marks, each place once."""
+    """Draws lines, points of reflection in their colour, and above all lines the other marks, each place once."""
     out, places = [], {kind: {} for kind in MARKS}
     crowd = min(1.0, (150 / max(len(rows), 1)) ** 0.35)  # many paths are drawn fainter: the strong ones stand out
     for gain_db, points, interactions in rows:
@@ -184,7 +184,7 @@ def draw_paths(view, rows, low_db, high_db, theme):
 
 
 def draw_ends(view, ends, theme, labels):
-    """Markers, then labels, each at the first of eight places around its marker where it covers the least."""
+    """Draws markers, then labels, each at the first of the eight places around its marker where it covers the least."""
     marks = [(kind, name, *view(position)) for kind in ("receivers", "transmitters")
              for name, position in ends[kind].values()]
     out, taken = [], [(x - 8, y - 8, x + 8, y + 8) for _, _, x, y in marks]
@@ -212,7 +212,7 @@ def draw_ends(view, ends, theme, labels):
 
 
 def draw_legend(kinds, edges, theme, x, y):
-    """What the marks mean, of those that are drawn, in a row; kinds: interactions."""
+    """Draws a row that explains the marks in the picture; kinds: the interactions that were drawn."""
     entries = [(MARKS[kind][0], mark(kind, [(x, y)], theme)) for kind in MARKS if kind in kinds]
     if edges:
         entries.append(("edge that diffracts", f'<path d="M{x - 7},{y}h14" stroke="{theme["diffraction"]}" '
@@ -226,7 +226,7 @@ def draw_legend(kinds, edges, theme, x, y):
 
 
 def draw_frame(view, theme, low_db, high_db, title, caption, attribution, kinds, edges):
-    """Title, caption, legend, colour bar, scale bar, attribution: on top of the picture, in its corners."""
+    """Draws title, caption, legend, colour bar, scale bar and attribution on top of the picture, in its corners."""
     out, w, h = [], view.width, view.height
     if title:
         out.append(text(24, 40, title, theme, 24, weight="bold"))

@@ -1,4 +1,4 @@
-"""Reads what draw_paths.py draws below paths: the triangles of a scene, and the edges of it that diffract.
+"""Reads the background of draw_paths.py: the triangles of a scene, and its edges that diffract.
 Scenes are Mitsuba XML with PLY meshes of triangles, ascii or binary little endian, and z up."""
 import math
 import os
@@ -38,7 +38,7 @@ def read_ply(path):
         for name, count, properties in elements:
             fields = []
             for i, words in enumerate(properties):
-                if words[0] == "list":  # taken for triangles, which is checked below
+                if words[0] == "list":  # treated as triangles, which is checked below
                     fields += [(f"n{i}", "<" + PLY_TYPES[words[1]]), ("corners", "<" + PLY_TYPES[words[2]], 3)]
                 else:
                     fields.append((words[1], "<" + PLY_TYPES[words[0]]))
@@ -93,7 +93,7 @@ def read_scene(path):
 
 
 def read_edges(path):
-    """The ends (n, 2, 3) of the edges that `wavetracer scene info --edges SCENE` lists; path: what it printed."""
+    """The ends (n, 2, 3) of the edges that `wavetracer scene info --edges SCENE` lists; path: its output."""
     rows = [line.split() for line in open(path, encoding="utf-8")]
     try:
         return np.array([row[1:7] for row in rows if row and row[0].isdigit()], dtype=float).reshape(-1, 2, 3)

@@ -1,9 +1,10 @@
-// bitonic_sort: stable sort of keys with a payload by comparators alone (K. Batcher, "Sorting networks and their
-// applications", AFIPS 1968). Sorts blocks in local memory; above them merges a step per launch, then blocks again.
+// bitonic_sort: a stable sort of keys with a payload by comparators alone (K. Batcher, "Sorting networks and their
+// applications", AFIPS 1968). It sorts blocks in local memory; above them it merges one step per launch, then blocks
+// again.
 //
 // Every merge begins with a flip (position p meets its mirror image), so that each comparator puts the smaller key at
-// the lower position. Then positions from n on, were they there, would hold infinity and never move: any n will do.
-// Ties are decided by the position that a key had, its index, so equal keys keep their order.
+// the lower position. Positions from n on, if they existed, would hold infinity and never move, so every n works. Equal
+// keys are compared by the position that each key had, its index, so they keep their order.
 // Build options: WT_KEY_BITS (32, 64), WT_PAYLOAD (0 none, 1 words, 2 the indices themselves), WT_BLOCK (a power of
 // two, 16 at least), WT_LANES (1: a work-group sorts a block; 16: one work-item does, in vectors of 16 keys).
 
@@ -18,13 +19,13 @@ typedef uint16 wt_keys;
 #endif
 
 // A step pairs positions whose distance is `stride`, or mirrors groups of 2 * stride: mask is stride or 2 * stride - 1,
-// and a position xor mask is its partner. Comparator c of a step has this lower position.
+// and a position xor mask is its partner. This is the lower position of comparator c in a step.
 inline uint wt_low(uint c, uint stride) { return 2 * c - (c & (stride - 1)); }
 
 inline bool wt_after(wt_key a, uint a_index, wt_key b, uint b_index) { return a > b || (a == b && a_index > b_index); }
 
-// The comparator of positions low < high: the smaller key goes to the lower one. OpenCL 1.2 has no pointer that may be
-// of either address space, so there is one for each.
+// The comparator of positions low < high: the smaller key goes to the lower one. In OpenCL 1.2 a pointer has one
+// address space, so there is one function for each.
 #define WT_COMPARATOR(space)                                                                              \
   inline void wt_compare_##space(space wt_key* keys, space uint* index, uint low, uint high) {            \
     const wt_key a = keys[low], b = keys[high];                                                           \
@@ -41,7 +42,8 @@ WT_COMPARATOR(local)
 WT_COMPARATOR(global)
 
 #if WT_LANES == 1
-// The steps of one merge over a block of n keys, from the given stride down to 1; the first one has the given mask.
+// Makes the steps of one merge over a block of n keys, from the given stride down to 1; the first one has the given
+// mask.
 inline void wt_merge(local wt_key* keys, local uint* index, uint n, uint stride, uint mask) {
   while (stride != 0) {
     for (uint c = get_local_id(0); wt_low(c, stride) < n; c += get_local_size(0)) {
@@ -63,7 +65,7 @@ typedef struct {
   uint16 index;
 } wt_vector;
 
-// The same lanes of a vector, rearranged; the names of the lanes are OpenCL's.
+// Rearranges the lanes of a vector, all in the same way; the names of the lanes are OpenCL's.
 #define WT_REARRANGED(v, lanes) ((wt_vector){(v).key.lanes, (v).index.lanes})
 
 inline wt_vector wt_load(const local wt_key* keys, const local uint* index, uint i) {
@@ -76,7 +78,7 @@ inline void wt_store(wt_vector v, local wt_key* keys, local uint* index, uint i)
   if (WT_PAYLOAD != 0) vstore16(v.index, 0, index + i);
 }
 
-// Lanes of b where `take` is set, of a elsewhere.
+// Lanes of b where `take` is set, else of a.
 inline wt_vector wt_choose(wt_vector a, wt_vector b, int16 take) {
   const wt_vector v = {select(a.key, b.key, WT_TO_KEY_MASK(take)), select(a.index, b.index, take)};
   return v;
@@ -87,7 +89,7 @@ inline int16 wt_lanes_after(wt_vector a, wt_vector b) {
   return WT_PAYLOAD == 0 ? after : after | (convert_int16(a.key == b.key) & (a.index > b.index));
 }
 
-// A step inside a vector: lanes with bit `stride` are the higher positions of their pairs.
+// Makes a step inside a vector: lanes with bit `stride` are the higher positions of their pairs.
 inline wt_vector wt_step(wt_vector v, wt_vector partner, int stride) {
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   return wt_choose(v, partner, wt_lanes_after(v, partner) ^ ((lane & stride) != 0));
@@ -105,7 +107,7 @@ inline wt_vector wt_sort16(wt_vector v) {
   return wt_merge8(wt_step(v, WT_REARRANGED(v, sfedcba9876543210), 8));
 }
 
-// As above, for strides of 16 at least. Keys behind n, up to a whole vector, are infinite.
+// As above, for strides of 16 at least. Keys after n, up to a whole vector, are infinite.
 inline void wt_merge(local wt_key* keys, local uint* index, uint n, uint stride, uint mask) {
   for (; stride >= 16; stride /= 2, mask = stride) {
     const bool flip = mask != stride;
@@ -131,12 +133,12 @@ inline void wt_sort(local wt_key* keys, local uint* index, uint n) {
 }
 #endif
 
-// One block per work-group. A sort of one block ends here. Of several, the indices go to `index` (where the payload is
-// the indices that is `values`), and the values, if any, are put aside behind them.
+// Sorts one block per work-group. If there is one block, the sort ends here. If there are several, the indices go to
+// `index` (`values` if the payload is the indices), and the values, if any, are saved behind them.
 kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* index, uint n) {
   local wt_key block_keys[WT_BLOCK];
   local uint block_index[WT_PAYLOAD != 0 ? WT_BLOCK : 1];
-  local uint unsorted;  // where the largest keys begin that end the block: they are in their places
+  local uint unsorted;  // start of the largest keys that end the block: they are in their places
   const uint first = get_group_id(0) * WT_BLOCK, count = min(n - first, (uint)WT_BLOCK);
   const uint lane = get_local_id(0), lanes = get_local_size(0);
   if (lane == 0) unsorted = 0;
@@ -165,13 +167,13 @@ kernel void sort_blocks(global wt_key* keys, global uint* values, global uint* i
   }
 }
 
-// One step over all keys, a comparator per work-item.
+// Makes one step over all keys, one comparator per work-item.
 kernel void one_step(global wt_key* keys, global uint* index, uint n, uint stride, uint mask) {
   const uint low = wt_low(get_global_id(0), stride), high = low ^ mask;
   if (high < n) wt_compare_global(keys, index, low, high);
 }
 
-// The steps of a merge that stay inside blocks. One block per work-group.
+// Makes the steps of a merge that stay inside blocks, one block per work-group.
 kernel void merge_blocks(global wt_key* keys, global uint* index, uint n) {
   local wt_key block_keys[WT_BLOCK];
   local uint block_index[WT_PAYLOAD != 0 ? WT_BLOCK : 1];
@@ -189,7 +191,7 @@ kernel void merge_blocks(global wt_key* keys, global uint* index, uint n) {
   }
 }
 
-// The values that sort_blocks put aside, each to where its key went.
+// Moves the values that sort_blocks saved to the places of their keys.
 kernel void gather(global uint* values, const global uint* index, uint n) {
   const uint i = get_global_id(0);
   if (i < n) values[i] = index[(size_t)n + index[i]];

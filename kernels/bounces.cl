@@ -1,6 +1,6 @@
-// bounces: every ray of a queue from its launch to its last hit, in one work-item: the nearest hit, its prefix into the
-// trie, the reflection, again. What trace, scan and interact do together where nothing happens to the queue between two
-// depths, without a queue. Consumes rays; counters->ended[n] gets the rays that ended after n hits.
+// bounces: follows every ray of a queue from its launch to its last hit, in one work-item: the nearest hit, its prefix
+// into the trie, the reflection, and again. It replaces trace, scan and interact, without a queue, where nothing else
+// happens between two depths. Consumes rays; counters->ended[n] gets the rays that ended after n hits.
 // quarters, ages, ends: as in interact. With WT_INSTANCES, `moving` is traced too.
 #include "lib/mirror.clh"
 #include "lib/tree.clh"
@@ -8,8 +8,8 @@
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Returns the number of the ray's hits. word: its root and quarter; *node: of the longest sequence that it lived
-// through.
+// Returns the number of the ray's hits. word: its root and quarter; *node: that of the longest sequence that the ray
+// has met.
 inline uint bounce(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving, float3 o,
                    float3 d, uint source, uint word, const global wt_surface* surfaces, global ulong* table,
                    global uint* quarters, global wt_counters* counters, global uint* ages, wt_bounces_arguments args,

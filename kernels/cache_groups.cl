@@ -1,15 +1,15 @@
-// cache_groups: rays of one key, of those that the ray cache did not answer, are a group, of which the first ray of the
-// queue is traced; the others take its hit. Consumes a labelled queue and missed[i], i where ray i is to be traced.
+// cache_groups: the rays of one key that the ray cache did not answer are a group. The first of them in the queue is
+// traced; the others take its hit. Consumes a labelled queue and missed[i], which is i where ray i is to be traced.
 //   cache_keys    the key of each ray as words that lie together; places[i] says whether it has one
 //   cache_elect   each ray finds the place of its key in a table of ray numbers, which keeps the lowest
-//   cache_follow  missed[i] of all but the lowest becomes WT_NONE, and places[i] says whom they follow
-//   cache_share   followers take hits of those, or are to be traced themselves where that hit is none of theirs: the
-//                 rules are those of a look-up (WT_CACHE_OWN_POINT, WT_CACHE_PRECISION)
-// Rays that the cache is not for are alone. WT_RAYS_PER_ITEM rays a work-item (1 on GPUs).
+//   cache_follow  missed[i] of all but the lowest becomes WT_NONE, and places[i] is the ray that they follow
+//   cache_share   followers take the hit of the ray that they follow, or are traced themselves where it cannot be
+//                 theirs: the rules are those of a look-up (WT_CACHE_OWN_POINT, WT_CACHE_PRECISION)
+// Rays that the cache does not serve form no groups. A work-item takes WT_RAYS_PER_ITEM rays (1 on GPUs).
 #include "lib/cache_path.clh"
 #include "wavetracer/device/arguments.h"
 
-// Words of a key: what wt_cache_same_key compares, and the transmitter.
+// The words of a key: those that wt_cache_same_key compares, and the transmitter.
 #ifdef WT_CACHE_EXACT
 #define WT_GROUP_WORDS 4u
 #else
@@ -40,7 +40,7 @@ kernel void cache_keys(const global float* rays, uint capacity, uint count, cons
   }
 }
 
-// Where a key's search begins: its words mixed by the finisher of MurmurHash3.
+// The place where the search for a key begins: its words mixed by the finisher of MurmurHash3.
 inline uint wt_group_home(const ulong* key, uint mask) {
   ulong x = 0;
   for (uint word = 0; word < WT_GROUP_WORDS; ++word) {
@@ -94,7 +94,7 @@ kernel void cache_elect(uint count, const global ulong* keys, global uint* table
   }
 }
 
-// places[i] becomes the representative that ray i follows, WT_NONE where it follows none.
+// Sets places[i] to the ray that ray i follows, WT_NONE where it follows none.
 kernel void cache_follow(uint count, global float* missed, const global uint* table, global uint* places) {
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
   if (first >= count) return;
@@ -107,7 +107,7 @@ kernel void cache_follow(uint count, global float* missed, const global uint* ta
   }
 }
 
-// refused[i] becomes i where ray i must be traced after all, else WT_NONE; so does missed[i] then.
+// Sets refused[i], and missed[i], to i where ray i must be traced after all; else refused[i] is WT_NONE.
 kernel void cache_share(global float* rays, global float* hits, global float* missed, global float* refused,
                         const global uint* representatives, global wt_cache_entry* entries, global uint* heads,
                         global uint* used, const global wt_cache_region* regions, global wt_cache_counters* counters,

@@ -1,5 +1,5 @@
-// cache_lookup: rays of a labelled queue ask the cache. Consumes rays; produces hits[i] where it answers, missed[i] = i
-// where ray i is to be traced, else WT_NONE. WT_RAYS_PER_ITEM rays per work-item (1 on GPUs).
+// cache_lookup: rays of a labelled queue ask the cache. Consumes rays; produces hits[i] where the cache answers.
+// missed[i] is i where ray i is to be traced, else WT_NONE. A work-item takes WT_RAYS_PER_ITEM rays (1 on GPUs).
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by
 //                        the one that was traced
 //   WT_CACHE_STATISTICS  counts hits per entry, keeps the cycles of its last answer, and links entries along paths, by
@@ -11,7 +11,7 @@
 #include "lib/clock.clh"
 #include "wavetracer/device/arguments.h"
 
-// What moves, with WT_CACHE_ALL; else placeholders.
+// The things that move, with WT_CACHE_ALL; else placeholders.
 typedef struct {
   const global float* receivers;  // four floats per receiver: centre and padding
   float radius;                   // m
@@ -26,8 +26,9 @@ inline bool instance_moved(wt_cache_movement movement, uint surface, uint time) 
   return instance != WT_NONE && movement.instance_since[instance] > time;
 }
 
-// Section 3.2.3: what the ray left or met has moved since, or the receiver is no longer within reach of the segment
-// (algorithm 4 with its distance in place of one component of it, and from the segment instead of from its origin).
+// Section 3.2.3: the surface that the ray left or met has moved since, or the receiver is no longer within reach of the
+// segment (algorithm 4, but with its distance in place of one component, and measured from the segment instead of its
+// origin).
 inline bool outdated(wt_cache_movement movement, const wt_cache_entry* e, uint left_surface) {
   if (instance_moved(movement, e->surface, e->time)) return true;
   if (e->left != WT_NONE && instance_moved(movement, left_surface, e->time)) return true;
@@ -44,7 +45,7 @@ inline uint look_up(wt_cache cache, wt_cache_question q, uint left_surface, uint
                     const global wt_surface* surfaces, wt_cache_movement movement, wt_cache_entry* e) {
   uint slot;
   if (!wt_cache_may_ask(q, left_surface, static_surfaces) || !wt_cache_find(cache, q, e, &slot)) return WT_NONE;
-#if defined(WT_CACHE_ALL) && !defined(WT_CACHE_THESIS)  // whose listings never ask
+#if defined(WT_CACHE_ALL) && !defined(WT_CACHE_THESIS)  // the thesis' listings never ask this
   if (outdated(movement, e, left_surface)) {
     wt_cache_withdraw(cache, slot);
     wt_fetch_add_u32(&cache.counters->stale, 1u);

@@ -1,6 +1,6 @@
-// cache_purge: entries of every region that were neither written nor used since `keep_from`, and those that were
-// withdrawn, are removed.
-// Work-item (x, r) takes WT_ENTRIES_PER_ITEM entries of region r; nobody else uses the table meanwhile.
+// cache_purge: removes entries of every region that were neither written nor used since `keep_from`, and those that
+// were withdrawn.
+// Work-item (x, r) takes WT_ENTRIES_PER_ITEM entries of region r; no other kernel uses the table meanwhile.
 #include "lib/cache_table.clh"
 
 inline bool is_old(const global wt_cache_entry* entries, const global uint* uses, uint slot, uint keep_from) {
@@ -9,7 +9,7 @@ inline bool is_old(const global wt_cache_entry* entries, const global uint* uses
 }
 
 #ifdef WT_CACHE_CHAINED
-// A tree cannot give up its nodes: old[r] becomes the number of old entries of region r, and the host clears regions.
+// A tree cannot remove its nodes: old[r] becomes the number of old entries of region r, and the host clears regions.
 kernel void cache_purge(const global wt_cache_entry* entries, const global uint* heads, global uint* used,
                         const global wt_cache_region* regions, global wt_cache_counters* counters, uint keep_from,
                         global uint* old, const global uint* uses) {

@@ -1,13 +1,14 @@
-// cache_store: rays that were traced because the cache had no answer. Consumes missed[k], its hit, and indices[k],
-// which ray of the whole queue it is; produces that ray's hit, and an entry. One missed ray a work-item.
-// With WT_CACHE_STATISTICS entries are linked along paths and keep the cycles of their write; with WT_CACHE_ALL they
-// keep receptions[k], the first receiver that the segment passed, and so does receivers[i].
+// cache_store: stores rays that were traced because the cache had no answer. Consumes missed[k], its hit, and
+// indices[k], the number of the ray in the whole queue; produces that ray's hit, and an entry. A work-item takes one
+// missed ray.
+// With WT_CACHE_STATISTICS entries are linked along paths and keep the cycles of their write. With WT_CACHE_ALL entries
+// and receivers[i] keep receptions[k], the first receiver that the segment passed.
 #include "lib/cache_path.clh"
 #include "lib/cache_table.clh"
 #include "lib/clock.clh"
 #include "wavetracer/device/arguments.h"
 
-// Ray k of the missed ones: its hit to the whole queue, and into the table.
+// Stores the hit of missed ray k for the whole queue, and in the table.
 inline void store_hit(wt_cache cache, wt_cache_question q, global float* rays, uint capacity,
                       const global float* missed, const global float* missed_hits, uint missed_capacity, uint k, uint i,
                       global float* hits, uint static_surfaces, const global uint* receptions, global uint* receivers,
@@ -46,7 +47,7 @@ inline void flush_tally(wt_cache cache, uint region) {
 }
 
 #ifdef WT_CPU
-// A run of rays per work-item.
+// A work-item takes a run of rays.
 kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,
@@ -78,7 +79,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
   flush_tally(cache, region);
 }
 #else
-// One ray per work-item. Neighbours mostly belong to one region, for which the group adds up.
+// A work-item takes one ray. Neighbours mostly belong to one region, for which the group adds up.
 kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,

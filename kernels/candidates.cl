@@ -1,9 +1,10 @@
-// candidates: every sequence against every receiver, rejected in float32 where the last reflection surely misses its
-// surface, then in double where a reflection misses the box of its surface. Roots (lines of sight) are candidates
-// always. Conservative: each bound covers the rounding of everything it is computed from.
-// Of transmitters below transmitter_count alone, and of at most max_reflections surfaces: the trie may hold what other
-// ends see, and longer prefixes. nodes[] holds the roots first, then the trie's nodes (lib/count.clh), at most
-// node_count. Receivers come in groups of 16 on CPUs, elsewhere as lists of those that each transmitter has links to.
+// candidates: tests every sequence with every receiver, and rejects pairs in float32 where the last reflection surely
+// misses its surface, then in double where a reflection misses the box of its surface. Roots (lines of sight) are
+// always candidates. It is conservative: each bound covers the rounding of everything it is computed from. Only
+// sequences of transmitters below transmitter_count and of at most max_reflections surfaces count, since the trie may
+// also hold those of other ends, and longer prefixes. nodes[] holds the roots first, then the trie's nodes
+// (lib/count.clh), at most node_count. On CPUs receivers come in groups of 16, elsewhere as lists of those that each
+// transmitter has links to.
 #include "lib/count.clh"
 #include "lib/reach.clh"
 #pragma OPENCL FP_CONTRACT OFF
@@ -11,7 +12,7 @@
 #ifdef WT_CPU
 #include "lib/beam.clh"
 
-// A bit for each lane.
+// Makes a bit of each lane.
 inline uint bits_of(int8 m) {
   const int8 b = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
   const int4 b4 = b.lo | b.hi;
@@ -21,14 +22,14 @@ inline uint bits_of(int8 m) {
 
 inline uint lowest_bit(uint bits) { return popcount((bits & (~bits + 1)) - 1u); }
 
-// Receivers that wait for the last test, which eight take together.
+// Receivers that wait for the last test, which is made for eight at once.
 typedef struct {
   double x[8], y[8], z[8];
   uint receiver[8];
   uint count;
 } waiting_receivers;
 
-// Those that pass the last test become candidates. Places beyond `count` are tested, too, and not used.
+// Makes candidates of those that pass the last test. Places from `count` on are tested, too, but not used.
 inline void test_waiting(waiting_receivers* w, const wt_followed* s, const global wt_exact_surface* exact,
                          const global wt_surface* surfaces, uint node, global wt_candidate* out,
                          global wt_counters* counters, uint capacity) {
@@ -47,9 +48,10 @@ inline void test_waiting(waiting_receivers* w, const wt_followed* s, const globa
   }
 }
 
-// One sequence per work-item; its receivers in groups of 16 (host/passes/receiver_groups.hpp), of which eight are
-// tested at a time. order: the receiver at each place of the groups; places: three planes of their coordinates; boxes:
-// see wt_meets_beam; links: of each transmitter the wanted places of each group. args.receiver_capacity: all places.
+// One sequence per work-item; its receivers come in groups of 16 (host/passes/receiver_groups.hpp), and eight are
+// tested at once. order: the receiver at each place of the groups; places: three planes of their coordinates; boxes:
+// see wt_meets_beam; links: for each transmitter the wanted places of each group. args.receiver_capacity: the number of
+// all places.
 kernel void candidates(const global ulong* table, const global uint* nodes, const global double4* transmitters,
                        const global double4* exact_receivers, const global wt_exact_surface* exact,
                        const global wt_surface* surfaces, const global uint* order, const global float* places,
@@ -92,20 +94,20 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
   if (waiting.count > 0) test_waiting(&waiting, &s, exact, surfaces, nodes[i], out, counters, args.capacity);
 }
 #else
-// Pairs wait for the second test, so that all lanes make it together; at most WT_ROUND pairs a lane between two looks
-// at their number.
+// Pairs wait for the second test, so that all lanes make it together. A lane adds at most WT_ROUND pairs before their
+// number is checked again.
 #define WT_ROUND 4u
 #define WT_WAITING (2 * WT_ROUND * WT_GROUP)
-#define WT_NODE_SHIFT 24u  // in the word of a pair; receivers are below
+#define WT_NODE_SHIFT 24u  // bit of the node in the word of a pair; lower bits are the receiver
 #define WT_RECEIVER_BITS ((1u << WT_NODE_SHIFT) - 1)
-#define WT_TEAM 32u  // lanes that take the receivers of one sequence
+#define WT_TEAM 32u  // lanes that share the receivers of one sequence
 
-// Where a lane has come to: its place among the links of sequence n, and the first place of its team.
+// The position of a lane: its place among the links of sequence n, and the first place of its team.
 typedef struct {
   uint n, place, team;
 } walk;
 
-// The next sequence of the team that has links left.
+// Steps to the next sequence of the team that has links left.
 inline void step_on(walk* w, const local uint* link_counts, uint count, uint lane) {
   while (w->n < count && w->team >= link_counts[w->n]) {
     w->n += WT_GROUP / WT_TEAM;
@@ -114,11 +116,12 @@ inline void step_on(walk* w, const local uint* link_counts, uint count, uint lan
   w->place = w->team + lane % WT_TEAM;
 }
 
-// How many of `count` nodes a group takes that begins with `first`.
+// The number of nodes, out of `count`, in the group that begins with `first`.
 inline uint left_from(uint first, uint count) { return min((uint)WT_NODES, count - min(first, count)); }
 
 // WT_NODES sequences per work-group with the receivers that their transmitters have links to. receivers: three planes
-// of their coordinates. linked: for each transmitter and one more where its receivers begin, then the receivers.
+// of their coordinates. linked: for each transmitter where its receivers begin, one more entry for the end, then the
+// receivers.
 __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     const global ulong* table, const global uint* nodes, const global double4* transmitters,
     const global double4* exact_receivers, const global wt_exact_surface* exact, const global wt_surface* surfaces,
@@ -156,7 +159,7 @@ __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     const uint now = waiting_count;
     more = unfinished[turn];
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (lane == 0) unfinished[turn] = 0;  // nobody writes it before the next barrier
+    if (lane == 0) unfinished[turn] = 0;  // no lane writes it before the next barrier
     if (now <= WT_ROUND * WT_GROUP && more) continue;
     for (uint k = lane; k < now; k += WT_GROUP) {
       const uint pair = waiting[k];

@@ -1,6 +1,6 @@
-// compact: which of the words planes[first .. first + count - 1] are not WT_NONE, as a list of indices in order.
-// Consumes the counts that count_blocks made once they are scanned. Blocks of WT_BLOCK words; with WT_BLOCKS_PER_ITEM
-// (CPUs) a work-item takes that many in turn, without it a work-group takes one.
+// compact: lists, in order, the indices of the words planes[first .. first + count - 1] that are not WT_NONE. Consumes
+// the counts of count_blocks after they are scanned. Words come in blocks of WT_BLOCK. With WT_BLOCKS_PER_ITEM (CPUs) a
+// work-item takes that many blocks in turn, without it a work-group takes one.
 #include "lib/hit.clh"
 
 #ifdef WT_BLOCKS_PER_ITEM
@@ -23,7 +23,7 @@ kernel void compact(const global float* planes, ulong first, uint count, const g
   if (start >= count) return;
   uint j = block_offsets[first_block];
   for (uint b = 0; b < WT_BLOCKS_PER_ITEM && start + b * WT_BLOCK < count; ++b) {
-    // Listed without branches, which would be guessed wrong for half of the words.
+    // The list is written without branches, since half of them would be mispredicted.
     const uint block_start = (uint)start + b * WT_BLOCK, size = min((uint)WT_BLOCK, count - block_start);
     uint list[WT_BLOCK], alive = 0;
     for (uint k = 0; k < size; ++k) {

@@ -3,8 +3,8 @@
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// rows_per_item rows per work-item. links: transmitter and receiver; rows go by links, then by cells. No ray found
-// them, so every quarter of a launch has.
+// A work-item writes rows_per_item rows. links: transmitter and receiver; rows are ordered by links, then by cells. No
+// ray found these rows, so every quarter of a launch counts as having found them.
 kernel void crowns(const global uint2* links, const global double* centres, global wt_solved* solved,
                    global double* vertices, global uint* sequences, wt_crowns_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;

@@ -1,21 +1,21 @@
 // distinct: the rows of a frame's paths, each path once, in the order of links and delays. Consumes visible paths and,
-// where links have one the other way, adds each path's reversed twin: a row is a number
-// (wavetracer/device/path_rows.h), nothing is copied. Keys bring the rows of a link together, by a coarse length;
-// neighbours then settle the rest.
+// where links have one the other way, adds each path's reversed twin. A row is only a number
+// (wavetracer/device/path_rows.h); nothing is copied. Keys with a coarse length bring the rows of a link together; then
+// neighbours are compared exactly.
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/path_along.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// The key of a link and a length, monotonic in both. Lengths are told apart by the exponents from 2^-4 to 2^27 m and as
-// much of the mantissa as the key has room for.
+// The key of a link and a length, monotonic in both. It distinguishes lengths by their exponents from 2^-4 to 2^27 m
+// and by as much of the mantissa as fits into the key.
 inline uint row_key(wt_distinct_arguments args, uint link, double length_m) {
   const uint bits = as_uint((float)fmin(fmax(length_m, 0.0625), 1.3e8)) - (123u << 23);
   return link << args.length_bits | bits >> (28u - args.length_bits);
 }
 
 // Row 2 i is visible path i, row 2 i + 1 its twin. links: those that are wanted; own: those that are kept, a bit each.
-// What is no row gets the largest key.
+// A number without a row gets the largest key.
 kernel void row_keys(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                      const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                      const global uint* transmitter_of, const global ushort* links, const global ushort* own,
@@ -39,9 +39,9 @@ kernel void row_keys(const global wt_solved* solved, const global double* vertic
   keys[item] = row_key(args, path.transmitter * args.receiver_count + path.receiver, length_m);
 }
 
-// Whether the row at a sorted place stays: WT_ROW_STAYS, WT_ROW_IS_NEAR (an antenna touches what reflects there), or 0
-// where another row is the same path or one of which it is a part (path_along.h). What the same paths were found by,
-// the one that stays was found by, too. wedges: may be null.
+// Marks the row at each sorted place: WT_ROW_STAYS, WT_ROW_IS_NEAR (an antenna touches the surface that reflects
+// there), or 0 where another row is the same path or one of which it is a part (path_along.h). The row that stays gets
+// the quarters of the others, too. wedges: may be null.
 kernel void mark_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                       const global double* transmitters, const global double* receivers, const global uint* receiver_of,
                       const global uint* transmitter_of, const global wt_exact_surface* surfaces,
@@ -57,7 +57,7 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   const uint scale = args.twins ? 1u : 2u, row = scale * order[place];
   const wt_path path = wt_path_of(&list, row);
   const double length_m = lengths[order[place]];
-  // Vertices that are WT_MERGE_M apart along each axis move a length by twice that times sqrt 3, each.
+  // Vertices that are WT_MERGE_M apart along each axis change a length by twice that times sqrt 3, each.
   const double apart_m = 4.0 * WT_MERGE_M * path.depth + 1e-6;
   const uint link = path.transmitter * args.receiver_count + path.receiver;
   const double most_m = apart_m + WT_ALONG_LENGTH_M;
@@ -90,8 +90,8 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   }
 }
 
-// Rows to their places: those of one key by what wt_compare_rows says. rows: WT_NO_ROW where none stays, or one that is
-// near; counts: 1 where one stays, and behind those of all places its interactions.
+// Orders rows of one key by wt_compare_rows. rows: the row at each place, WT_NO_ROW where none stays or it is near;
+// counts: 1 where one stays, and after those of all places its number of interactions.
 kernel void order_rows(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                        const global double* transmitters, const global double* receivers,
                        const global uint* receiver_of, const global uint* transmitter_of, const global uint* keys,

@@ -4,8 +4,8 @@
 #include "wavetracer/device/path_field.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// One place of the rows per work-item; what does not fit is left out, as the counters of rows and vertices tell.
-// before: how many rows stand before each place, then all of them and how many vertices do.
+// A work-item takes one place of the rows. Rows beyond the capacity are left out, and the counters of rows and vertices
+// show that. before: for each place the number of rows before it, then the number of all rows and of vertices.
 kernel void fields(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                    const global double* transmitter_places, const global double* receiver_places,
                    const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,

@@ -1,5 +1,6 @@
-// gather_rays: rays of a queue into another: slot i takes ray order[i]. A permutation, or a part of the rays.
-// Both queues have the same capacity. WT_RAYS_PER_ITEM rays per work-item, plane by plane (1 on GPUs).
+// gather_rays: copies rays of a queue to another: slot i gets ray order[i]. order is a permutation, or lists some of
+// the rays.
+// Both queues have the same capacity. A work-item copies WT_RAYS_PER_ITEM rays, plane by plane (1 on GPUs).
 #include "wavetracer/device/records.h"
 
 kernel void gather_rays(const global float* rays, uint capacity, uint count, const global uint* order,

@@ -1,7 +1,7 @@
-// generate_rays: the launch rays of one transmitter, a range of its launch indices, into a range of a ray queue.
-// A ray's number in the launch, of which `number` is that of the first, says its quarter.
+// generate_rays: writes the launch rays of one transmitter, for a range of its launch indices, into a range of a ray
+// queue. A ray's number in the launch gives its quarter; `number` is that of the first ray.
 // WT_PLACES names the map's places on the cylinder (wt_place_hilbert, _fibonacci, _random); WT_BY_TABLE is 1 where
-// their heights are spread by a table, else 0. heights are the tables of horizon and of windows.
+// their heights are spread by a table, else 0. heights: the tables of horizon and of windows.
 #ifdef WT_CPU
 #define WT_LANES 16
 #endif
@@ -57,7 +57,7 @@ kernel void generate_rays(global float* rays, const global float* heights, wt_ma
              numbered(args.number + k), map, heights, from);
 }
 
-// The same of several launchers, `count` rays each, one launcher after the other. On CPUs count is a multiple of 16.
+// The same for several launchers, `count` rays each, one launcher after the other. On CPUs count is a multiple of 16.
 kernel void generate_launchers(global float* rays, const global float* heights, wt_map_arguments map,
                                const global wt_launcher_arguments* launchers, uint launcher_count,
                                wt_launch_arguments args) {
@@ -69,8 +69,8 @@ kernel void generate_launchers(global float* rays, const global float* heights, 
              launchers[launcher]);
 }
 
-// Launch indices first_index + order[k], which are numbers in the launch, too: a launch in an order of its own costs no
-// move of rays.
+// Launches the indices first_index + order[k], which are also the numbers in the launch. So a launch in an order of its
+// own moves no rays.
 kernel void generate_ordered(global float* rays, const global uint* order, const global float* heights,
                              wt_map_arguments map, wt_launcher_arguments from, wt_launch_arguments args) {
   const uint k = get_global_id(0) * WT_RAYS_PER_ITEM;
@@ -86,8 +86,8 @@ kernel void generate_ordered(global float* rays, const global uint* order, const
 }
 
 #ifdef WT_SAMPLES
-// A sample's launcher: two float4, its origin and, as words, root, source, the place of its table and whether that is a
-// window.
+// The launcher of a sample: two float4 with its origin and, as words, its root, its source, the place of its table and
+// whether that is a window.
 inline uint launcher_word(const global float4* launchers, uint launcher, uint word) {
   return as_uint(((const global float*)launchers)[8 * launcher + 4 + word]);
 }
@@ -115,9 +115,9 @@ inline void store_sample(global float* rays, uint slot, uint sample, const globa
   ends[sample] = root;
 }
 
-// Samples of a list into the slots of an empty queue. A sample is a cell of the launch directions (samples[i]) and a
-// launcher (samples[sample_capacity + i]). A sample's quarter is that of its cell. ends[i] becomes the root: no ray of
-// the sample has hit anything yet.
+// Launches the samples of a list into the slots of an empty queue. A sample is a cell of the launch directions
+// (samples[i]) and a launcher (samples[sample_capacity + i]). A sample's quarter is that of its cell. ends[i] becomes
+// the root: no ray of the sample has hit anything yet.
 kernel void generate_samples(global float* rays, const global uint* samples, const global float4* launchers,
                              const global float* heights, global uint* ends, wt_map_arguments map,
                              wt_samples_arguments args) {

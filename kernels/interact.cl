@@ -1,7 +1,7 @@
-// interact: every ray that hit something enters its prefix into the trie, and goes on reflected, compacted and in
-// order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: nothing is reflected.
-// With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.
-// quarters: of each node gets the bits of the rays that reach it.
+// interact: every ray that hit something enters its prefix into the trie and is reflected; the reflected rays are
+// compacted, in order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: no ray is
+// reflected. With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.
+// quarters[node] gets the bits of the rays that reach the node.
 // With WT_AGES, ages[node] becomes `now` for every node that a ray reaches.
 // With WT_SAMPLES, ends[sample] becomes the node. With WT_LABELS, queues have all planes of records.h.
 #include "lib/block_rank.clh"
@@ -10,14 +10,14 @@
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// The end of a sample so far: the sequence that its ray has lived through.
+// Stores the end of a sample so far: the sequence that its ray has met.
 inline void note_end(const global float* rays, uint capacity, uint i, uint node, global uint* ends) {
 #ifdef WT_SAMPLES
   ends[wt_load_word(rays, capacity, WT_RAY_SAMPLE, i)] = node;
 #endif
 }
 
-// Ray i goes on as ray j of a queue, from o along d. word: its node and quarter.
+// Stores ray i as ray j of a queue; it goes on from o along d. word: its node and quarter.
 inline void store_ray(const global float* rays, const global float* hits, uint capacity, uint i, uint surface,
                       uint word, float3 o, float3 d, global float* queue, uint j) {
   wt_store_float3(queue, capacity, WT_RAY_ORIGIN, j, o);
@@ -34,7 +34,7 @@ inline void store_ray(const global float* rays, const global float* hits, uint c
 #endif
 }
 
-// The reflected ray has lived through the node of its hit; what was transmitted has bent nowhere and keeps the ray's.
+// The reflected ray has the node of its hit; the transmitted ray has not turned and keeps its node.
 inline void store(const global wt_surface* surfaces, const global float* rays, const global float* hits, uint capacity,
                   uint i, uint surface, uint word, uint node, uint last, global float* next, global float* through,
                   uint j) {
@@ -47,7 +47,7 @@ inline void store(const global wt_surface* surfaces, const global float* rays, c
   store_ray(rays, hits, capacity, i, surface, node | (word & WT_QUARTER_BITS), o, d, next, j);
 }
 
-// Is there anything to store of a ray that hit?
+// Does a ray that hit something go on?
 inline bool goes_on(uint last) {
 #ifdef WT_THROUGH
   return true;
@@ -57,8 +57,8 @@ inline bool goes_on(uint last) {
 }
 
 #ifdef WT_CPU
-// WT_BLOCKS_PER_ITEM blocks a work-item, their rays in turn. Neighbours mostly share their prefix: the last insertion
-// is kept.
+// A work-item takes WT_BLOCKS_PER_ITEM blocks and their rays in turn. Neighbours mostly share their prefix, so the last
+// insertion is kept.
 kernel void interact(const global float* rays, const global float* hits, const global uint* block_offsets,
                      const global wt_surface* surfaces, global ulong* table, global uint* quarters,
                      global wt_counters* counters, global float* next, global uint* ages, global uint* ends,

@@ -1,6 +1,6 @@
-// label_rays: the planes of launch rays that say where they come from: sample, primitive that was left, transmitter,
-// cache entry before. Samples first_sample + k, or first_sample + order[k] where rays were launched in an order
-// (WT_ORDERED), or as they are (WT_KEEP_SAMPLES).
+// label_rays: fills the planes of launched rays that say where they come from: the sample, the primitive that was left,
+// the transmitter, and the cache entry before. Samples are first_sample + k, or first_sample + order[k] where rays were
+// launched in an order (WT_ORDERED), or they stay as they are (WT_KEEP_SAMPLES).
 #include "lib/hit.clh"
 
 kernel void label_rays(global float* rays, uint capacity, uint first_slot, uint count, uint first_sample,

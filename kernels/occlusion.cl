@@ -1,16 +1,16 @@
-// occlusion: is a leg of a solved path obstructed? One leg per work-item, of paths by legs from args.first_leg on, so
-// that neighbours traverse alike; lib/legs.clh has the rule. First legs have a launch of their own: paths over one tile
-// follow each other and share theirs, which is tested once, and later legs of what is hidden need no test.
-// Consumes solved paths; sets wt_solved::blocked. wedges, surface_of_tile: see lib/leg.clh. blockers: where given, what
-// hides a path is noted there.
+// occlusion: is a leg of a solved path obstructed? A work-item takes one leg; legs from args.first_leg on are ordered
+// by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs have a
+// launch of their own: paths over one tile follow each other and share their first leg, which is tested once, and later
+// legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges, surface_of_tile: see
+// lib/leg.clh. blockers: if given, the triangle that hides a path is stored there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
 
-// As many paths at most share a test.
+// At most this many paths share a test.
 #define WT_SHARING 16u
 
-// Has path i the first leg of the path before it, and is it not the first of those that share its test?
+// Does path i have the same first leg as the path before it, and is it not the first of those that share a test?
 inline int wt_shares_first_leg(const global wt_solved* solved, const global uint* sequences, uint max_depth, uint i) {
   if (i % WT_SHARING == 0 || solved[i].depth == 0 || solved[i - 1].depth == 0) return 0;
   const uint step = sequences[(size_t)i * max_depth];
@@ -28,8 +28,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   const uint count = wt_length(counters, args.solved_counter, args.solved_count);
   if (i >= count || leg > solved[i].depth) return;
   if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
-  // Most paths are obstructed, and a leg that was found so spares the later ones. One that comes too soon to see it
-  // does no harm. First legs are tested all the same, as others wait for the answer.
+  // Most paths are obstructed, and a leg that was found obstructed saves the later ones. A leg tested too early to see
+  // that does no harm. First legs are always tested, since others wait for the answer.
   if (leg > 0 && wt_load_relaxed_u32(&solved[i].blocked)) return;
   const size_t row = (size_t)i * args.max_depth;
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};

@@ -1,4 +1,4 @@
-// order_keys: the sort key of every ray, from its launch index before rays exist or from the queue before any depth.
+// order_keys: the sort key of every ray, from its launch index before rays exist, or from the queue before any depth.
 // WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_PLACES and WT_BY_TABLE the map of launch_keys (see
 // generate_rays). Keys are padded, so the last item may write past the count.
 #ifdef WT_CPU
@@ -9,7 +9,7 @@
 #include "wavetracer/device/curves.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Z: the Morton code of the direction, 10 bits a component.
+// Z curve: the Morton code of the direction, 10 bits for each component.
 inline WT_U32 wt_key_morton(wt_direction o, wt_direction d, uint bins) {
   (void)o, (void)bins;
   return wt_morton3_encode32(wt_cube_cell(d.x, 1024u), wt_cube_cell(d.y, 1024u), wt_cube_cell(d.z, 1024u));
@@ -28,8 +28,8 @@ inline WT_U32 wt_key_hilbert_bins(wt_direction o, wt_direction d, uint bins) {
   return wt_hilbert3_encode32(wt_cube_cell(d.x, bins), wt_cube_cell(d.y, bins), wt_cube_cell(d.z, bins), level);
 }
 
-// Directions first (4,096 cells along a Hilbert curve on the octahedron), then origins (16^3 cells of the scene); o is
-// scaled to [-1, 1].
+// Orders by direction first (4,096 cells along a Hilbert curve on the octahedron), then by origin (16^3 cells of the
+// scene); o is scaled to [-1, 1].
 inline WT_U32 wt_key_direction_origin(wt_direction o, wt_direction d, uint bins) {
   (void)bins;
   WT_U32 x, y;
@@ -38,8 +38,8 @@ inline WT_U32 wt_key_direction_origin(wt_direction o, wt_direction d, uint bins)
          wt_morton3_encode32(wt_cube_cell(o.x, 16u), wt_cube_cell(o.y, 16u), wt_cube_cell(o.z, 16u));
 }
 
-// Where all rays have one origin: 65,536 cells of directions. Finer ones would cost the sort a third pass, which tens
-// of millions of rays do not win back.
+// A key for rays that all have one origin: 65,536 cells of directions. Finer cells would cost the sort a third pass,
+// which does not pay even with tens of millions of rays.
 inline WT_U32 wt_key_direction(wt_direction o, wt_direction d, uint bins) {
   (void)o, (void)bins;
   WT_U32 x, y;

@@ -1,11 +1,11 @@
-// path_groups: the geometrical waves that each path of a frame is one with, and how much of it is each of them
+// path_groups: the geometrical waves that each path of a frame belongs to, and its share in each of them
 // (wavetracer/device/path_groups.h), from rows in their order (distinct.cl). The host numbers them link by link.
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/path_groups.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// One place of the rows per work-item; what does not fit is left out, as the counter of rows tells.
-// before: how many rows stand before each place.
+// A work-item takes one place of the rows. Rows beyond the capacity are left out, and the counter of rows shows that.
+// before: the number of rows before each place.
 kernel void path_groups(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                         const global double* transmitter_places, const global double* receiver_places,
                         const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,

@@ -1,5 +1,5 @@
-// place: the surfaces of all instances in the scene's coordinates, for the poses of a frame: exact in double, and in
-// float32 for discovery. Those of absent instances become surfaces that no point lies on.
+// place: computes the surfaces of all instances in the scene's coordinates, for the poses of a frame: exact in double,
+// and in float32 for discovery. Absent instances get surfaces that no point lies on.
 #include "lib/images.clh"
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -1,14 +1,14 @@
-// radix_sort: stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
-// count, offsets, move; settle follows the last. Nothing waits for another work-group, so no forward progress is
-// assumed. Build options besides those of lib/radix.clh: WT_ITEMS a work-group (at least WT_DIGITS), WT_OFFSET_ITEMS
-// one of offsets, WT_TILE keys that a group moves, WT_COLUMNS of a tile. Chunks are whole tiles;
-// an item has an even number of keys of a tile.
+// radix_sort: a stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
+// count, offsets, move; settle follows the last. No work-group waits for another, so no forward progress is assumed.
+// Build options besides those of lib/radix.clh: WT_ITEMS in a work-group (at least WT_DIGITS), WT_OFFSET_ITEMS in one
+// of offsets, WT_TILE keys that a group moves, WT_COLUMNS of a tile. Chunks are whole tiles; an item has an even number
+// of keys of a tile.
 #include "lib/group_scan.clh"
 #include "lib/radix.clh"
 
 #define WT_KEYS_AN_ITEM (WT_TILE / WT_ITEMS)
 #define WT_COLUMN_KEYS (WT_TILE / WT_COLUMNS)
-// Rows of counters and columns of digits are padded by one word, so that neither is met by all lanes in one bank.
+// Rows of counters and columns of digits are padded by one word, so that lanes do not all meet in one bank.
 #define WT_ROW (WT_COLUMNS + 2)
 #define WT_DIGIT_STRIDE (WT_COLUMN_KEYS + 4)
 #define WT_KEY_PAIR WT_JOIN(WT_KEY, 2)
@@ -16,7 +16,7 @@
 #define WT_JOIN_(a, b) a##b
 #define WT_MAX(a, b) ((a) > (b) ? (a) : (b))
 
-// How many keys of each chunk have each digit; and for every tile, how many of its chunk's earlier keys have it.
+// Counts the keys of each chunk with each digit and, for every tile, those of its chunk before the tile.
 __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const global WT_KEY* keys,
                                                                         global uint* temporary, uint n, uint chunk,
                                                                         uint pass, uint shift, uint digit_mask) {
@@ -30,7 +30,8 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const gl
   const uint chunk_first = group * chunk, chunk_end = chunk_first + min(chunk, n - chunk_first);
   for (uint first = chunk_first, size; first < chunk_end; first += size) {
     size = min((uint)WT_TILE, chunk_end - first);
-    // All loads before the first count; pairs of neighbours in whole tiles, whose order does not matter here.
+    // All loads come before the first count; in whole tiles they are pairs of neighbours, whose order does not matter
+    // here.
     WT_KEY key[WT_KEYS_AN_ITEM];
     const bool whole = size == WT_TILE;
     for (uint k = 0; k < WT_KEYS_AN_ITEM; k += 2) {
@@ -54,7 +55,7 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const gl
   if (lane < WT_DIGITS) wt_radix_counts(temporary)[(size_t)lane * chunks + group] = bins[lane];
 }
 
-// One work-group a digit: its counts become the keys with that digit in earlier chunks.
+// One work-group takes a digit: its counts become the numbers of keys with that digit in earlier chunks.
 __attribute__((reqd_work_group_size(WT_OFFSET_ITEMS, 1, 1))) kernel void offsets(global uint* temporary, uint n,
                                                                                  uint chunk, uint pass) {
   local uint sums[WT_OFFSET_ITEMS];
@@ -76,22 +77,23 @@ __attribute__((reqd_work_group_size(WT_OFFSET_ITEMS, 1, 1))) kernel void offsets
   if (running == n) wt_radix_constant(temporary)[pass] = 1;
 }
 
-// Moves every key of a tile, and its value, to where its digit says. The tile is ranked without atomics, because their
-// order would be chance: it is cut into columns of consecutive keys, one work-item counts each column's digits in turn,
-// and what earlier columns hold is added. A work-group takes one tile, so that groups which run together write next to
-// each other: groups that walked through chunks of their own would write to too many places for the cache.
+// Moves every key of a tile, and its value, to the place of its digit. The tile is ranked without atomics, because
+// their order would be random: it is cut into columns of consecutive keys, one work-item counts each column's digits in
+// turn, and the counts of earlier columns are added. A work-group takes one tile, so that groups that run together
+// write next to each other: groups that walked through chunks of their own would write to too many places for the
+// cache.
 __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT_KEY* keys, global uint* values,
                                                                        global uint* temporary, uint n, uint chunk,
                                                                        uint pass, uint shift, uint digit_mask) {
-  // Counters of the columns first, then the tile in its new order: keys, then values.
+  // Counters of the columns come first, then the tile in its new order: keys, then values.
   local ulong shared[WT_MAX(WT_DIGITS * WT_ROW * 2, WT_TILE * sizeof(WT_KEY)) / 8];
   local uint digits_of_columns[WT_COLUMNS * WT_DIGIT_STRIDE / 4];  // bytes; ranks in the column later
-  local uint targets[WT_DIGITS];  // where a digit starts in the output, less where in the sorted tile
+  local uint targets[WT_DIGITS];  // for each digit its start in the output, less its start in the sorted tile
   local uint sums[WT_DIGITS];
   local ushort* columns = (local ushort*)shared;
   local uint* column_pairs = (local uint*)shared;
   local WT_KEY* sorted_keys = (local WT_KEY*)shared;
-  // Values beside the keys where both fit, else after them.
+  // Values are beside the keys where both fit, else after them.
   const bool together = WT_PAYLOAD ? WT_TILE * (sizeof(WT_KEY) + sizeof(uint)) <= sizeof shared : false;
   local uint* sorted_values = together ? (local uint*)(sorted_keys + WT_TILE) : (local uint*)shared;
   local uchar* digits = (local uchar*)digits_of_columns;
@@ -109,11 +111,11 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
 
   WT_KEY key[WT_KEYS_AN_ITEM];
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
-    // What lies behind the last key has the last digit, and being last stays behind it.
+    // Padding after the last key gets the last digit and, being last, stays behind the keys.
     const uint p = k * WT_ITEMS + lane;
     key[k] = p < size ? source[first + p] : ~(WT_KEY)0;
   }
-  // Before the first move of an index there are no values yet.
+  // There are no values yet before the first move of an index.
   const bool has_values = WT_PAYLOAD == 2 ? moves > 0 : WT_PAYLOAD == 1;
   uint value[WT_KEYS_AN_ITEM];
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
@@ -168,7 +170,7 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  uint place[WT_KEYS_AN_ITEM];  // in the sorted tile
+  uint place[WT_KEYS_AN_ITEM];  // places in the sorted tile
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
     const uint p = k * WT_ITEMS + lane, d = wt_radix_digit(key[k], shift, digit_mask), column = p / WT_COLUMN_KEYS;
     place[k] = columns[d * WT_ROW + column] + digits[p + column * 4];

@@ -1,20 +1,21 @@
-// radix_sort_cpu: stable radix sort from the least significant digit, reduce then scan; the form for CPUs.
-// One work-item is a work-group and takes one chunk of consecutive keys. Build options besides those of lib/radix.clh:
-// WT_SCATTER_KEYS, the most keys that are written one by one; more of them no cache holds, and they go through lines.
+// radix_sort_cpu: a stable radix sort from the least significant digit, reduce then scan; the form for CPUs. One
+// work-item is a work-group and takes one chunk of consecutive keys. Build options besides those of lib/radix.clh:
+// WT_SCATTER_KEYS, the most keys that are written one by one; more keys do not fit into any cache and go through lines.
 #include "lib/radix.clh"
 
-// A line is what one digit gathers before it is written whole, here two vectors of 64 bytes of keys: shorter lines cost
-// a mispredicted branch more often, longer ones push each other out of the first-level cache.
+// A line is the memory in which the keys of one digit are collected before it is written whole, here two vectors of 64
+// bytes of keys: shorter lines mispredict a branch more often, longer ones push each other out of the first-level
+// cache.
 #define WT_KEY_VECTORS 2u
 #define WT_LINE (WT_KEY_VECTORS * 64u / (uint)sizeof(WT_KEY))
 #define WT_VALUE_VECTORS (WT_LINE / 16u)
 
 typedef struct {
   const global WT_KEY* from_keys;
-  const global uint* from_values;  // of the chunk, like from_keys
+  const global uint* from_values;  // values of the chunk, like from_keys
   global WT_KEY* to_keys;
   global uint* to_values;
-  uint first, size;  // of the chunk
+  uint first, size;  // keys of the chunk
   bool positions;    // the values are the keys' positions
 } wt_move;
 
@@ -24,7 +25,7 @@ inline uint wt_size(uint chunk, uint n) { return min(chunk, n - wt_first(chunk))
 
 inline uint wt_value(const private wt_move* m, uint i) { return m->positions ? m->first + i : m->from_values[i]; }
 
-// How many keys of each chunk have each digit.
+// Counts the keys of each chunk with each digit.
 kernel void count(const global WT_KEY* keys, global uint* temporary, uint n, uint chunk, uint pass, uint shift,
                   uint digit_mask) {
   const uint chunks = get_num_groups(0), first = wt_first(chunk), size = wt_size(chunk, n);
@@ -38,7 +39,7 @@ kernel void count(const global WT_KEY* keys, global uint* temporary, uint n, uin
   for (uint d = 0; d < WT_DIGITS; ++d) counts[(size_t)d * chunks] = bins[d];
 }
 
-// By one work-item: each digit's counts become the keys with that digit in earlier chunks.
+// One work-item makes of each digit's counts the numbers of keys with that digit in earlier chunks.
 kernel void offsets(global uint* temporary, uint n, uint chunk, uint pass) {
   const uint chunks = (n - 1) / chunk + 1;
   global uint* counts = wt_radix_counts(temporary);
@@ -54,7 +55,7 @@ kernel void offsets(global uint* temporary, uint n, uint chunk, uint pass) {
   }
 }
 
-// Writes each key where it belongs. next: where the next key of each digit goes.
+// Writes each key where it belongs. next: the place of the next key of each digit.
 inline void wt_move_keys(const private wt_move* m, private uint* next, uint shift, uint digit_mask) {
   for (uint i = 0; i < m->size; ++i) {
     const WT_KEY key = m->from_keys[i];
@@ -64,7 +65,7 @@ inline void wt_move_keys(const private wt_move* m, private uint* next, uint shif
   }
 }
 
-// A store that passes by the caches, which hold neither the line nor the room for it. PoCL ends a kernel with locked
+// A store that bypasses the caches, which have neither the line nor room for it. PoCL ends a kernel with locked
 // instructions, which on x86 also order these stores (Intel SDM vol. 1, 10.4.6.2).
 inline void wt_store_vector(global uint16* to, const private uint16* from) {
 #if defined(WT_CPU) && defined(__has_builtin)
@@ -85,8 +86,8 @@ inline void wt_write_part(const private wt_move* m, const private WT_KEY* keys, 
   }
 }
 
-// The same through lines (write combining): Satish et al., "Fast sort on CPUs and GPUs", SIGMOD 2010, section 3.1.
-// A full line is written when the next key of its digit comes: by then its last stores have left the store buffer, from
+// The same through lines (write combining): Satish et al., "Fast sort on CPUs and GPUs", SIGMOD 2010, section 3.1. A
+// full line is written when the next key of its digit comes: by then its last stores have left the store buffer, from
 // which a vector cannot be read.
 inline void wt_move_lines(const private wt_move* m, private uint* next, uint shift, uint digit_mask) {
   uint16 key_vectors[WT_DIGITS * WT_KEY_VECTORS], value_vectors[WT_PAYLOAD ? WT_DIGITS * WT_VALUE_VECTORS : 1];
@@ -120,7 +121,7 @@ inline void wt_move_lines(const private wt_move* m, private uint* next, uint shi
   }
 }
 
-// Moves every key, and its value, to where its digit says.
+// Moves every key, and its value, to the place of its digit.
 kernel void move(global WT_KEY* keys, global uint* values, global uint* temporary, uint n, uint chunk, uint pass,
                  uint shift, uint digit_mask) {
   if (wt_radix_constant(temporary)[pass]) return;
@@ -149,7 +150,7 @@ kernel void move(global WT_KEY* keys, global uint* values, global uint* temporar
     wt_move_lines(&m, next, shift, digit_mask);
 }
 
-// After the last pass: keys and values back into the caller's buffers; positions where nothing has moved.
+// After the last pass, copies keys and values to the caller's buffers; values are positions where nothing has moved.
 kernel void settle(global WT_KEY* keys, global uint* values, global uint* temporary, uint n, uint chunk, uint passes) {
   const uint chunks = get_num_groups(0), first = wt_first(chunk), end = first + wt_size(chunk, n);
   const uint moves = wt_radix_moves(wt_radix_constant(temporary), passes);

@@ -1,6 +1,6 @@
-// receive: rays that pass within a radius of receivers that their transmitter has links to. A segment ends where the
-// ray hits something, or never. The queue is labelled; a work-item takes one ray, and 16 receivers at once.
-// With WT_ANSWERED some rays were answered by a ray cache, which then says what they pass.
+// receive: finds rays that pass within a radius of receivers that their transmitter has links to. A segment ends where
+// the ray hits something, or never. The queue is labelled; a work-item takes one ray, and 16 receivers at once. With
+// WT_ANSWERED a ray cache answered some rays, and then it also says which receivers they pass.
 #include "lib/hit.clh"
 #include "lib/trie.clh"
 #include "wavetracer/device/arguments.h"
@@ -12,8 +12,8 @@ typedef struct {
   float length;
 } segment;
 
-// receivers: three planes of `capacity` floats, from the first of the 16 on. *along: of the segment's point that is
-// nearest to each, from its start; *apart: how far the receiver is from there, squared.
+// receivers: three planes of `capacity` floats, from the first of the 16 on. *along: the distance from the segment's
+// start to its point nearest to each receiver; *apart: the squared distance of the receiver from that point.
 inline void nearest_points(segment s, const global float* receivers, uint capacity, float16* along, float16* apart) {
   const float16 x = vload16(0, receivers) - s.origin.x, y = vload16(0, receivers + capacity) - s.origin.y;
   const float16 z = vload16(0, receivers + 2 * (size_t)capacity) - s.origin.z;
@@ -38,7 +38,7 @@ inline segment load_segment(const global float* rays, const global float* hits, 
   return s;
 }
 
-// counter: receptions so far; those that find no room are counted all the same.
+// counter: receptions so far; those without room are counted, too.
 inline void append(const global float* rays, uint capacity, uint i, uint receiver, uint depth, float distance_m,
                    global wt_reception* out, uint out_capacity, global uint* counter) {
   const uint slot = atomic_inc(counter);
@@ -52,8 +52,8 @@ inline void append(const global float* rays, uint capacity, uint i, uint receive
   out[slot] = r;
 }
 
-// links: a mask of the wanted receivers for each transmitter and 16 receivers. answered: receivers by the cache;
-// traced[i] is WT_NONE where ray i was answered.
+// links: a mask of the wanted receivers for each transmitter and 16 receivers. answered: the receivers that the cache
+// gave; traced[i] is WT_NONE where ray i was answered.
 kernel void receive(const global float* rays, const global float* hits, const global float* receivers,
                     const global ushort* links, global wt_reception* out, global uint* counter,
                     const global uint* traced, const global uint* answered, wt_receive_arguments args) {
@@ -88,8 +88,8 @@ kernel void receive(const global float* rays, const global float* hits, const gl
   }
 }
 
-// first[i] becomes the receiver whose sphere ray i enters first, of the wanted ones (the lowest of equals), or WT_NONE:
-// what a cache keeps of a segment.
+// Sets first[i] to the wanted receiver whose sphere ray i enters first (the lowest of equals), or WT_NONE. A cache
+// stores that for a segment.
 kernel void first_receiver(const global float* rays, const global float* hits, const global float* receivers,
                            const global ushort* links, global uint* first, wt_receive_arguments args) {
   const uint i = get_global_id(0);

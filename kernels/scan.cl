@@ -1,19 +1,19 @@
 // scan: exclusive prefix sums of counts in place, and their total: reduce, then scan (D. Merrill, M. Garland, "Single-
 // pass parallel prefix scan with decoupled look-back", NVIDIA 2016, section 2), which needs no progress between groups.
-// Each group has one chunk, a multiple of its tile of 4 * WT_SCAN_ITEMS counts. One chunk alone needs no sums.
+// Each group has one chunk, a multiple of its tile of 4 * WT_SCAN_ITEMS counts. A single chunk needs no sums.
 #include "lib/group_scan.clh"
 
-// The sum of `value` over the work-items before this one; *sum becomes that over all.
+// Returns the sum of `value` over the work-items before this one; *sum becomes the sum over all.
 inline uint wt_scan_items(local uint* sums, uint value, uint* sum) {
   const uint lane = get_local_id(0);
   sums[lane] = value;
   const uint before = wt_group_scan(sums, lane, WT_SCAN_ITEMS);
   *sum = sums[WT_SCAN_ITEMS - 1];
-  barrier(CLK_LOCAL_MEM_FENCE);  // sums may be used again
+  barrier(CLK_LOCAL_MEM_FENCE);  // the caller may use sums again
   return before;
 }
 
-// sums[g] becomes the sum of chunk g.
+// Sets sums[g] to the sum of chunk g.
 __attribute__((reqd_work_group_size(WT_SCAN_ITEMS, 1, 1))) kernel void scan_sums(const global uint* restrict counts,
                                                                                  uint count, uint chunk,
                                                                                  global uint* restrict sums) {
@@ -25,7 +25,7 @@ __attribute__((reqd_work_group_size(WT_SCAN_ITEMS, 1, 1))) kernel void scan_sums
   if (get_local_id(0) == 0) sums[group] = sum;
 }
 
-// Chunk g, tile by tile, from the sum of the chunks before it. The last group writes the total.
+// Scans chunk g, tile by tile, from the sum of the chunks before it. The last group writes the total.
 __attribute__((reqd_work_group_size(WT_SCAN_ITEMS, 1, 1))) kernel void scan(global uint* restrict counts, uint count,
                                                                             uint chunk,
                                                                             const global uint* restrict sums,

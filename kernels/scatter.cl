@@ -1,5 +1,5 @@
-// scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds
-// which receivers each of them may serve, scatter writes a row for each of those and each tile. Legs are not tested.
+// scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds the
+// receivers that each surface may serve; scatter writes a row for each of those and each tile. Legs are not tested.
 #include "lib/count.clh"
 #include "lib/images.clh"
 #include "wavetracer/device/arguments.h"
@@ -9,8 +9,9 @@ inline int carries(const global wt_exact_surface* s, double4 end) {
   return s->instance != WT_NONE && s->instance == wt_end_instance(end);
 }
 
-// One node and one group of 16 receivers per work-item. Consumes the trie, of transmitters below transmitter_count;
-// tiles_of: of each surface the number of its first tile, where the centre of that is, and how many there are.
+// A work-item takes one node and one group of 16 receivers. Consumes the trie, for transmitters below
+// transmitter_count; tiles_of: for each surface the number of its first tile, where the centre of that tile is, and the
+// number of tiles.
 // Appends (node, group, mask of receivers, tiles); *count is their number.
 kernel void lit(const global ulong* table, const global uint* nodes, const global double4* transmitters,
                 const global double4* receivers, const global ushort* links, const global wt_exact_surface* surfaces,
@@ -36,15 +37,15 @@ kernel void lit(const global ulong* table, const global uint* nodes, const globa
   if (slot < args.capacity) out[slot] = (uint4)(nodes[i], group, keep, tiles_of[surface].z);
 }
 
-// rows_per_item rows per work-item. first_row: of each of lit's entries, and row_count after the last; an entry's rows
-// go by tiles, then by receivers. centres: in the coordinates of the scene or model.
+// A work-item writes rows_per_item rows. first_row: for each of lit's entries its first row, and row_count after the
+// last; an entry's rows are ordered by tiles, then by receivers. centres: in the coordinates of the scene or model.
 kernel void scatter(const global ulong* table, const global uint* quarters, const global uint4* entries,
                     const global uint* first_row, const global wt_exact_surface* surfaces, const global uint4* tiles_of,
                     const global double* centres, const global wt_exact_instance* instances, global wt_solved* solved,
                     global double* vertices, global uint* sequences, wt_scatter_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
   if (begin >= args.row_count) return;
-  uint entry = 0;  // the last that begins at or before the first row
+  uint entry = 0;  // the last entry that begins at or before the first row
   for (uint end = args.entry_count; end - entry > 1;) {
     const uint middle = entry + (end - entry) / 2;
     if (first_row[middle] <= begin)
@@ -54,7 +55,7 @@ kernel void scatter(const global ulong* table, const global uint* quarters, cons
   }
   const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
   for (uint row = (uint)begin; row < end; ++row) {
-    if (row == first_row[entry + 1]) ++entry;  // none is empty
+    if (row == first_row[entry + 1]) ++entry;  // no entry is empty
     const ulong key = table[entries[entry].x];
     uint mask = entries[entry].z;
     const uint within = row - first_row[entry], receivers = popcount(mask), tile = within / receivers;

@@ -1,13 +1,13 @@
 // sequences: the trie as a list (collect), its neighbours (commute), and a trie filled from another one, larger or
-// without what is old (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
-// regrow runs once a depth.
+// without old sequences (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
+// regrow runs once for each depth.
 // With WT_AGES, ages[slot] is twice the last frame in which the sequence was met, by a ray, as a neighbour or by a
-// path, and one more if by a ray; a node is never older than its children. `now` is that of rays in this frame.
-// quarters: see lib/trie.clh. What is entered for another sequence is found by who found that one.
+// path, plus one if by a ray; a node is never older than its children. `now` is the age of rays in this frame.
+// quarters: see lib/trie.clh. A sequence that is entered for another one gets the quarters of that one.
 #include "lib/count.clh"
 #include "lib/trie.clh"
 
-// No sequences, and all counters zero. A work-item takes WT_SLOTS_PER_ITEM slots.
+// Empties the set of sequences and sets all counters to zero. A work-item takes WT_SLOTS_PER_ITEM slots.
 kernel void clear(global ulong* table, global uint* quarters, uint slots, global wt_counters* counters) {
   const uint item = get_global_id(0), first = item * WT_SLOTS_PER_ITEM, end = min(first + WT_SLOTS_PER_ITEM, slots);
   for (uint k = item; k < sizeof(wt_counters) / sizeof(uint); k += get_global_size(0)) ((global uint*)counters)[k] = 0;
@@ -40,7 +40,7 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
 #endif
 }
 
-// Lists what is new after the nodes that collect has listed.
+// Lists new sequences after the nodes that collect has listed.
 inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* nodes, uint capacity,
                   global wt_counters* counters, global uint* quarters, uint found, global uint* ages, uint now) {
   int is_new;
@@ -56,15 +56,15 @@ inline uint enter(global ulong* table, uint mask, uint parent, uint surface, glo
   return node;
 }
 
-// Surfaces count as perpendicular below this cosine: what is tried in vain only costs a candidate.
+// Surfaces count as perpendicular below this cosine: a vain attempt only costs a candidate.
 #define WT_PERPENDICULAR 0.02f
 
-// Mirrors in perpendicular planes commute: where a ray met a wall and then the ground, the same image also serves the
+// Mirrors in perpendicular planes commute: if a ray met a wall and then the ground, the same image also serves the
 // ground and then the wall, and the receiver's position decides which of the two is a path. Rays find one of them and
-// may miss the other (nearly all missed paths of street scenes are such), so both are entered: for every listed node,
-// every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always. counters->nodes of at
-// most node_count nodes are listed, and what is new is listed after them, as far as there is room. `lanes`
-// work-items take the pairs of a node in turn.
+// may miss the other (nearly all missed paths of street scenes are of this kind), so both are entered: for every listed
+// node, every exchange of two neighbouring perpendicular surfaces. Geometry decides later, as always. counters->nodes
+// nodes are listed, at most node_count; new ones are listed after them, as far as there is room. `lanes` work-items
+// take the pairs of a node in turn.
 kernel void commute(global ulong* table, uint mask, global uint* nodes, uint node_count, uint capacity,
                     const global wt_surface* surfaces, global uint* quarters, global wt_counters* counters,
                     global uint* ages, uint now, uint lanes) {
@@ -72,7 +72,7 @@ kernel void commute(global ulong* table, uint mask, global uint* nodes, uint nod
   if (i >= min(node_count, counters->nodes) || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
   if (wt_load_relaxed_u32(ages + nodes[i]) != now)
-    return;  // no ray met it in this frame: its neighbours are as old as it is
+    return;  // no ray met it in this frame, so its neighbours are as old as it is
 #else
   wt_chains_prefetch(table, nodes, i, min(node_count, counters->nodes));
 #endif
@@ -88,7 +88,7 @@ kernel void commute(global ulong* table, uint mask, global uint* nodes, uint nod
     const global float* a = surfaces[chain[k]].normal;
     const global float* b = surfaces[chain[k + 1]].normal;
     if (!(fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) <= WT_PERPENDICULAR)) continue;  // also of absent instances
-    // A surface never follows itself: its image of an image is the thing itself, and rounding would see a path through
+    // A surface never follows itself: the image of its image is the point itself, and rounding would see a path through
     // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
     uint node = enter(table, mask, parents[k + 1], chain[k], nodes, capacity, counters, quarters, found, ages, now);
@@ -99,8 +99,8 @@ kernel void commute(global ulong* table, uint mask, global uint* nodes, uint nod
   }
 }
 
-// Inserts the nodes of one depth of the old table into the new one, but those older than `oldest`, and notes where they
-// went.
+// Inserts the nodes of one depth of the old table into the new one, except those older than `oldest`, and stores their
+// new slots.
 kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, global uint* moved, global ulong* table,
                    uint mask, const global uint* old_quarters, global uint* quarters, global wt_counters* counters,
                    const global uint* old_ages, global uint* ages, uint oldest) {
@@ -123,7 +123,7 @@ kernel void regrow(const global ulong* old_table, uint old_slots, uint depth, gl
 #endif
 }
 
-// The sequences of visible paths are as young as the frame, and so are their prefixes.
+// Gives the sequences of visible paths, and their prefixes, the age of the frame.
 kernel void keep(const global ulong* table, const global wt_solved* solved, uint solved_count, uint solved_counter,
                  const global wt_counters* counters, global uint* ages, uint now) {
   const uint i = get_global_id(0);
@@ -131,7 +131,7 @@ kernel void keep(const global ulong* table, const global wt_solved* solved, uint
   for (uint n = solved[i].node; !(n & WT_ROOT); n = wt_trie_parent(table[n])) atomic_max(ages + n, now - 1);
 }
 
-// After regrow: listed nodes by their new ids.
+// Run after regrow: gives listed nodes their new ids.
 kernel void follow(global uint* nodes, uint node_count, const global uint* moved) {
   const uint i = get_global_id(0);
   if (i < node_count && !(nodes[i] & WT_ROOT)) nodes[i] = moved[nodes[i]];

@@ -1,6 +1,6 @@
-// solve: the image method in double for every candidate; keeps those whose points lie inside their surfaces, on the lit
-// sides. Legs are not tested here (occlusion does that), but with WT_BLOCKERS against what hid the path before: such
-// paths are counted as hidden, and not kept.
+// solve: the image method in double for every candidate; it keeps those whose points lie inside their surfaces, on the
+// lit sides. Legs are not tested here (occlusion does that), except with WT_BLOCKERS, against the triangle that hid the
+// path before: such paths are counted as hidden, and not kept.
 #ifdef WT_BLOCKERS
 #include "lib/blockers.clh"
 #endif
@@ -25,7 +25,7 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
   else
     wt_stop_at_vertex(&tables, points[k], chain[k], &leg.to);
   const double3 before = k > 1 ? points[k - 2] : from.xyz;
-  // Vehicles are not remembered, so those of the antennas need not be passed over.
+  // Triangles of vehicles are not stored, so those of the antennas' vehicles need no exception.
   wt_complete_leg(&tables, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M, &leg);
   return wt_obstructed_at(triangles, triangle_slots, surfaces, corners, &leg, noted & (WT_BLOCKER_PLACES - 1));
 }
@@ -57,7 +57,7 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
 #endif
   uint chain[WT_MAX_DEPTH], transmitter;
   const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
-  // The vehicle that carries an antenna is no mirror to it, as it hides nothing from it.
+  // The vehicle that carries an antenna does not reflect for it, as it hides nothing from it.
   if (depth > 0) {
     const uint first = surfaces[chain[0]].instance, last = surfaces[chain[depth - 1]].instance;
     if ((first != WT_NONE && first == wt_end_instance(transmitters[transmitter])) ||

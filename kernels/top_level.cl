@@ -7,14 +7,14 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
-// The cell of a coordinate, of 2^WT_KEY_LEVEL over the scene's width.
+// The cell of a coordinate among 2^WT_KEY_LEVEL over the scene's width.
 inline uint cell(float x, float extent_m) {
   const float cells = (float)(1 << WT_KEY_LEVEL);
   return (uint)clamp((0.5f + 0.5f * x / extent_m) * cells, 0.0f, cells - 1.0f);
 }
 
-// The box of every instance in scene coordinates, rounded outwards, and its key: vehicles stand side by side, so their
-// places on the ground order them. Those of absent instances are the largest.
+// Computes the box of every instance in scene coordinates, rounded outwards, and its key: vehicles stand side by side,
+// so their places on the ground order them. Absent instances get the largest keys.
 kernel void instance_keys(const global wt_exact_instance* instances, const global wt_body* bodies, uint instance_count,
                           float extent_m, global float4* boxes, global uint* keys) {
   const uint i = get_global_id(0);
@@ -38,14 +38,14 @@ kernel void instance_keys(const global wt_exact_instance* instances, const globa
 
 inline uint bit_floor(uint x) { return 1u << (31 - clz(x)); }
 
-// Of leaf_count leaves, the place in the order of one that the heap has as number k. Those of the lowest level, which
-// begins at `lowest`, come first, and the rest, one level up, follow them.
+// Returns the place in the order of the leaf that has number k in a heap of leaf_count leaves. Leaves of the lowest
+// level, which begins at `lowest`, come first, and the rest, one level up, follow them.
 inline uint place_of_leaf(uint k, uint lowest, uint leaf_count) {
   return k < lowest ? k + leaf_count - lowest : k - lowest;
 }
 
-// Instances in the order of their leaves, and the boxes of the leaves. There are two leaves at least; from `present` on
-// they are empty: their boxes are inverted.
+// Writes instances in the order of their leaves, and the boxes of the leaves. There are at least two leaves; from
+// `present` on they are empty: their boxes are inverted.
 kernel void leaves(const global uint* order, const global wt_exact_instance* instances, const global wt_body* bodies,
                    const global float4* boxes, uint present, uint leaf_count, global float4* tree,
                    global float4* moving) {
@@ -72,7 +72,7 @@ kernel void leaves(const global uint* order, const global wt_exact_instance* ins
   record->number = number;
 }
 
-// Boxes of the inner nodes but the root, a level after the other, by one group.
+// Computes the boxes of the inner nodes except the root, one level after the other, by one group.
 __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void inner_boxes(uint leaf_count, global float4* tree) {
   for (uint first = bit_floor(leaf_count - 1) - 1; first > 0; first /= 2) {
     const uint end = min(2 * first + 1, leaf_count - 1);
@@ -93,7 +93,7 @@ inline float2 centred(float lower, float upper, double padding) {
   return (float2)(centre, nextafter((float)half_size, INFINITY));
 }
 
-// The inner nodes as traversal reads them.
+// Writes the inner nodes as traversal reads them.
 kernel void top_nodes(const global float4* tree, uint present, uint leaf_count, float extent_m, global float4* moving) {
   const uint k = get_global_id(0);
   if (k >= leaf_count - 1) return;

@@ -1,6 +1,6 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
-// compaction). The shape of GPUs: one ray per work-item through a BVH2, found by wt_launch_index. With WT_COUNT_BLOCKS
-// a work-group is a block and counts its hits. With WT_INSTANCES, `moving` is traced too.
+// compaction). This is the form for GPUs: one ray per work-item through a BVH2, found by wt_launch_index. With
+// WT_COUNT_BLOCKS a work-group is a block and counts its hits. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh2.clh"
 #include "lib/launch.clh"
 #include "lib/moving.clh"
@@ -36,7 +36,7 @@ __attribute__((reqd_work_group_size(WT_BLOCK, 1, 1))) kernel void trace(
   if (get_local_id(0) == 0) block_hits[get_group_id(0)] = count;
 }
 #else
-// One ray per work-item, in a launch of any shape; blocks are counted by a pass of their own (compact).
+// One ray per work-item, in a launch of any shape; a pass of its own counts blocks (compact).
 kernel void trace(const global wt_centred_node* nodes, const global wt_bvh2_triangle* triangles, uint triangle_slots,
                   const global float4* moving, float extent_m, const global float* rays, uint capacity, uint ray_count,
                   global float* hits, global uint* block_hits) {

@@ -1,12 +1,12 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
-// compaction). A shape of CPUs, for rays in no order: one block per work-item, found by wt_launch_index, its rays in
+// compaction). This form is for CPUs and unordered rays: one block per work-item, found by wt_launch_index, its rays in
 // turn through a BVH8. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh8.clh"
 #include "lib/launch.clh"
 #include "lib/moving.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// One block per work-item, its rays in turn.
+// A work-item takes one block and its rays in turn.
 kernel void trace(const global wt_bvh8_node* nodes, const global wt_triangle_block* blocks, const global float4* moving,
                   float extent_m, const global float* rays, uint capacity, uint ray_count, global float* hits,
                   global uint* block_hits) {

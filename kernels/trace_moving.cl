@@ -1,5 +1,6 @@
-// trace_moving: hits of the static scene against the instances: where one comes before a ray's hit, it takes its place.
-// With trace of the static scene alone it gives what trace of all there is gives. WT_RAYS_PER_ITEM rays per work-item.
+// trace_moving: tests hits of the static scene against the instances: a hit of an instance that comes before a ray's
+// hit replaces it. After trace of the static scene alone, the result is that of trace with all. A work-item takes
+// WT_RAYS_PER_ITEM rays.
 #include "lib/moving.clh"
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -1,13 +1,13 @@
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
-// compaction). A shape of CPUs, for ordered rays: one block of 16 rays per work-item, found by wt_launch_index, through
-// a BVH2. With WT_INSTANCES, `moving` is traced too.
+// compaction). This form is for CPUs and ordered rays: one block of 16 rays per work-item, found by wt_launch_index,
+// through a BVH2. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh8.clh"
 #include "lib/launch.clh"
 #include "lib/moving16.clh"
 #include "lib/packet16.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Fewer lanes than this that agree in signs and dominant axis are traced one by one.
+// If fewer lanes than this agree in signs and dominant axis, they are traced one by one.
 #define WT_PACKET_MIN_LANES 4
 
 // One block of 16 rays per work-item: lanes that agree in the signs and the dominant axis of their directions go as a
@@ -31,7 +31,7 @@ kernel void trace(const global wt_bvh2_node* nodes, const global wt_bvh2_triangl
   const uint16 source = as_uint16(wt_load16(rays, capacity, WT_RAY_SURFACE, first));
 
   const float16 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
-  // wt_dominant_axis, lane by lane.
+  // This is wt_dominant_axis, lane by lane.
   const int16 axis = select(select((int16)2, (int16)1, ay > az), select((int16)2, (int16)0, ax > az), ax > ay);
   wt_packet p;
   p.ix = select(copysign((float16)1e18f, dx), 1.0f / dx, ax > 1e-18f);

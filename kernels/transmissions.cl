@@ -1,6 +1,6 @@
-// transmissions: the surfaces that the legs of a solved path pass through, entered into its row as interactions. Waves
-// go straight on, so a path with transmissions is one without whose legs are obstructed. lib/legs.clh says by what.
-// Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where that is more than the path may pass.
+// transmissions: enters the surfaces that the legs of a solved path pass through into its row, as interactions. Waves
+// go straight on, so a path with transmissions is a path without them whose legs are obstructed; lib/legs.clh says by
+// what. Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where a path may not pass that many.
 #include "lib/count.clh"
 #include "lib/legs.clh"
 #include "wavetracer/device/arguments.h"
@@ -12,8 +12,8 @@ typedef struct {
   uint surface, leg;
 } wt_crossing;
 
-// Is a crossing on the plane of a surface that goes the same way? Then both surfaces are one wall there, as where two
-// buildings touch, or at the border of two patches.
+// Does a crossing lie in the plane of a surface that faces the same way? Then both surfaces are one wall there, as
+// where two buildings touch, or at the border of two patches.
 inline int one_wall(const global wt_exact_surface* surfaces, const wt_crossing* c, uint surface) {
   const global wt_exact_surface* s = surfaces + surface;
   const double cosine = wt_dot(wt_normal(surfaces + c->surface), wt_normal(s));
@@ -30,8 +30,9 @@ inline int behind(const global wt_exact_surface* a, const global wt_surface* b, 
   return (wt_above(a, from) > 0.0) != (wt_above(a, middle(b)) > 0.0);
 }
 
-// Does the leg pass a before b? Beside the edge of a solid float32 may find that a leg passes both of its faces, which
-// in double misses them: it crosses their planes in the wrong order, and where they lie decides.
+// Does the leg pass a before b? Beside the edge of a solid, float32 may find that a leg passes both of its faces
+// although it misses them in double. Then it crosses their planes in the wrong order, and the places of the surfaces
+// decide.
 inline int passes_before(const global wt_exact_surface* surfaces, const global wt_surface* boxes, const wt_leg* l,
                          const wt_crossing* a, const wt_crossing* b) {
   const double3 apart = a->point - b->point;
@@ -46,7 +47,7 @@ inline int passes_before(const global wt_exact_surface* surfaces, const global w
 // Enters the crossings, the last one of the path first, into its row.
 inline void enter(global wt_solved* path, global double* v, global uint* s, const wt_crossing* crossings, uint count) {
   const uint depth = path->depth;
-  // From the back, so that nothing is written over before it has moved on.
+  // The row is written from its end, so that nothing is overwritten before it has moved.
   uint to = depth + count, next = 0;
   path->depth = to;
   for (uint from = depth; next < count;) {
@@ -66,8 +67,8 @@ inline void enter(global wt_solved* path, global double* v, global uint* s, cons
   }
 }
 
-// One path per work-item. most: transmissions of a path; deepest: interactions of all kinds, where some are those. A
-// row has room for that many.
+// One path per work-item. most: the most transmissions of a path; deepest: the most interactions of all kinds in a path
+// with transmissions. A row has room for that many.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global double* corners,
@@ -94,7 +95,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       const uint surface =
           wt_next_blocking(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &walk);
       if (surface == WT_NONE) break;
-      // As wt_obstructed has it.
+      // This is the same as in wt_obstructed.
       const int aside = tries < WT_RIM_TRIES &&
                         wt_step_aside(triangles, args.triangle_slots, corners, walk.place, surfaces + surface, &l);
       if (aside || (!turned && wt_turn(&l))) {
@@ -112,9 +113,9 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       }
       const double a = wt_above(surfaces + surface, l.from.p), b = wt_above(surfaces + surface, l.to.p);
       const double u = fmin(fmax(a / (a - b), 0.0), 1.0);
-      // Distances of the traversal are float32: of walls that are near each other it may take the second for the first.
+      // Distances of the traversal are float32: if two walls are near each other, it may find the second one first.
       const wt_crossing c = {l.from.p + u * (l.to.p - l.from.p), u, surface, leg};
-      if (known < count) {  // the lowest surface stands for the wall, whichever float32 meets first
+      if (known < count) {  // the lowest surface stands for the wall, even if float32 meets another one first
         if (surface < crossings[known].surface) crossings[known] = c;
         continue;
       }

@@ -1,13 +1,13 @@
-// vegetation: metres of each visible path inside of each kind of vegetation, over all of its legs. Where volumes
-// overlap, the space is that of the first.
-// Consumes visible paths and the tree over the volumes; writes wt_vegetation_arguments::kinds lengths per path.
+// vegetation: computes the metres of each visible path inside of each kind of vegetation, over all of its legs. Where
+// volumes overlap, the space belongs to the first. Consumes visible paths and the tree over the volumes; writes
+// wt_vegetation_arguments::kinds lengths per path.
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/bvh.h"
 #include "wavetracer/device/volumes.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Does a leg meet a box? The box is larger than what is in it, by more than this rounds.
+// Does a leg meet a box? The box is larger than its contents by more than this rounds.
 inline int wt_leg_meets(double3 from, double3 over, wt_planes_xy xy, const float* z) {
   const double3 lower = ((double3)(xy.x[0], xy.y[0], z[0]) - from) * over;
   const double3 upper = ((double3)(xy.x[1], xy.y[1], z[1]) - from) * over;
@@ -16,7 +16,7 @@ inline int wt_leg_meets(double3 from, double3 over, wt_planes_xy xy, const float
          xy.x[0] <= xy.x[1];
 }
 
-// One over a direction, large where that is 0, so that no product is undefined.
+// The reciprocal of a component of a direction, large where that is 0, so that no product is undefined.
 inline double wt_over(double x) { return fabs(x) > 1e-30 ? 1.0 / x : 1e30; }
 
 // One path per work-item.
@@ -38,7 +38,7 @@ kernel void vegetation(const global wt_bvh2_node* nodes, const global wt_volume*
   for (uint leg = 0; leg <= depth; ++leg) {
     const double3 to = leg < depth ? wt_vector(v + 3 * leg) : receivers[visible[i].receiver].xyz;
     const double3 along = to - from, over = (double3)(wt_over(along.x), wt_over(along.y), wt_over(along.z));
-    int stack[40];  // the tree is balanced
+    int stack[40];  // large enough, since the tree is balanced
     uint waiting = 0;
     for (int next = 0;;) {
       const wt_bvh2_node node = nodes[next];

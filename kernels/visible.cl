@@ -1,8 +1,8 @@
-// visible: the solved paths without an obstructed leg, side by side, so that the host reads no others. In no particular
-// order; counters->visible is their number.
+// visible: copies the solved paths without an obstructed leg side by side, so that the host reads no others. They are
+// in no particular order; counters->visible is their number.
 #include "lib/count.clh"
 
-// One solved path a work-item; rows of both lists have max_depth vertices and surfaces.
+// A work-item takes one solved path; rows of both lists have max_depth vertices and surfaces.
 kernel void visible(const global wt_solved* solved, const global double* vertices, const global uint* sequences,
                     uint solved_count, uint solved_counter, uint max_depth, global wt_solved* out,
                     global double* out_vertices, global uint* out_sequences, uint capacity,

@@ -1,5 +1,5 @@
-// waypoints: where the segments of a queue begin and end, a row a sample, and the rows of chosen samples side by side.
-// Rows have `stride` waypoints; the queue is labelled.
+// waypoints: the places where the segments of a queue begin and end, one row for each sample, and the rows of chosen
+// samples side by side. Rows have `stride` waypoints; the queue is labelled.
 #include "lib/hit.clh"
 #include "wavetracer/device/waypoints.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -13,7 +13,7 @@ inline void store_waypoint(global wt_waypoint* to, float3 position, uint surface
 }
 
 // One ray per work-item. depth: interactions of the rays so far. Samples count from first_sample. traced[i]: WT_NONE
-// where a ray cache answered ray i; null without one.
+// where a ray cache answered ray i; traced is null without a cache.
 kernel void waypoints(const global float* rays, const global float* hits, const global float* traced, uint capacity,
                       uint ray_count, uint first_sample, uint depth, uint stride, global wt_waypoint* out) {
   const uint i = get_global_id(0);
@@ -33,7 +33,7 @@ kernel void waypoints(const global float* rays, const global float* hits, const 
     store_waypoint(row + depth + 1, (float3)(fma(t, d.x, o.x), fma(t, d.y, o.y), fma(t, d.z, o.z)), surface, answered);
 }
 
-// Row k of `out` becomes row list[k]. One waypoint per work-item.
+// Copies row list[k] to row k of `out`. One waypoint per work-item.
 kernel void gather_waypoints(const global wt_waypoint* rows, const global uint* list, uint count, uint stride,
                              global wt_waypoint* out) {
   const size_t i = get_global_id(0);

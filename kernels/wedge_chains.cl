@@ -1,4 +1,4 @@
-// wedge_chains: paths over several edges, by the strings of each link. Of a link only a few chains of edges are tried,
+// wedge_chains: paths over several edges, by the strings of each link. For a link only a few chains of edges are tried,
 // those that strings between its ends touch when they are pulled tight, and these are solved at once, in double: no
 // pairs of edges are listed, and no ray is needed. Produces rows as wedge_solve does; legs are not tested here.
 #include "lib/around.clh"
@@ -24,7 +24,7 @@ inline int begin_string(const wt_edge_map* map, const wt_edge_map_arguments* gri
   const int all = wt_pull_string(map, grid, &straight, a.z, b.z, WT_MOST_EDGES, &over, along);
   if (string >= WT_STRINGS_WIDE) {
     *aside = left * 0.1 * ((string + 1 - WT_STRINGS_WIDE + WT_STRINGS_AROUND) / 2);
-    return most > 2 && (!all || over.count > most);  // of up to two edges there are pairs
+    return most > 2 && (!all || over.count > most);  // wedge_pairs has those of up to two edges
   }
   uint roof = WT_NONE;
   if (string >= WT_STRINGS_AROUND + 2) {
@@ -37,9 +37,10 @@ inline int begin_string(const wt_edge_map* map, const wt_edge_map_arguments* gri
   return over.count > 0 && wt_go_around(map, grid, a, b, roof, left, most, chain);
 }
 
-// WT_STRINGS work-items for each pair of a transmitter and a receiver: what slips off the corners of a roof in one
-// plane may hold in the next. Most strings end at the same edges, and are one path. Both ways of a link find the same
-// bits: the string is pulled from the end of the lower coordinates. first, listed, radii, uprights: see wt_edge_map.
+// WT_STRINGS work-items for each pair of a transmitter and a receiver: a string that slips off the corners of a roof in
+// one plane may hold in the next. Most strings end at the same edges, and are one path. Both directions of a link find
+// the same bits: the string is pulled from the end with the lower coordinates. first, listed, radii, uprights: see
+// wt_edge_map.
 kernel void roof_chains(const global wt_wedge* wedges, const global uint* first, const global uint* listed,
                         const global double* radii, const global uint* uprights,
                         const global wt_exact_instance* instances, const global double4* transmitters,

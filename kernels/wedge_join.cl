@@ -1,6 +1,6 @@
 // wedge_join: candidates of paths over one wedge, from prefixes of both ends that see it.
-// Rejected in float32 where the point of diffraction surely lies beyond the edge's ends, or a reflection beside its
-// surface. Conservative: the margin covers the rounding of what it is computed from.
+// A pair is rejected in float32 where the point of diffraction surely lies beyond the edge's ends, or a reflection
+// beside its surface. It is conservative: the margin covers the rounding of what it is computed from.
 #include "lib/join.clh"
 #include "lib/wedge.clh"
 #include "wavetracer/device/arguments.h"
@@ -12,9 +12,9 @@ inline int may_reach(const global wt_wedge_prefix* a, const global wt_surface* s
   return a->depth == 0 || wt_may_pass(surfaces + a->last, (float3)(a->image[0], a->image[1], a->image[2]), p);
 }
 
-// `lanes` work-items for each prefix of a block of them, in order of their wedges, with all that see the same one. The
-// path crosses the edge where the unfolded one does: between both images' feet on its line, divided as their distances
-// from it (Keller's cone).
+// `lanes` work-items take each prefix of a block, in order of their wedges, with all prefixes that see the same wedge.
+// The path crosses the edge where the unfolded one does: between both images' feet on its line, divided as their
+// distances from it (Keller's cone).
 kernel void wedge_join(const global uint* keys, const global wt_wedge_prefix* prefixes,
                        const global uint* receiver_of_origin, const global ushort* links, const global wt_wedge* wedges,
                        const global wt_surface* surfaces, global wt_wedge_candidate* out, global wt_counters* counters,

@@ -1,6 +1,6 @@
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
-// every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. What was
-// found out of two static wedges is kept as long as the scene is.
+// every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. Results
+// about two static wedges are kept as long as the scene is.
 #include "lib/crossing.clh"
 #include "lib/join.clh"
 #include "lib/memory_order.clh"
@@ -13,15 +13,15 @@ inline int may_see(const global wt_wedge* w, const global wt_wedge* other) {
          wt_in_sector(w, wt_in_wedge(w, wt_on_edge(other, other->length)), 0.0);
 }
 
-// Corners do not count here: they are many, and what they diffract is faint.
+// Corners do not count here: there are many, and the waves that they diffract are faint.
 inline int is_corner(const global wt_wedge* w) { return w->sine > 0.0; }
 
-// Does the way from one to the other run in the free space of both, or along a face of both?
+// Does the way from one to the other run in the free space of both wedges, or along a face of both?
 inline int in_sight(const global wt_wedge* v, const global wt_wedge* w) {
   return wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0)) || (may_see(v, w) && may_see(w, v));
 }
 
-// What is known of two wedges: bits 0 to 15 which pairs of pieces were looked at, bits 16 to 31 which of them may see
+// The knowledge of two wedges: bits 0 to 15 are the pairs of pieces that were tested, bits 16 to 31 those that may see
 // each other; bit WT_WEDGE_PIECES i + j is for piece i of the wedge with the lower number and j of the other.
 #define ALL_PAIRS 0xFFFFu
 
@@ -32,7 +32,7 @@ inline uint pairs_of(uint pieces_low, uint pieces_high) {
   return out;
 }
 
-// Looks at wanted pairs of pieces until one is found that may see each other. Returns what is known now.
+// Tests wanted pairs of pieces until it finds one that may see each other. Returns what is known now.
 inline uint look(const wt_sight* sight, const global wt_wedge* low, const global wt_wedge* high, uint wanted,
                  uint known, wt_hiders* hiders) {
   const double a = low->length / WT_WEDGE_PIECES, b = high->length / WT_WEDGE_PIECES;
@@ -49,15 +49,15 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
   return known;
 }
 
-// Prefixes of one wedge that are taken together: what is found out of it and another wedge serves them all.
+// The number of prefixes of one wedge that are taken together: a result about it and another wedge serves them all.
 #define TOGETHER 16u
 
 typedef struct {
   uint count, most;                          // most: reflections that the other side may have
-  uint numbers[TOGETHER], pieces[TOGETHER];  // pieces: that the other wedge leaves them
+  uint numbers[TOGETHER], pieces[TOGETHER];  // pieces: those that remain for the other wedge
 } prefix_group;
 
-// Is this prefix the first of a group, of those of its wedge in the block? Then its group goes to *group.
+// Is this prefix the first of a group, among those of its wedge in the block? If so, its group goes to *group.
 inline int begins_group(const global uint* keys, const global wt_wedge_prefix* prefixes, wt_wedge_join_arguments args,
                         uint i, prefix_group* group) {
   const uint wedge = wt_wedge_of(keys[i]);
@@ -73,7 +73,8 @@ inline int begins_group(const global uint* keys, const global wt_wedge_prefix* p
   return group->count > 0;
 }
 
-// Leaves each of the group the pieces of the edge v that it may cross on its way to the edge w. 0 where none does.
+// Leaves each prefix of the group the pieces of the edge v that it may cross on its way to the edge w. Returns 0 if
+// none has any.
 inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_surface* boxes,
                          const global wt_wedge* v, const global wt_wedge* w, prefix_group* group) {
   const wt_edge_view to = wt_edge_seen_from(v, w);
@@ -86,8 +87,8 @@ inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt
   return any;
 }
 
-// One sorted key per work-item. Runs are the prefixes that see one wedge: heads[i] becomes i where one begins, else
-// WT_NONE. Runs of corners are left out, and those that see nothing have the last keys and are in no run.
+// One sorted key per work-item. A run is the prefixes that see one wedge: heads[i] becomes i where one begins, else
+// WT_NONE. Runs of corners are left out; prefixes that see nothing have the last keys and are in no run.
 kernel void mark_runs(const global uint* keys, const global wt_wedge* wedges, global uint* heads, uint count) {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -95,17 +96,17 @@ kernel void mark_runs(const global uint* keys, const global wt_wedge* wedges, gl
   heads[i] = begins && !is_corner(wedges + wt_wedge_of(keys[i])) ? i : WT_NONE;
 }
 
-// What is known of the wedge of a group, a, and another one, b, as look() has it: ALL_PAIRS where no path goes from
-// one to the other, 0 where nothing is known.
+// The knowledge of wedge a of a group and another wedge b, as look() returns it: ALL_PAIRS where no path goes from one
+// to the other, 0 where nothing is known.
 inline uint known_of(const global uint* kept, uint kept_wedges, uint a, uint b) {
   if (a == b) return ALL_PAIRS;
   return max(a, b) < kept_wedges ? wt_load_relaxed_u32(kept + (size_t)a * kept_wedges + b) : 0;
 }
 
-#define RUNS_AHEAD 16u  // keys are asked for before they are needed
+#define RUNS_AHEAD 16u  // keys are read ahead of their use
 
-// `lanes` work-items for each group of prefixes of a block of them. runs: where each run of the sorted keys begins;
-// kept: what is known of each static wedge with each other one.
+// `lanes` work-items take each group of prefixes of a block. runs: the start of each run of the sorted keys; kept: the
+// knowledge of each static wedge with each other one.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys, const global uint* runs,

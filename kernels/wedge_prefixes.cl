@@ -1,39 +1,39 @@
-// wedge_prefixes: every wedge that some prefix sees. A node of the trie is a prefix and the surface that its rays met
-// next, so it sees the wedges of that surface; a wedge between two such surfaces is listed once. Images are exact, and
-// whether a prefix lies in the free sector of a wedge is decided here. Of what its last mirror surely does not show
-// (float32, conservative) nothing is listed.
+// wedge_prefixes: lists every wedge that some prefix sees. A node of the trie is a prefix and the surface that its rays
+// met next, so it sees the wedges of that surface; a wedge between two such surfaces is listed once. Images are exact,
+// and this pass decides whether a prefix lies in the free sector of a wedge. A wedge that the last mirror surely does
+// not show (float32, conservative) is not listed.
 #include "lib/count.clh"
 #include "lib/join.clh"
 #include "lib/wedge.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// What sees wedges: the node of a prefix and the surface that its rays met next.
+// An onlooker of wedges: the node of a prefix and the surface that its rays met next.
 typedef struct {
   uint node, seen, origin, depth, last;
   uint quarters;
   double3 image;
 } wt_onlooker;
 
-// A wedge that it sees, with its image in the wedge's axes.
+// A wedge that the onlooker sees, with its image in the wedge's axes.
 typedef struct {
   uint wedge;
   double3 at;
 } wt_view;
 
-// Views are listed so many at a time: their look-ups in the trie wait for memory together.
+// The number of views that are listed together, so that their look-ups in the trie wait for memory together.
 #define WT_VIEWS WT_AHEAD
 
 inline uint other_face(const global wt_wedge* w, uint seen) { return w->surfaces[w->surfaces[0] == seen]; }
 
-// Does the prefix see the wedge, as far as its last mirror shows it? boxes: of the surfaces.
+// Does the prefix see the wedge, as far as its last mirror shows it? boxes: those of the surfaces.
 inline int sees(const wt_onlooker* from, const global wt_wedge* w, const global wt_surface* boxes, double3 at) {
   if (!(w->length > 0.0) || !wt_in_sector(w, at, wt_beneath(from->depth))) return 0;
   return from->depth == 0 || wt_may_show(boxes + from->last, convert_float3(from->image),
                                          convert_float3(wt_on_edge(w, 0.0)), convert_float3(wt_on_edge(w, w->length)));
 }
 
-// Quarters whose rays see the wedge from here on its other face.
+// The quarters whose rays see the wedge from here on its other face.
 inline uint by_other_face(const global ulong* table, uint mask, const global uint* quarters, const wt_onlooker* from,
                           const global wt_wedge* w) {
   const uint other = other_face(w, from->seen);
@@ -41,7 +41,7 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
   return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
 }
 
-// Lists the views but those that the prefix also has of their wedge's first face, by another node.
+// Lists the views, except those that the prefix also has through the wedge's first face, by another node.
 inline void list_views(const global ulong* table, const global uint* quarters, const global wt_wedge* wedges,
                        const wt_onlooker* from, wt_view* views, uint count, global uint* keys,
                        global wt_wedge_prefix* prefixes, global wt_counters* counters,
@@ -74,9 +74,9 @@ inline void list_views(const global ulong* table, const global uint* quarters, c
   }
 }
 
-// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s; those
-// that the side against its normal does not see stand behind sides[2 s + 1], those that the other does not before
-// sides[2 s]. For each entry wt_wedge_key is what to sort by, and its prefix is listed.
+// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. Those
+// that the side against its normal does not see come from sides[2 s + 1] on, those that the other side does not see
+// before sides[2 s]. Each entry is listed with its prefix and with wt_wedge_key, its sort key.
 kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
                            const global double4* origins, const global wt_exact_surface* surfaces,
                            const global wt_surface* boxes, const global uint* first_wedges, const global uint* sides,
@@ -95,7 +95,7 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
   from.quarters = wt_found_by(quarters, nodes[i]);
   from.image = origins[from.origin].xyz;
   for (uint k = 0; k < from.depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
-  // The vehicle that carries an antenna hides nothing from it, nor does it diffract.
+  // The vehicle that carries an antenna hides nothing from it, and does not diffract its waves.
   const uint own = from.depth == 0 ? wt_end_instance(origins[from.origin]) : WT_NONE;
   wt_view views[WT_VIEWS];
   uint count = 0;
@@ -116,8 +116,8 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
   if (count > 0) list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);
 }
 
-// One sorted key per work-item: its prefix goes to the place of the key. Those that see nothing have the last keys, and
-// nothing reads them.
+// One sorted key per work-item: its prefix goes to the place of the key. Prefixes that see nothing have the last keys,
+// and nothing reads them.
 kernel void place_prefixes(const global uint* keys, const global uint* order, const global wt_wedge_prefix* prefixes,
                            global wt_wedge_prefix* sorted, uint count) {
   const uint i = get_global_id(0);

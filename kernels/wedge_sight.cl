@@ -1,5 +1,5 @@
-// wedge_sight: which pieces of its edge a prefix may see. Rays only say that a prefix sees a face; whether the edge can
-// be seen past the last mirror and past what stands between is decided here, without losing any path.
+// wedge_sight: finds the pieces of its edge that a prefix may see. Rays only say that a prefix sees a face. This pass
+// decides, without losing any path, whether the edge can be seen past the last mirror and past other surfaces.
 #include "lib/sight.clh"
 #include "wavetracer/device/arguments.h"
 
@@ -26,7 +26,7 @@ inline int may_see(const wt_sight* sight, const global wt_wedge_prefix* prefix, 
     const double above = wt_above(mirror, image), sign = above < 0.0 ? -1.0 : 1.0;
     const double above_0 = wt_above(mirror, b0), above_1 = wt_above(mirror, b1);
     if (sign * above_0 > l.margin_m && sign * above_1 > l.margin_m) return 0;
-    // Lines that hardly cross the mirror's plane say nothing.
+    // Lines that hardly cross the mirror's plane decide nothing.
     if (!(sign * above > l.margin_m && sign * above_0 < -l.margin_m && sign * above_1 < -l.margin_m)) return 1;
     l.a0 = image + (b0 - image) * (above / (above - above_0));
     l.a1 = image + (b1 - image) * (above / (above - above_1));

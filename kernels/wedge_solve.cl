@@ -1,6 +1,6 @@
-// wedge_solve: diffracted paths in double. The points on the edges first, from the images of both ends; then the
-// reflections between each end and its edge; keeps what lies inside edges and surfaces, in the free sector of each
-// wedge. Legs are not tested here (occlusion does that).
+// wedge_solve: diffracted paths in double. It computes the points on the edges first, from the images of both ends,
+// then the reflections between each end and its edge. It keeps paths whose points are inside edges and surfaces, in the
+// free sector of each wedge. Legs are not tested here (occlusion does that).
 #include "lib/fermat.clh"
 #include "lib/reflections.clh"
 #include "wavetracer/device/arguments.h"
@@ -15,7 +15,8 @@ inline double3 images_of(const global wt_exact_surface* surfaces, const uint* ch
 
 inline int own_instance(uint instance, double4 end) { return instance != WT_NONE && instance == wt_end_instance(end); }
 
-// The reflections between an end and its edge; 0 where that is no path. A vehicle is no mirror or wedge to its antenna.
+// Solves the reflections between an end and its edge; 0 where that is no path. An antenna's vehicle is no mirror or
+// wedge for it.
 inline int solve_side(const global wt_exact_surface* surfaces, const global double* triangles,
                       const global wt_exact_instance* instances, const global wt_wedge* w, const uint* chain,
                       uint depth, double4 end, const double3* images, double3 p, double3* points) {

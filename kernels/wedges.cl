@@ -1,5 +1,5 @@
-// wedges: those of all instances in the scene's coordinates, for the poses of a frame. Those of absent instances get a
-// length that nothing lies within.
+// wedges: the wedges of all instances in the scene's coordinates, for the poses of a frame. Those of absent instances
+// get a length that no place is within.
 #include "wavetracer/device/records.h"
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
@@ -8,7 +8,7 @@ inline double turned(const global double* row, const global double* v) {
   return row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
 }
 
-// One wedge per work-item. models[k] is wedge first + k in the coordinates of its model, complete but for its place.
+// One wedge per work-item. models[k] is wedge first + k in the coordinates of its model, complete except for its place.
 kernel void wedges(const global wt_exact_instance* instances, const global wt_wedge* models, uint first, uint count,
                    global wt_wedge* out) {
   const uint k = get_global_id(0);

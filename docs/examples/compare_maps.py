@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How far the path gains of runs are from those of a reference, link by link: what fewer rays cost a coverage map.
+"""Compares the path gains of runs with those of a reference, link by link: the error of a coverage map with fewer rays.
 
 usage: compare_maps.py REFERENCE RUN...
 
-All are folders of runs with the same ends. A row per run and range of the reference's path gain: links in that range,
-those that the run does not have, and the error of the others, in dB, at the median and at nine of ten.
+All are folders of runs with the same ends. A row per run and range of the reference's path gain shows the links in
+that range, those that the run does not have, and the error of the others, in dB, at the median and at nine of ten.
 """
 import csv
 import math

@@ -24,7 +24,7 @@ WRONG_DB = 0.1
 
 
 def keys(options, times):
-    """What is set over the configuration. A smaller map has a smaller city."""
+    """The keys that replace those of the configuration. A smaller map has a smaller city."""
     half, blocks = options.side / 2, max(2, math.ceil(options.side / 100))
     grid = {"x_min_m": -half, "x_max_m": half, "y_min_m": -half, "y_max_m": half, "step_m": options.step}
     return {"scene.generate": f"--seed 1 --blocks {blocks}x{blocks}",
@@ -35,7 +35,7 @@ def keys(options, times):
 
 def solve(options, times=1):
     """The path gain of every cell, shape (cells,), and the seconds of loading, of the first frame, and of a second one,
-    for which the kernels and buffers are there."""
+    for which the kernels and buffers exist."""
     start = time.perf_counter()
     with wt.Simulation(CONFIGURATION, device=options.device, **keys(options, times)) as simulation:
         ready = time.perf_counter()

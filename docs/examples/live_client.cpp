@@ -1,5 +1,5 @@
 // A client of `wavetracer serve` in C++: two cars meet at a crossing, and the channel from one to the other is printed
-// at ten instants of every step. One file, to be copied into a simulator; needs nlohmann's json (Debian:
+// at ten instants of every step. It is one file, to be copied into a simulator; it needs nlohmann's json (Debian:
 // nlohmann-json3-dev) and C++17.
 //
 //     g++ -std=c++17 -O2 live_client.cpp -o live_client
@@ -26,7 +26,7 @@
 
 using nlohmann::json;
 
-// The elements of a column: float64 as double, uint32 as uint32_t, uint8 as uint8_t. Little-endian machines only.
+// The elements of a column: float64 as double, uint32 as uint32_t, uint8 as uint8_t. It needs a little-endian machine.
 template <class T>
 std::vector<T> column(const json& value) {
   constexpr uint64_t tag = sizeof(T) == 8 ? 86 : sizeof(T) == 4 ? 70 : 64;
@@ -55,11 +55,11 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   const json& world() const { return world_; }
-  // The channels of these poses: of an array of objects with id, type, position_m and yaw_deg or orientation.
+  // The channels of these poses, an array of objects with id, type, position_m and yaw_deg or orientation.
   json channels(double time_s, json vehicles) {
     return ask({{"message", "frame"}, {"frame", ++frames_}, {"time_s", time_s}, {"vehicles", std::move(vehicles)}});
   }
-  // The same at a time between the last two of them.
+  // The same at a time between the last two frames of poses.
   json at(double time_s) { return ask({{"message", "at"}, {"frame", ++frames_}, {"time_s", time_s}}); }
 
  private:
@@ -101,7 +101,7 @@ class Server {
     address.sin_port = htons(static_cast<uint16_t>(std::stoul(name.substr(colon + 1))));
     open(AF_INET);
     connect_to(&address, sizeof address, name);
-    const int on = 1;  // answers are waited for: do not collect small packets
+    const int on = 1;  // each answer is waited for: do not collect small packets
     setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   }
 

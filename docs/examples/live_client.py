@@ -21,9 +21,9 @@ class LiveError(Exception):
 
 
 def read_columns(data):
-    """What follows an answer with encoding="cbor": a dict, whose columns are memoryviews of `data`, which numpy takes
-    without a copy (numpy.asarray). Reads what the server writes of CBOR, and no more: maps, arrays, texts, and typed
-    arrays of uint8, uint32 and float64."""
+    """Decodes the data after an answer with encoding="cbor": a dict, whose columns are memoryviews of `data`, which
+    numpy takes without a copy (numpy.asarray). It reads only the parts of CBOR that the server writes: maps, arrays,
+    texts, and typed arrays of uint8, uint32 and float64."""
     view, place = memoryview(data), 0
 
     def head():
@@ -111,7 +111,7 @@ def read_token(path):
 
 
 def links_of(answer):
-    """The links of an answer in either encoding, a dict each."""
+    """The links of an answer in either encoding, each as a dict."""
     links = answer["links"]
     if isinstance(links, list):
         return links

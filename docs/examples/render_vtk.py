@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Draws a frame of `wavetracer convert --to vtk` as PNG, with VTK alone: what ParaView shows when run.pvd is opened.
+"""Draws a frame of `wavetracer convert --to vtk` as PNG, with VTK alone, as ParaView shows it when run.pvd is opened.
 
     docs/examples/render_vtk.py FOLDER -o picture.png --frame 0
 
-FOLDER is what convert wrote. Needs VTK 9 and a display (Debian: python3-vtk9; where there is no screen, start it by
-xvfb-run of the package xvfb).
+FOLDER is the output of convert. Needs VTK 9 and a display (Debian: python3-vtk9; where there is no screen, start it
+by xvfb-run of the package xvfb).
 """
 import argparse
 import os
@@ -31,7 +31,7 @@ def files_of(folder, frame):
 
 
 def plasma():
-    """Weak to strong: violet, red, yellow."""
+    """The colours from weak to strong: violet, red, yellow."""
     stops = [(0.45, 0.00, 0.66), (0.74, 0.22, 0.53), (0.93, 0.47, 0.33), (0.99, 0.79, 0.15), (0.94, 0.98, 0.13)]
     table = vtkLookupTable()
     table.SetNumberOfTableValues(256)

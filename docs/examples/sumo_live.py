@@ -4,9 +4,9 @@
     wavetracer serve -c configs/sumo/live.toml &
     python3 docs/examples/sumo_live.py --steps 50 -- sumo -c configs/sumo/town.sumocfg
 
-What follows `--` is the command that starts SUMO (sumo or sumo-gui). --offset is what to add to SUMO's coordinates to
+The command after `--` starts SUMO (sumo or sumo-gui). --offset is added to SUMO's coordinates to
 get those of the scene. SUMO's angle is a compass bearing and its position the middle of the front bumper: both are
-turned into what the server wants, yaw from +x counter-clockwise and the middle of the vehicle. A vehicle takes a place
+converted for the server, yaw from +x counter-clockwise and the middle of the vehicle. A vehicle takes a place
 of the type that is called as its vehicle class (passenger, truck, bus, ...), or as --default-type; one that has no
 place, or is outside of the scene, is left out and counted. --between N also asks for the channels at N instants of
 every step, from the vehicles that both of its ends have: SUMO steps by tenths of a second, radios by milliseconds.
@@ -37,7 +37,7 @@ def pose(traci, name, offset_m):
 
 
 class Places:
-    """Which vehicles of SUMO the server has room for: those that are there stay, others come as places get free."""
+    """The vehicles of SUMO that have a place on the server: they keep it, and others come when places get free."""
 
     def __init__(self, world, default_type):
         self.free = {kind["type"]: kind["places"] for kind in world["types"]}
@@ -46,7 +46,7 @@ class Places:
         self.type_of = {}
 
     def vehicles(self, traci, offset_m):
-        """The vehicles of this step, and how many had to be left out."""
+        """The vehicles of this step, and the number of those that had to be left out."""
         poses = {name: pose(traci, name, offset_m) for name in traci.vehicle.getIDList()}
         inside = {name: p for name, p in poses.items()
                   if all(a <= x <= b for a, x, b in zip(self.lower, p["position_m"], self.upper))}

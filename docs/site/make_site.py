@@ -1,7 +1,7 @@
 """Makes the site of the documents: make_site.py MKDOCS ROOT. MKDOCS is the program, ROOT the source tree.
 
-Pages, and the files that they link to, are copied to build/site/pages as they lie in the tree, so that links stay as
-they are; the site is build/site/html. A link that leads nowhere fails it.
+Pages, and the files that they link to, are copied to build/site/pages in the layout of the tree, so that links stay as
+they are; the site is build/site/html. A link that leads nowhere is an error.
 """
 import pathlib
 import shutil

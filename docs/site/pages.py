@@ -1,4 +1,4 @@
-"""The pages of the documents and what they link to."""
+"""The pages of the documents, and their links."""
 import pathlib
 import re
 
@@ -7,7 +7,7 @@ TOP = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md")
 
 
 def pages(root):
-    """Every page that the site shows, as paths below `root`: those of the top, of docs/ and of bench/."""
+    """Every page that the site shows, as paths below `root`: those at the top, in docs/ and in bench/."""
     found = [root / name for name in TOP if (root / name).exists()]
     found += sorted((root / "docs").rglob("*.md"))
     found += [root / "bench" / "RESULTS.md", *sorted((root / "bench" / "results").glob("*.md"))]
@@ -15,13 +15,13 @@ def pages(root):
 
 
 def prose(text):
-    """A page without its code, so that what looks like Markdown there is not taken for it. Lines keep their numbers."""
+    """A page without its code, so that code that looks like Markdown does not count. Lines keep their numbers."""
     text = re.sub(r"^```.*?^```$", lambda block: "\n" * block[0].count("\n"), text, flags=re.M | re.S)
     return re.sub(r"`[^`\n]*`", lambda code: "x" * len(code[0]), text)
 
 
 def links(text):
-    """(line, target) of each link and image of a page, addresses of the web left out."""
+    """(line, target) of each link and image of a page, except addresses of the web."""
     for match in LINK.finditer(prose(text)):
         if not re.match(r"[a-z]+:", match[2]):
             yield text.count("\n", 0, match.start()) + 1, match[2]

@@ -1,9 +1,9 @@
-// Advice for where a buffer is larger than the device allows: it names what the length depends on.
+// Advice for errors about a buffer that is larger than the device allows: it names the keys that its length depends on.
 #pragma once
 
 namespace wavetracer::advice {
 
-// Lists of what may be paths, and of paths.
+// Lists of candidates and of paths.
 inline constexpr const char* links =
     "Ask for fewer links at a time (links.max_distance_m, links.transmitters, links.receivers; with diffraction a "
     "lower trace.batch_receivers, where frames reuse nothing), lower trace.max_depth, trace.max_diffractions or "

@@ -1,5 +1,5 @@
 // Host side of kernels/bitonic_sort.cl.
-// Strides of a block and more are launches of their own, the rest of each merge is one.
+// Strides of a block and more have launches of their own; the rest of each merge is one launch.
 #include "passes/bitonic_sort.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace wavetracer {
 
 namespace {
 
-// Local memory that drivers keep for themselves, at most.
+// The most local memory that drivers keep for themselves.
 constexpr uint64_t reserved_local_bytes = 1024;
 
 uint32_t block_size(const gpu::DeviceInfo& device, size_t bytes_per_key, uint32_t largest_block) {
@@ -78,7 +78,7 @@ void BitonicSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& value
   if (n == 0) return;
   gpu::Buffer<uint32_t>& index = payload_ == Payload::index ? values : temporary;
   const size_t blocks = (size_t{n} + block_ - 1) / block_;
-  // A small sort's barriers wait for no more work-items than it has comparators.
+  // A small sort's barriers wait for at most as many work-items as it has comparators.
   const size_t items = std::min(items_, std::max(32u, std::bit_ceil(std::min(n, block_)) / 2));
   const size_t local = items_ == 1 ? 1 : items;
   sort_blocks_({blocks * local, local}, stage, keys, values, index, n);

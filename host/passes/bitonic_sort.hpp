@@ -1,5 +1,5 @@
-// bitonic_sort: a stable sort of any number of keys by Batcher's network; one launch where they fit one block.
-// For small n and as the baseline that the thesis' time had; above some blocks radix_sort is the faster one.
+// bitonic_sort: a stable sort of any number of keys by Batcher's network; one launch where they fit into one block. It
+// serves for small n, and as the baseline that the thesis compared with; from some blocks on radix_sort is faster.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/payload.hpp"
@@ -7,14 +7,15 @@
 
 namespace wavetracer {
 
-// Key: uint32_t or uint64_t.
+// Key is uint32_t or uint64_t.
 template <class Key>
 class BitonicSort {
  public:
-  // Who sorts a block: a work-group, or one work-item in vectors of 16 keys. device: vectors on CPUs, groups elsewhere.
+  // The work-items that sort a block: groups takes a work-group, vectors takes one work-item with vectors of 16 keys.
+  // device: vectors on CPUs, groups elsewhere.
   enum class Form { device, groups, vectors };
 
-  // largest_block: blocks are the largest power of two that local memory holds, up to this; 16 at least.
+  // largest_block: blocks are the largest power of two that fits into local memory, at most this; at least 16.
   BitonicSort(gpu::Context& context, Payload payload, Form form = Form::device,
               uint32_t largest_block = largest_bitonic_block);
 
@@ -22,8 +23,8 @@ class BitonicSort {
   uint32_t block() const { return block_; }
   // Words of temporary memory that a sort of n keys needs. A buffer must be given even where it is zero.
   size_t temporary_words(uint32_t n) const;
-  // Sorts keys[0 .. n - 1], ascending and stable, and values[0 .. n - 1] with them (see Payload). What temporary holds
-  // afterwards means nothing.
+  // Sorts keys[0 .. n - 1], ascending and stable, and values[0 .. n - 1] with them (see Payload). The contents of
+  // temporary are undefined afterwards.
   void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
                   Stage stage = Stage::sort);
   // The same for Payload::none.

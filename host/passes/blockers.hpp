@@ -1,5 +1,5 @@
-// What hid solved paths in earlier frames (kernels/lib/blockers.clh): occlusion notes it, solve asks it first. Which
-// paths are found does not depend on it; it is worth its memory where frames follow each other.
+// The triangles that hid solved paths in earlier frames (kernels/lib/blockers.clh): occlusion stores them, solve tests
+// them first. They do not change which paths are found; they are worth their memory where frames follow each other.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/records.h"

@@ -1,5 +1,5 @@
 // Host side of kernels/bounces.cl.
-// One ray per work-item.
+// A work-item takes one ray.
 #include "passes/bounces.hpp"
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// bounces: all segments of the rays of a queue in one launch, where nothing happens to the queue between two depths.
-// Enters the same sequences as trace, scan and interact, one depth after the other.
+// bounces: all segments of the rays of a queue in one launch, where nothing else happens to the queue between two
+// depths. It enters the same sequences as trace, scan and interact, one depth after the other.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
@@ -10,9 +10,9 @@ namespace wavetracer {
 
 class Bounces {
  public:
-  // ages: the trie keeps them. samples: rays carry the number of their sample.
+  // ages: whether the trie keeps them. samples: whether rays carry the number of their sample.
   Bounces(gpu::Context& context, const DeviceScene& scene, bool ages, bool samples);
-  // interactions: of a ray, at most. ends: one for each sample, where rays carry them, else null. Adds the rays to
+  // interactions: the most of a ray. ends: one for each sample, where rays carry them, else null. Adds the rays to
   // wt_counters::ended. Throws std::logic_error where the trie or `ends` lack what it needs.
   void operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
                   const gpu::Buffer<uint32_t>* ends);

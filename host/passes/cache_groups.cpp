@@ -1,5 +1,5 @@
 // Host side of kernels/cache_groups.cl.
-// The table of ray numbers is made as large as the missed rays need, and emptied for each queue.
+// The table of ray numbers grows with the missed rays, and is emptied for each queue.
 #include "passes/cache_groups.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr Stage stage = Stage::cache_groups;
 
-// Twice the rays at least, so that a search takes few steps; a power of two.
+// The size of the table, at least twice the rays, so that a search takes few steps; a power of two.
 uint64_t places_for(uint64_t rays) { return std::bit_ceil(2 * rays); }
 
 }  // namespace

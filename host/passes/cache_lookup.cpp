@@ -8,7 +8,7 @@
 namespace wavetracer {
 
 CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_(tuning_of(context.info()).cache_rays) {
-  // Links along paths, and entries withdrawn, are written beside the reads of others.
+  // Links along paths and withdrawn entries are written while others read.
   const bool writes = table.config.statistics || table.config.scope == "all";
   gpu::Definitions definitions = table.definitions(!writes);
   definitions["WT_RAYS_PER_ITEM"] = work_.option();

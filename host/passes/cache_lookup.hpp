@@ -1,5 +1,5 @@
-// cache_lookup: rays of a queue that the ray cache can answer get their hit; the others are marked for tracing.
-// Assumes a labelled queue, see label_rays.
+// cache_lookup: rays of a queue that the ray cache can answer get their hit; the others are marked for tracing. It
+// needs a labelled queue, see label_rays.
 #pragma once
 #include "passes/cache_table.hpp"
 #include "passes/device_scene.hpp"
@@ -11,12 +11,13 @@ namespace wavetracer {
 class CacheLookup {
  public:
   CacheLookup(gpu::Context& context, const CacheTable& table);
-  // missed[i] becomes i where ray i is to be traced, else WT_NONE (bit patterns, as Compact takes them), and hits[i] is
-  // the cached one. With hit_point = "own" that is where the ray meets the plane of the cached surface, and a miss
-  // where this is outside of the surface's bounds; with "cached" the ray itself is replaced by the cached one.
-  // static_surfaces: rays that left a surface from this number on are not asked for with a quantised key and scope =
-  // "static", as what they left moves. touch: table.uses of entries that answer becomes `now`, which eviction goes by.
-  // receptions: with scope = "all", needed there: [i] becomes the receiver that an answered segment passes, or WT_NONE.
+  // missed[i] becomes i where ray i is to be traced (bit patterns, as Compact takes them); else it is WT_NONE, and
+  // hits[i] is the cached hit. With hit_point = "own" that is the point where the ray meets the plane of the cached
+  // surface; a point outside of the surface's bounds counts as a miss. With "cached" the ray itself is replaced by the
+  // cached one. static_surfaces: rays that left a surface from this number on do not ask the cache with a quantised key
+  // and scope = "static", since these surfaces move. touch: sets table.uses of entries that answer to `now`, for
+  // eviction. receptions: needed with scope = "all"; [i] becomes the receiver that an answered segment passes, or
+  // WT_NONE.
   void operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                   CacheTable& table, const CacheMovement& movement, uint32_t static_surfaces, uint32_t now, bool touch,
                   gpu::Buffer<uint32_t>* receptions = nullptr);

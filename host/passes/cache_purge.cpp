@@ -1,5 +1,5 @@
 // Host side of kernels/cache_purge.cl.
-// A run of entries per work-item; regions are the second dimension.
+// A work-item takes a run of entries; regions are the second dimension.
 #include "passes/cache_purge.hpp"
 
 #include <algorithm>

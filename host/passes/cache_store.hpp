@@ -1,5 +1,5 @@
-// cache_store: what was traced goes into the ray cache, and back to the hits of the whole queue.
-// Assumes labelled queues, see label_rays.
+// cache_store: puts traced hits into the ray cache, and back into the hits of the whole queue. It needs labelled
+// queues, see label_rays.
 #pragma once
 #include "passes/cache_table.hpp"
 #include "passes/ray_queue.hpp"
@@ -11,9 +11,9 @@ class CacheStore {
  public:
   CacheStore(gpu::Context& context, const CacheTable& table);
   // Ray k of `missed` is ray indices[k] of the queue whose hits are `hits`. static_surfaces: rays that left a surface
-  // from this number on are not stored with a quantised key and scope = "static", as what they left moves.
-  // With scope = "all", needed there: receptions, of the missed rays, the first receiver that each passed, or WT_NONE;
-  // receivers, of the whole queue, which become the same.
+  // from this number on are not stored with a quantised key and scope = "static", since these surfaces move. These two
+  // are needed with scope = "all": receptions has, for each missed ray, the first receiver that it passed, or WT_NONE;
+  // receivers gets the same for the whole queue.
   void operator()(RayQueue& rays, const RayQueue& missed, const HitList& missed_hits,
                   const gpu::Buffer<uint32_t>& indices, HitList& hits, CacheTable& table, uint32_t static_surfaces,
                   uint32_t now, const gpu::Buffer<uint32_t>* receptions = nullptr,

@@ -1,5 +1,5 @@
 // Sizes, limits and layout of the ray cache's tables.
-// Regions are equal shares of cache.buffer_size; what is left over is not allocated.
+// Regions are equal shares of cache.buffer_size; the remainder is not allocated.
 #include "passes/cache_table.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using namespace device;
 namespace {
 
 constexpr uint64_t least_share = 16;
-constexpr uint64_t most_entries = uint64_t{1} << 31;  // slots are 32-bit words, of which WT_NONE is none
+constexpr uint64_t most_entries = uint64_t{1} << 31;  // slots are 32-bit words, and WT_NONE is not a slot
 
 bool as_printed(const CacheConfig& config) { return config.kind == "thesis" || config.kind == "thesis-chained"; }
 
@@ -32,7 +32,7 @@ double head_words_an_entry(const CacheConfig& config) {
   return as_printed(config) ? 3 : config.kind == "open" ? 2 : 1;
 }
 
-// Of links and roots WT_NONE says that there is none; locks, counts and tags begin at 0.
+// The first value of heads: WT_NONE in links and roots, which says that there is none; 0 in locks, counts and tags.
 uint32_t empty_head(const CacheConfig& config) {
   return config.kind == "chained" || config.kind == "thesis-chained" ? WT_NONE : 0;
 }
@@ -61,7 +61,7 @@ uint32_t share_of(const CacheConfig& config, uint32_t transmitter_count, const g
   return config.kind == "concurrent" ? share / WT_CACHE_BUCKET * WT_CACHE_BUCKET : share;
 }
 
-// Of the numbers 0 .. count - 1.
+// The number of bits that the numbers 0 .. count - 1 need.
 uint32_t bits_of(uint32_t count) {
   return std::max(1u, static_cast<uint32_t>(std::bit_width(std::max(count, 1u) - 1)));
 }

@@ -13,7 +13,7 @@ namespace wavetracer {
 
 namespace {
 
-// Local memory for the sequences of a work-group, and that of one sequence: its images, its surfaces and 96 bytes more.
+// Local memory for the sequences of a work-group, and of one sequence: its images, its surfaces and 96 bytes more.
 constexpr uint32_t group_bytes = 16 << 10;
 uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 96; }
 
@@ -25,7 +25,7 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
       work_(tuning_of(context.info()).candidates),
       list_(context.buffer<wt_candidate>(1 << 16, {"candidates", advice::links})) {
   const uint32_t reflections = std::max(std::min(max_reflections, WT_MAX_DEPTH), 1u);
-  // No more sequences than work-items: each of them follows one back.
+  // There are at most as many sequences as work-items: each work-item follows one back.
   if (!tuning_of(context.info()).alone)
     work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
   kernel_ = context.kernel("candidates", "candidates",

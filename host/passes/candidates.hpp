@@ -1,4 +1,4 @@
-// candidates: sequences and receivers that a path may join, after two conservative rejections.
+// candidates: pairs of sequences and receivers that may have a path, after two conservative rejections.
 // The list grows until it holds all of them.
 #pragma once
 #include "passes/counters.hpp"
@@ -10,9 +10,9 @@ namespace wavetracer {
 
 class Candidates {
  public:
-  // max_reflections: longer sequences are no paths.
+  // max_reflections: longer sequences give no paths.
   explicit Candidates(gpu::Context& context, uint32_t max_reflections = WT_MAX_DEPTH);
-  // nodes: roots first, then trie nodes. Returns the number of candidates, in list(), or a bound of it.
+  // nodes: roots first, then trie nodes. Returns the number of candidates in list(), or a bound of it.
   uint32_t operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                       const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
   gpu::Buffer<wt_candidate>& list() { return list_; }

@@ -1,5 +1,5 @@
 // Host side of kernels/compact.cl.
-// Checks what it is given: callers name ranges of planes.
+// It checks its arguments, since callers name ranges of planes.
 #include "passes/compact.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// compact: the indices of the words that are not WT_NONE, in order: those of rays that hit, of lanes that live.
+// compact: the indices of the words that are not WT_NONE, in order: those of rays that hit, or of lanes that live.
 // Between its two operations the block counts are scanned (see scan), which also gives the number of indices.
 #pragma once
 #include "gpu/gpu.hpp"
@@ -9,15 +9,16 @@ namespace wavetracer {
 
 class Compact {
  public:
-  // Who takes the words: a work-group per block, or a work-item many blocks. device: items on CPUs, groups elsewhere.
+  // The work-items that take the words: a work-group per block, or a work-item for many blocks. device: items on CPUs,
+  // groups elsewhere.
   enum class Form { device, groups, items };
 
-  // Blocks as long as those of rays.
+  // Makes blocks as long as those of rays.
   explicit Compact(gpu::Context& context) : Compact(context, tuning_of(context.info()).block) {}
   // block: words per block; for groups a multiple of 32 that a work-group can have.
   Compact(gpu::Context& context, uint32_t block, Form form = Form::device);
 
-  // Blocks of so many words: what there must be room for.
+  // The number of blocks of this many words, for which there must be room.
   uint32_t blocks(uint32_t words) const { return words / block_ + (words % block_ != 0); }
 
   // block_counts[b] becomes the number of words != WT_NONE (bit pattern) in block b of words[first .. first + count -

@@ -1,5 +1,5 @@
-// Foreseen is a quarter more than frames had of late, and a thousand: work-items that find nothing to do cost less than
-// a wait.
+// The expected length of a list is a quarter more than recent frames had, plus a thousand: work-items that find nothing
+// to do cost less than a wait.
 #include "passes/counters.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace wavetracer {
 namespace {
 
-// The larger count of each, of which the earlier ones lose an eighth per frame.
+// Keeps the larger count of each; earlier counts lose an eighth in each frame.
 void keep_most(wt_counters& most, const wt_counters& now) {
   using Words = std::array<wt_uint, sizeof(wt_counters) / sizeof(wt_uint)>;
   auto words = std::bit_cast<Words>(most);

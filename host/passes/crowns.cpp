@@ -1,5 +1,5 @@
 // Host side of kernels/crowns.cl.
-// How many rows there are the host knows, so nothing is read.
+// The host knows the number of rows, so nothing is read back.
 #include "passes/crowns.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace wavetracer {
 namespace {
 
-// Transmitter and receiver of each link.
+// The transmitter and receiver of each link.
 std::vector<uint32_t> link_pairs(const RadioEnds& ends) {
   const uint32_t groups = ends.receiver_capacity / 16;
   std::vector<uint32_t> out;

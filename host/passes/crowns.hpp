@@ -1,6 +1,6 @@
 // crowns: rows of paths transmitter - cell - receiver, for the cells of vegetation that scatters. Rays do not see
-// leaves, so every link meets every cell. A list of its own, which occlusion and visible take on as they do that of
-// solve.
+// leaves, so every link meets every cell. The rows are a list of their own, which occlusion and visible take like that
+// of solve.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -18,8 +18,8 @@ class Crowns {
   // for, at least one.
   Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t first_tile, uint32_t max_depth);
 
-  // Rows go by links, then by cells. Throws RuntimeError, naming trace.tile_m, where they outgrow the buffers of the
-  // device.
+  // Rows are ordered by links, then by cells. Throws RuntimeError, naming trace.tile_m, where they outgrow the buffers
+  // of the device.
   SolvedList& operator()(const RadioEnds& ends);
 
  private:
@@ -28,8 +28,8 @@ class Crowns {
   Work work_;
   uint32_t cells_, first_tile_, links_count_ = 0;
   gpu::Buffer<double> centres_;
-  std::vector<uint16_t> link_words_;  // of links_
-  gpu::Buffer<uint32_t> links_;       // transmitter and receiver of each
+  std::vector<uint16_t> link_words_;  // words of links_
+  gpu::Buffer<uint32_t> links_;       // transmitter and receiver of each link
   SolvedList solved_;
 };
 

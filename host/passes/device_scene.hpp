@@ -1,6 +1,5 @@
-// The scene on the device: acceleration structures in every shape that this kind of device may trace, and surfaces in
-// float and double; to the static ones place adds those of instances. Which shape traces is chosen in
-// simulation/hit_finder.cpp.
+// The scene on the device: acceleration structures in every form that this kind of device may trace, and surfaces in
+// float and double; place adds those of instances to the static ones. simulation/hit_finder.cpp chooses the form.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,14 +12,14 @@
 
 namespace wavetracer {
 
-// How rays traverse: GPUs one ray per work-item through a BVH2; CPUs through a BVH8, or in packets of 16 through the
-// BVH2.
+// Forms of tracing rays: GPUs trace one ray per work-item through a BVH2; CPUs trace through a BVH8, or in packets of
+// 16 through the BVH2.
 enum class TraceShape { bvh2, bvh8, packet16 };
 
 struct DeviceScene {
   gpu::Buffer<wt_centred_node> nodes2;       // BVH2 for one ray per work-item
   gpu::Buffer<wt_bvh2_node> packet_nodes2;   // BVH2 for packets (CPUs only)
-  gpu::Buffer<wt_bvh2_triangle> triangles2;  // of both
+  gpu::Buffer<wt_bvh2_triangle> triangles2;  // triangles of both trees
   gpu::Buffer<wt_bvh8_node> nodes8;          // BVH8 (CPUs only)
   gpu::Buffer<wt_triangle_block> blocks8;
   uint32_t triangle_slots = 0;
@@ -30,7 +29,7 @@ struct DeviceScene {
   gpu::Buffer<wt_exact_surface> exact_surfaces;
   gpu::Buffer<double> exact_triangles;  // nine doubles a triangle, grouped by surface
   uint32_t primitive_count = 0;         // triangles of the static scene
-  // What moves, by passes/place.hpp; placeholders where nothing does.
+  // Data of things that move, by passes/place.hpp; placeholders where nothing moves.
   gpu::Buffer<wt_float4> moving;  // wavetracer/device/moving.h
   gpu::Buffer<wt_exact_instance> exact_instances;
   gpu::Definitions definitions;  // stack sizes that the trees need
@@ -38,7 +37,8 @@ struct DeviceScene {
   // The tree that legs of paths are tested against: BVH8 on CPUs, BVH2 elsewhere (kernels/lib/legs.clh).
   const gpu::Memory& leg_nodes() const { return cpu ? static_cast<const gpu::Memory&>(nodes8) : nodes2; }
   const gpu::Memory& leg_leaves() const { return cpu ? static_cast<const gpu::Memory&>(blocks8) : triangles2; }
-  // Makes the stack called `name` at least so large; sizes go in steps, so that scenes of like size share kernels.
+  // Makes the stack called `name` at least this large; sizes grow in steps, so that scenes of similar size share
+  // kernels.
   void require_stack(const std::string& name, uint32_t entries);
 };
 

@@ -41,7 +41,7 @@ void Distinct::reserve(size_t places) {
   rows_.counts = context_.buffer<uint32_t>(2 * places, {"counts of rows and vertices", advice::links});
   rows_.delays = context_.buffer<double>(places, {"delays of paths", advice::links});
   rows_.quarters = context_.buffer<uint8_t>(places, {"quarters of rows", advice::links});
-  keys_ = context_.buffer<uint32_t>(places, {"keys of paths", advice::links});  // last: it says how much room there is
+  keys_ = context_.buffer<uint32_t>(places, {"keys of paths", advice::links});  // last: its size is the room
 }
 
 uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible,

@@ -1,5 +1,5 @@
-// distinct: the rows of a frame's paths from the visible ones: with reversed twins, each path once, in the order of
-// links, delays and surfaces. The three kernels have the sort by keys between the first two of them.
+// distinct: the rows of a frame's paths, made of the visible ones: with reversed twins, each path once, in the order of
+// links, delays and surfaces. It has three kernels; the keys are sorted between the first two.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -16,29 +16,29 @@
 
 namespace wavetracer {
 
-// Rows at their places; see kernels/distinct.cl. Buffers are longer than `places`, the number of places.
+// Rows at their places, see kernels/distinct.cl. Buffers may be longer than `places`, the number of places.
 struct RowList {
   uint32_t places = 0;
   gpu::Buffer<uint32_t> rows;
-  gpu::Buffer<uint32_t> counts;  // of rows at each place, then of their vertices; scanned, how many stand before it
+  gpu::Buffer<uint32_t> counts;  // rows at each place, then their vertices; after the scan, how many come before it
   gpu::Buffer<double> delays;
   gpu::Buffer<uint8_t> quarters;
 };
 
 class Distinct {
  public:
-  // receiver_of: of each transmitter the receiver in its place, or WT_NONE; transmitter_of: the other way round.
-  // Where a transmitter and a receiver are one end, what is a path one way is a path the other way.
+  // receiver_of: for each transmitter the receiver in its place, or WT_NONE; transmitter_of: the reverse. If a
+  // transmitter and a receiver are one end, a path in one direction is also a path in the other.
   Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of, std::span<const uint32_t> transmitter_of);
 
-  // Keys of all rows, and how many places they take. own: the links whose paths are wanted, as RadioEnds::links has
-  // them. Throws RuntimeError where links are too many for a key.
+  // Computes the keys of all rows, and returns how many places they take. own: the links whose paths are wanted, in the
+  // form of RadioEnds::links. Throws RuntimeError where there are too many links for a key.
   uint32_t keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own, const SolvedList& visible, Counters& counters);
   // By sorted keys: which rows stay, and where. wt_counters has how many of what kind. wedges: null where nothing
   // diffracts.
   void place(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
              const SolvedList& visible, Counters& counters);
-  // How many paths of which link were left out so.
+  // The number of paths of each link that were left out.
   std::map<Link, uint32_t> left_out();
 
   gpu::Buffer<uint32_t>& sort_keys() { return keys_; }

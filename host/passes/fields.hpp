@@ -1,6 +1,6 @@
 // fields: delays, angles, coefficients and Doppler shifts of the paths of a frame, on the device, and their columns on
-// the host. docs/method.md has the physics; wavetracer/device/path_field.h the code, which the host has as well
-// (radio/fields.hpp) and computes the same bits by.
+// the host. docs/method.md has the physics, wavetracer/device/path_field.h the code, with which the host computes the
+// same bits (radio/fields.hpp).
 #pragma once
 #include <glm/vec3.hpp>
 
@@ -18,12 +18,13 @@ struct RowCounts {
 
 class Fields {
  public:
-  // edges: the most of a path; each kind, one, two and more, takes a larger kernel. origin_m: of recentred coordinates.
+  // edges: the most of a path; one, two and more edges each need a larger kernel. origin_m: that of recentred
+  // coordinates.
   Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m);
 
-  // Computes the rows. Their counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
-  // lengths_inside: of the visible paths, nullptr where there is no vegetation. most: how many rows and vertices there
-  // may be.
+  // Computes the rows, whose counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
+  // lengths_inside: those of the visible paths, nullptr where there is no vegetation. most: the most rows and vertices
+  // that there may be.
   void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                   const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
                   const Distinct& distinct, const RowList& rows, RowCounts most);
@@ -33,12 +34,12 @@ class Fields {
   // Begins to read the rows that were computed last, `expected` of them, and makes room for their columns while the
   // device works.
   void begin_read(uint32_t frame, RowCounts expected);
-  // Their columns. count: how many there are. To be called once the device has finished.
+  // Returns their columns. count: the number of rows. The device must have finished.
   Paths columns(RowCounts count);
-  // Counts, of the paths that columns() or carrier() gave last, those that are closer to an edge than the theory of
-  // diffraction goes.
+  // The number of the paths that columns() or carrier() gave last that are closer to an edge than the theory of
+  // diffraction holds.
   uint32_t near_edges() const { return near_edges_; }
-  // The same of what differs at the carrier of these tables; its frequency is for the caller to say.
+  // The same for the columns that differ at the carrier of these tables; the caller names its frequency.
   void begin_read_carrier(RowCounts expected);
   CarrierFields carrier(RowCounts count);
 
@@ -59,7 +60,7 @@ class Fields {
   gpu::Buffer<device::wt_path_row> rows_;
   gpu::Buffer<device::wt_vertex_row> vertices_;
   gpu::HostMemory host_rows_, host_vertices_;
-  RowCounts read_;  // already
+  RowCounts read_;  // rows and vertices that were read already
   uint32_t frame_ = 0, near_edges_ = 0;
   Paths room_;
 };

@@ -1,5 +1,5 @@
 // Host side of kernels/gather_rays.cl.
-// A work-item takes its part of one plane after the other.
+// A work-item copies its part of one plane after the other.
 #include "passes/gather_rays.hpp"
 
 namespace wavetracer {

@@ -1,5 +1,5 @@
-// gather_rays: rays of a queue into another, permuted or picked.
-// Assumes two queues of one capacity, the second with no more planes than the first.
+// gather_rays: copies rays of a queue into another, permuted or selected. It needs two queues of one capacity, the
+// second with no more planes than the first.
 #pragma once
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"

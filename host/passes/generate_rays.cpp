@@ -1,5 +1,5 @@
 // Host side of kernels/generate_rays.cl.
-// Assumes the queue has room: the frame loop sizes its batches.
+// The queue must have room: the frame loop sizes its batches.
 #include "passes/generate_rays.hpp"
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// generate_rays: launch rays of one transmitter into a queue; launch index to direction is a pure function.
-// In launch order, or in an order given as a list of launch indices.
+// generate_rays: writes launch rays of one transmitter into a queue; the direction is a pure function of the launch
+// index. They come in launch order, or in an order given as a list of launch indices.
 #pragma once
 #include <glm/vec3.hpp>
 #include <memory>
@@ -17,12 +17,12 @@ namespace wavetracer {
 struct Launcher {
   uint32_t transmitter;
   glm::dvec3 position_m;      // recentred
-  uint32_t source = WT_NONE;  // what its rays leave: WT_OWN and the number of the instance that carries it
-  uint32_t heights = 0;       // of directions = "horizon", or of a window: its table of LaunchHeights
+  uint32_t source = WT_NONE;  // left by its rays: WT_OWN and the number of the instance that carries it
+  uint32_t heights = 0;       // for directions = "horizon", or a window: its table in LaunchHeights
   bool window = false;        // the table is a window; rays start on a sphere through position_m, see directions.h
 };
 
-// A rotation of all directions about z; of windows, in units of 2^-32 turns of their width.
+// A rotation of all directions about z; in windows it is in units of 2^-32 turns of their width.
 struct DirectionTurn {
   float cosine = 1, sine = 0;
   uint32_t turn = 0;
@@ -30,16 +30,16 @@ struct DirectionTurn {
 
 class GenerateRays {
  public:
-  // heights: of directions = "horizon"; not given: the first table of LaunchHeights alone.
+  // heights: those of directions = "horizon"; without them, only the first table of LaunchHeights.
   GenerateRays(gpu::Context& context, const LaunchDirections& directions,
                std::shared_ptr<const LaunchHeights> heights = {});
-  // Appends the launch indices first, first + stride, ..., `count` of them, of this end. Rays of a launch of every
-  // stride-th index are numbered by index / stride.
+  // Appends `count` launch indices of this end: first, first + stride, and so on. Rays of a launch of every stride-th
+  // index are numbered by index / stride.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride = 1);
-  // Appends the same launch indices of each of these ends, in one launch. count: rays_together() divides it.
+  // Appends the same launch indices for each of these ends, in one launch. rays_together() must divide count.
   void operator()(RayQueue& queue, std::span<const Launcher> from, uint64_t first, uint32_t count, uint64_t stride);
   uint32_t rays_together() const { return work_.per_item; }
-  // Appends the launch indices first + order[0 .. count - 1]. order has 16 elements more, of any value.
+  // Appends the launch indices first + order[0 .. count - 1]. order has 16 further elements of any value.
   void operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                   const gpu::Buffer<uint32_t>& order);
 

@@ -1,5 +1,5 @@
 // Host side of kernels/interact.cl.
-// A work-item takes a run of blocks (CPUs) or a ray, and then a group per block.
+// A work-item takes a run of blocks (CPUs), or a ray, and then a group takes a block.
 #include "passes/interact.hpp"
 
 #include <stdexcept>

@@ -1,6 +1,5 @@
-// interact: rays that hit enter their prefix into the trie and go on, reflected and compacted in order; where a queue
-// for them is given, also straight through what they hit.
-// Assumes hits.block_hits has been scanned.
+// interact: rays that hit enter their prefix into the trie and go on, reflected and compacted in order; if a queue for
+// transmitted rays is given, they also go straight through the surface. hits.block_hits must have been scanned.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
@@ -9,7 +8,7 @@
 
 namespace wavetracer {
 
-// What interact does besides; each option is compiled in only where it is on.
+// Additional outputs of interact; the code of each option is compiled only where it is on.
 struct InteractOptions {
   bool ages = false;          // the trie keeps ages
   bool samples = false;       // rays carry the number of their sample, and note its end
@@ -17,7 +16,7 @@ struct InteractOptions {
   bool transmission = false;  // rays may also go on straight
 };
 
-// Where rays go on. All queues have the capacity of the one that they come from; what is null is left out.
+// The queues in which rays go on. All have the capacity of the queue that the rays come from; a null queue is left out.
 struct RaysOnward {
   RayQueue* reflected = nullptr;                // its count becomes hit_count; null after the last interaction
   RayQueue* transmitted = nullptr;              // the same rays behind the surface, with the node that they came with
@@ -27,8 +26,8 @@ struct RaysOnward {
 class Interact {
  public:
   explicit Interact(gpu::Context& context, InteractOptions options = {});
-  // hit_count: of the rays in the queue. Sequences that rays reach get the bits of their quarters and, where ages are
-  // kept, the age `now`. Throws std::logic_error where the trie or `to` lack what the options ask for.
+  // hit_count: that of the rays in the queue. Sequences that rays reach get the bits of their quarters and, where ages
+  // are kept, the age `now`. Throws std::logic_error where the trie or `to` lack what the options ask for.
   void operator()(const DeviceScene& scene, const RayQueue& rays, const HitList& hits, uint32_t hit_count,
                   const Trie& trie, const RaysOnward& to);
 

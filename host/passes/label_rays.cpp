@@ -1,5 +1,5 @@
 // Host side of kernels/label_rays.cl.
-// Three kernels, by what is known of the samples.
+// There are three kernels, for different knowledge of the samples.
 #include "passes/label_rays.hpp"
 
 #include <string>

@@ -1,5 +1,5 @@
-// label_rays: launch rays learn their sample, their transmitter, and that they have left nothing yet.
-// Assumes queues with WT_RAY_LABELLED_PLANES.
+// label_rays: launched rays get their sample, their transmitter, and the note that they have left nothing yet. It needs
+// queues with WT_RAY_LABELLED_PLANES.
 #pragma once
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
@@ -9,12 +9,12 @@ namespace wavetracer {
 class LabelRays {
  public:
   explicit LabelRays(gpu::Context& context);
-  // The rays first_slot .. first_slot + count - 1 are samples first_sample, ..., or, where they were launched in an
-  // order, first_sample + order[0], ...
+  // Labels the rays first_slot .. first_slot + count - 1 as samples first_sample, ..., or, where they were launched in
+  // an order, as first_sample + order[0], ...
   void operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample);
   void operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
                   const gpu::Buffer<uint32_t>& order);
-  // All rays, which know their samples (a refined launch).
+  // Labels all rays; they know their samples (a refined launch).
   void operator()(RayQueue& queue);
 
  private:

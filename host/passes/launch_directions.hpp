@@ -1,5 +1,5 @@
-// What the maps from launch index to direction take (wavetracer/device/directions.h), for kernels that evaluate them.
-// Every user of a launch makes the same numbers from the same configuration.
+// The constants of the maps from launch index to direction (wavetracer/device/directions.h), for kernels that evaluate
+// them. Every user of a launch derives the same numbers from the same configuration.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,18 +11,18 @@
 namespace wavetracer {
 
 struct LaunchDirections {
-  // rays: of a launch, for each transmitter, 1 .. 2^31.
+  // rays: those of a launch, for each transmitter, 1 .. 2^31.
   LaunchDirections(Directions directions, uint64_t rays, uint64_t seed)
       : by_table(directions == "horizon"),
         places("wt_place_" + (by_table ? "hilbert" : directions.text())),
         parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
-    // The fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven fill the
-    // gap to the next level.
+    // This takes the fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven
+    // fill the gap to the next level.
     while (uint64_t{12} << (2 * level) < rays) ++level;
     while (uint64_t{faces} << (2 * level) < rays) ++faces;
   }
 
-  // Kernels that evaluate the map are built with these.
+  // Definitions for kernels that evaluate the map.
   gpu::Definitions definitions() const { return {{"WT_PLACES", places}, {"WT_BY_TABLE", by_table ? "1" : "0"}}; }
 
   bool by_table;       // heights are spread by a table

@@ -1,4 +1,5 @@
-// A table is the inverse of the share of directions above z, which is summed up on a grid that is fine at the horizon.
+// A table is the inverse of the share of directions above z; the share is summed up on a grid that is fine at the
+// horizon.
 #include "passes/launch_heights.hpp"
 
 #include <algorithm>
@@ -8,13 +9,13 @@ namespace wavetracer {
 
 namespace {
 
-constexpr double street_z0 = 0.01;  // 3 m of both ends above the ground, on a way of 300 m
+constexpr double street_z0 = 0.01;  // both ends 3 m above the ground, 300 m apart
 constexpr double street_uniform = 0.25;
 
-constexpr int grid_steps = 320;         // a side
+constexpr int grid_steps = 320;         // steps on each side
 constexpr double grid_ratio = 0.96875;  // from 1 to 4e-5
 
-// The share of one side's directions that lie between the horizon and |z|.
+// The share of one side's directions that are between the horizon and |z|.
 double below(double z0, double z) { return z / (z0 + (1 - z0) * z); }
 
 }  // namespace
@@ -26,7 +27,7 @@ std::vector<float> height_table(std::span<const HeightShare> shares, double unif
     if (share.up) upper += share.weight;
   }
   const double even = weights > 0 ? uniform : 1, scale = weights > 0 ? (1 - uniform) / weights : 0;
-  // The share of directions above z, by its distance from the horizon.
+  // This gives the share of directions above z, by its distance from the horizon.
   const auto above = [&](double z, bool up) {
     double sum = 0;
     for (const HeightShare& share : shares)

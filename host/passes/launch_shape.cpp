@@ -14,7 +14,7 @@ gpu::Range LaunchShape::range(size_t count, uint32_t preferred_local) const {
   const unsigned group_bits = static_cast<unsigned>(std::bit_width(group)) - 1;
   std::array<size_t, 3> local{1, 1, 1}, global{1, 1, 1};
   for (unsigned d = 0; d < dimensions; ++d) local[d] = size_t{1} << ((group_bits + dimensions - 1 - d) / dimensions);
-  // Sides are powers of two. Of curves there are 16 or more where the count allows, so that the last one, which may be
+  // Sides are powers of two. There are 16 or more curves where the count allows, so that the last one, which may be
   // nearly empty, wastes little; rows make one square or cube.
   const unsigned count_bits = static_cast<unsigned>(std::bit_width(count > 0 ? count - 1 : 0));
   const unsigned side_bits = curve ? (std::max(count_bits, 4u) - 4) / dimensions : count_bits / dimensions;

@@ -1,5 +1,5 @@
 // Host side of kernels/occlusion.cl.
-// First legs, then all others.
+// First legs are tested first, then all others.
 #include "passes/occlusion.hpp"
 #include <algorithm>
 #include "wavetracer/device/arguments.h"

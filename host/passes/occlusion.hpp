@@ -1,4 +1,4 @@
-// occlusion: marks solved paths of which a leg is obstructed.
+// occlusion: marks solved paths that have an obstructed leg.
 // kernels/lib/leg.clh has the rule.
 #pragma once
 #include "passes/blockers.hpp"
@@ -14,7 +14,7 @@ namespace wavetracer {
 class Occlusion {
  public:
   Occlusion(gpu::Context& context, const DeviceScene& scene);
-  // blockers: where what hides a path is noted, or null.
+  // blockers: stores the triangles that hide paths; null: they are not stored.
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                   Blockers* blockers = nullptr, const StepTables& steps = {});
 

@@ -1,5 +1,5 @@
-// order_keys: sort keys of rays, by the direction alone or by direction and origin; 32 bits, of which the lowest
-// launch_bits() or queue_bits() count. Keys of launch rays need no rays: they come from the launch indices.
+// order_keys: sort keys of rays, by the direction only or by direction and origin; they have 32 bits, of which the
+// lowest launch_bits() or queue_bits() count. Keys of launch rays need no rays: they come from the launch indices.
 #pragma once
 #include <memory>
 
@@ -11,23 +11,24 @@
 
 namespace wavetracer {
 
-// morton: Z-order of the direction's cells, 1,024 a component. morton_bins, hilbert_bins: a histogram of directions,
-// its bins visited along a Morton or a 3D Hilbert curve (A. Zhdanov, 2014, algorithm 1). direction_origin: 4,096 cells
-// of directions, in each 16^3 cells of the scene; at launch, where origins are one, 2^16 cells of directions.
+// morton: Z-order of the direction's cells, 1,024 for each component. morton_bins, hilbert_bins: a histogram of
+// directions, whose bins are visited along a Morton or a 3D Hilbert curve (A. Zhdanov, 2014, algorithm 1).
+// direction_origin: 4,096 cells of directions, and in each 16^3 cells of the scene; at launch all rays have one origin,
+// and there are 2^16 cells of directions.
 class OrderKeys {
  public:
-  // bins: of a direction component, 1 .. 1024, for the histograms. extent_m: the largest absolute coordinate of
-  // origins. heights: as those of the generate_rays of this launch.
+  // bins: number for each direction component, 1 .. 1024, for the histograms. extent_m: the largest absolute coordinate
+  // of origins. heights: those of the generate_rays of this launch.
   OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
             std::shared_ptr<const LaunchHeights> heights = {});
-  // Bits of the keys of launches, and of queues.
+  // The number of bits of the keys of launches, and of queues.
   uint32_t launch_bits() const { return launch_bits_; }
   uint32_t queue_bits() const { return queue_bits_; }
-  // Keys of the launch indices first .. first + count - 1 of a launcher with this table of heights, which may be a
-  // window. keys has 16 elements more, which may be overwritten.
+  // Computes the keys of the launch indices first .. first + count - 1 of a launcher with this table of heights, which
+  // may be a window. keys has 16 further elements, which may be overwritten.
   void operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights = 0,
                   bool window = false);
-  // Keys of the rays of a queue, likewise.
+  // Computes the keys of the rays of a queue; keys has 16 further elements, too.
   void operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys);
 
  private:

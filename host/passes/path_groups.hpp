@@ -1,5 +1,5 @@
-// path_groups: the geometrical waves that the paths of a frame are one with, on the device, and the groups of paths
-// that they make, on the host. wavetracer/device/path_groups.h says which waves these are.
+// path_groups: the geometrical waves that the paths of a frame belong to, on the device, and the groups of paths that
+// follow from them, on the host. wavetracer/device/path_groups.h says which waves these are.
 #pragma once
 #include "passes/distinct.hpp"
 #include "passes/tuning.hpp"
@@ -9,16 +9,16 @@ namespace wavetracer {
 
 class PathGroups {
  public:
-  // planes_of: the surface that stands for the plane of each surface of the world. edges: the most of a path.
+  // planes_of: for each surface of the world the surface that stands for its plane. edges: the most of a path.
   PathGroups(gpu::Context& context, const std::vector<uint32_t>& planes_of, uint32_t edges, double wavelength_m);
 
   // Computes the waves of all rows, whose counts are scanned. wedges: placed in the frame, or nullptr where nothing
-  // diffracts. most: how many rows there may be.
+  // diffracts. most: the most rows that there may be.
   void operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
                   const Distinct& distinct, const RowList& rows, uint32_t most);
-  // Begins to read the first `expected` of them, and makes room for the columns while the device works.
+  // Begins to read the first `expected` rows, and makes room for the columns while the device works.
   void begin_read(uint32_t expected);
-  // Sets the columns of groups of the paths that the rows are. To be called once the device has finished.
+  // Sets the columns of groups in `paths`, which are the paths of the rows. The device must have finished.
   void set(Paths& paths);
 
  private:
@@ -29,7 +29,7 @@ class PathGroups {
   gpu::Buffer<uint32_t> planes_of_;
   gpu::Buffer<device::wt_path_waves> waves_;
   gpu::HostMemory host_waves_;
-  size_t read_ = 0;  // already
+  size_t read_ = 0;  // rows that were read already
   std::vector<GroupNumbers> group_room_;
   std::vector<GroupWeights> weight_room_;
 };

@@ -1,5 +1,5 @@
-// Host side of kernels/place.cl, and the top-level tree where the host builds it: faster than a device for some hundred
-// vehicles (bench_drive). What instances are whatever the frame is uploaded once.
+// Host side of kernels/place.cl, and the top-level tree where the host builds it, which is faster than a device up to
+// some hundred vehicles (bench_drive). Data of instances that does not depend on the frame is uploaded once.
 #include "passes/place.hpp"
 
 #include <algorithm>
@@ -21,11 +21,11 @@ int32_t moved_child(int32_t child, uint32_t first_node, uint32_t first_leaf) {
   return wt_leaf(first + first_leaf, wt_leaf_end(child) - first);
 }
 
-// Children of a node, used or not.
+// The children of a node, used or not.
 std::span<int32_t> children(wt_centred_node& node) { return std::span(node.child.s).first(2); }
 std::span<int32_t> children(wt_bvh8_node& node) { return node.child; }
 
-// Appends a tree, whose references then count from the first node and leaf of all.
+// Appends a tree and shifts its references, so that they count from the first node and leaf of all trees.
 template <class Node>
 void append_nodes(std::vector<Node>& all, std::vector<Node> nodes, size_t first_leaf) {
   const auto first_node = static_cast<uint32_t>(all.size());
@@ -40,7 +40,7 @@ size_t float4s(const std::vector<T>& records) {
   return records.size() * (sizeof(T) / sizeof(wt_float4));
 }
 
-// The records as what `moving` is made of.
+// Copies the records into float4s, which `moving` consists of.
 template <class T>
 std::vector<wt_float4> as_float4s(const std::vector<T>& records) {
   std::vector<wt_float4> out(float4s(records));
@@ -144,7 +144,7 @@ void Place::upload_surfaces(gpu::Context& context, const Scene& still, const std
 template <class Node, class Leaf>
 void Place::upload(gpu::Context& context, DeviceScene& scene, const std::vector<Node>& nodes,
                    const std::vector<Leaf>& leaves) {
-  // Trees over so many instances have fewer nodes, and one where there are none or one.
+  // Trees over this many instances have fewer nodes; with one instance or none the tree has one node.
   const size_t top_nodes = std::max<size_t>(instances_.size(), 2);
   top_.resize(top_nodes * (sizeof(wt_centred_node) / sizeof(wt_float4)) +
               instances_.size() * (sizeof(wt_instance) / sizeof(wt_float4)));
@@ -191,7 +191,7 @@ void Place::upload_bvh2(gpu::Context& context, const std::vector<Scene>& models,
     const Bvh2& tree = trees.emplace_back(make_bvh2(build_binary(triangles, BuildOptions::for_bvh2()), triangles));
     models_[m].box = box_of(triangles);
     models_[m].root = static_cast<int32_t>(nodes.size());
-    // Rays in model coordinates start as far away as the scene is wide.
+    // Rays in model coordinates may start as far away as the scene is wide.
     append_nodes(nodes, centred_nodes(tree.nodes, 4 * extent_m_), triangle_slots_);
     triangle_slots_ += tree.triangle_slots;
     scene.require_stack("WT_BVH2_STACK", tree.max_depth);

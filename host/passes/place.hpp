@@ -1,6 +1,6 @@
-// place: vehicles in the scene of a frame: their surfaces for the exact solve, and a top-level tree over the instances.
-// The trees of the models are built once; a frame uploads 160 bytes per instance, and where the host builds the tree
-// over them, 128 bytes more.
+// place: puts vehicles into the scene of a frame: their surfaces for the exact solve, and a top-level tree over the
+// instances. The trees of the models are built once; a frame uploads 160 bytes per instance, and 128 more where the
+// host builds the tree over them.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -24,14 +24,14 @@ class Place {
                           const std::vector<bool>& opaque);
   // Moves all instances, and builds the tree over them on the host; placements are in the order of the instances.
   void operator()(DeviceScene& scene, std::span<const Placement> placements);
-  // The same without the tree, for those that build it elsewhere (passes/top_level.hpp).
+  // The same without the tree, if it is built elsewhere (passes/top_level.hpp).
   void surfaces(DeviceScene& scene, std::span<const Placement> placements);
-  // What such a tree holds of the instances whatever the frame: see instance_keys of top_level.cl.
+  // The data of instances in such a tree that does not depend on the frame: see instance_keys of top_level.cl.
   std::vector<wt_body> bodies() const;
 
  private:
   struct Model {
-    Box box;  // of its triangles, model coordinates
+    Box box;  // box of its triangles, in model coordinates
     int32_t root = 0;
     uint32_t first_surface = 0;
   };
@@ -44,7 +44,7 @@ class Place {
   void write_top_level(DeviceScene& scene, std::span<const Placement> placements);
   void upload_bvh2(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
   void upload_bvh8(gpu::Context& context, const std::vector<Scene>& models, DeviceScene& scene);
-  // Nodes and leaves of all models, and room for the top level.
+  // Uploads nodes and leaves of all models, and makes room for the top level.
   template <class Node, class Leaf>
   void upload(gpu::Context& context, DeviceScene& scene, const std::vector<Node>& nodes,
               const std::vector<Leaf>& leaves);
@@ -58,13 +58,13 @@ class Place {
   gpu::Buffer<wt_model_surface> model_surfaces_;
   gpu::Buffer<uint32_t> surface_instances_;  // the instance of each surface of instances
   uint32_t first_surface_, surface_count_ = 0;
-  size_t instances_at_ = 0;  // in top_
+  size_t instances_at_ = 0;  // place in top_
   uint32_t triangle_slots_ = 0;
   float extent_m_;
-  std::vector<wt_exact_instance> records_;  // of the last frame, as are these
+  std::vector<wt_exact_instance> records_;  // those of the last frame, as the next ones
   std::vector<uint32_t> present_;
   std::vector<Box> boxes_;
-  std::vector<wt_float4> top_;  // the top-level tree and its instances: `moving` between its head and the models' trees
+  std::vector<wt_float4> top_;  // tree and instances: the part of `moving` between head and models' trees
 };
 
 // A scene in which instances move, and the pass that moves them.

@@ -1,6 +1,7 @@
 // Transmitters and receivers on the device: double4 records (position, instance), and receivers as float planes for the
-// conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays too: listeners.
-// Positions are recentred metres; the instance is that of the vehicle that carries the end, -1 where none does.
+// conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays, too: they are
+// called listeners. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1
+// without one.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -17,22 +18,22 @@ struct RadioEnds {
   gpu::Buffer<double> transmitters, receivers;  // four doubles each; listeners follow the transmitters
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
-  std::vector<uint16_t> link_words;             // what `links` has
+  std::vector<uint16_t> link_words;             // the words of `links`
   gpu::Buffer<uint32_t> linked;  // the same as lists: where the receivers of each transmitter begin and the last ones
                                  // end, then the receivers; GPUs alone
-  ReceiverGroups groups;         // CPUs alone
+  ReceiverGroups groups;         // CPUs only
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
-  std::vector<double> transmitter_words, receiver_words;  // what the buffers have
+  std::vector<double> transmitter_words, receiver_words;  // the words of the buffers
   std::vector<float> plane_words;
 };
 
-// Links as RadioEnds::links has them.
+// The links in the form of RadioEnds::links.
 inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector<Link>& links) {
   return link_bits(ends.transmitter_count, ends.receiver_capacity / 16, links,
                    [](uint32_t receiver) { return receiver; });
 }
 
-// Links as RadioEnds::linked has them.
+// The links in the form of RadioEnds::linked.
 inline std::vector<uint32_t> link_lists(uint32_t transmitter_count, const std::vector<uint16_t>& masks) {
   const size_t groups = transmitter_count > 0 ? masks.size() / transmitter_count : 0;
   std::vector<uint32_t> out(transmitter_count + 1);
@@ -46,7 +47,7 @@ inline std::vector<uint32_t> link_lists(uint32_t transmitter_count, const std::v
   return out;
 }
 
-// Positions and the instances that carry them, as wt_end_instance reads them.
+// Positions and the instances that carry them, in the form that wt_end_instance reads.
 inline std::vector<double> end_quadruples(const std::vector<EndState>& ends) {
   std::vector<double> out;
   for (const EndState& end : ends)
@@ -55,7 +56,7 @@ inline std::vector<double> end_quadruples(const std::vector<EndState>& ends) {
   return out;
 }
 
-// The ends of a frame in the buffers of the one before, where they are large enough.
+// Writes the ends of a frame to the buffers of the frame before, where they are large enough.
 inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& transmitters,
                            const std::vector<EndState>& receivers, const std::vector<Link>& links,
                            const std::vector<uint32_t>& listeners = {}) {

@@ -1,5 +1,5 @@
 // Host side of kernels/radix_sort.cl (groups) and kernels/radix_sort_cpu.cl (chunks), which have the same kernels.
-// Assumes the layout of temporary memory of kernels/lib/radix.clh.
+// Temporary memory has the layout of kernels/lib/radix.clh.
 #include "passes/radix_sort.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ template <class Key>
 size_t RadixSort<Key>::temporary_words(uint32_t n) const {
   const size_t lines = (size_t{n} + line_words - 1) / line_words * line_words;
   const size_t tiles = tuning_.moves_tiles ? ceil_divide(n, tuning_.tile) : 0;
-  // Not ceil(n / chunk): that may be more for fewer keys, and a buffer for n keys must do for them too.
+  // This is not ceil(n / chunk): that may be more for fewer keys, and a buffer for n keys must suffice for them, too.
   const size_t chunks = std::min(ceil_divide(n, tuning_.tile), tuning_.most_chunks);
   const size_t counts = (1 + chunks + tiles) << tuning_.digit_bits;
   return flag_words + counts + lines * (sizeof(Key) / 4 + (payload_ == Payload::none ? 0 : 1));

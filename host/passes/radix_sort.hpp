@@ -1,6 +1,6 @@
-// radix_sort: stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word per key or without.
-// Assumes one in-order queue: nothing is read back between the passes, and digits that are the same in all keys are
-// skipped on the device.
+// radix_sort: a stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word per key or without. It
+// needs one in-order queue: nothing is read back between the passes, and the device skips digits that are the same in
+// all keys.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace wavetracer {
 
-// Which kernels sort: groups (kernels/radix_sort.cl) are work-groups that rank tiles in local memory; chunks
-// (kernels/radix_sort_cpu.cl) are single work-items, each over a long run of keys; lines are chunks that gather keys
-// into lines before they write them, whatever n (chunks does so where n is large); device takes chunks on CPUs, groups
-// elsewhere. The result is the same.
+// The kernels that sort. groups (kernels/radix_sort.cl): work-groups that rank tiles in local memory. chunks
+// (kernels/radix_sort_cpu.cl): single work-items, each for a long run of keys. lines: chunks that always collect keys
+// in lines before they write them (chunks does so only for large n). device: chunks on CPUs, groups elsewhere. The
+// result is the same.
 enum class SortForm { device, groups, chunks, lines };
 
-// Least significant digit first: a pass counts the digits of every chunk of keys, makes offsets of the counts, and
-// moves keys and values between the caller's buffers and the temporary one.
+// It begins with the least significant digit: a pass counts the digits of every chunk of keys, turns counts into
+// offsets, and moves keys and values between the caller's buffers and the temporary one.
 template <class Key>
 class RadixSort {
   static_assert(sizeof(Key) == 4 || sizeof(Key) == 8);
@@ -32,8 +32,8 @@ class RadixSort {
   size_t temporary_words(uint32_t n) const;
 
   // Sorts keys[0 .. n - 1], and values with them, by bits first_bit .. end_bit - 1 of the keys; equal ones keep their
-  // order. What lies behind n stays. stage: the profiling sum that the time goes to. Throws std::invalid_argument if a
-  // buffer is too small or the bits are no range of the key's.
+  // order. Elements from n on stay. stage: the profiling sum that the time is added to. Throws std::invalid_argument if
+  // a buffer is too small or the bits are no range of the key's.
   void operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
                   unsigned first_bit = 0, unsigned end_bit = key_bits, Stage stage = Stage::sort);
   // The same for Payload::none; with any other it is a std::logic_error.

@@ -21,7 +21,7 @@ struct RayQueue {
 struct HitList {
   gpu::Buffer<float> planes;
   uint32_t capacity = 0;
-  gpu::Buffer<uint32_t> block_hits;  // hits of each block of rays; after scan, hits of all blocks before
+  gpu::Buffer<uint32_t> block_hits;  // hits of each block of rays; after the scan, hits of all blocks before it
   uint32_t block = 0;                // rays per block
 
   uint32_t blocks(uint32_t rays) const { return (rays + block - 1) / block; }

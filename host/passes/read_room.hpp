@@ -5,14 +5,14 @@
 
 namespace wavetracer {
 
-// Makes room for `count` records in both, and a quarter more, where the buffer is smaller than that. What they had is
-// lost then. name: of the records, for messages. Throws where the device has not enough memory.
+// Makes room for `count` records in both, and a quarter more, where the buffer is smaller than that. Their contents are
+// lost then. name: that of the records, for messages. Throws where the device has not enough memory.
 template <class T>
 void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& host, size_t count, const char* name) {
   if (count <= buffer.size()) return;
   const size_t larger = count + count / 4;
   host = context.host_memory(larger * sizeof(T), name);
-  buffer = context.buffer<T>(larger, {name, advice::links});  // last, as it says how much room there is
+  buffer = context.buffer<T>(larger, {name, advice::links});  // last, since its size is the room that there is
 }
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Host side of kernels/receive.cl.
-// One ray per work-item. A list that is too short is made longer, and the same rays run again.
+// A work-item takes one ray. If a list is too short, it is made longer, and the same rays run again.
 #include "passes/receive.hpp"
 
 #include "passes/advice.hpp"

@@ -1,5 +1,5 @@
-// receive: rays that pass receivers within a radius, the thesis' way of reception. The list grows until it holds them.
-// Assumes labelled queues (see label_rays).
+// receive: finds rays that pass receivers within a radius, the thesis' way of reception. The list grows until it holds
+// them. It needs labelled queues (see label_rays).
 #pragma once
 #include <vector>
 
@@ -13,17 +13,17 @@ namespace wavetracer {
 class Receive {
  public:
   Receive(gpu::Context& context, double radius_m);
-  // Forgets all receptions.
+  // Removes all receptions.
   void begin_batch();
-  // Adds those of rays that have lived through `depth` interactions.
+  // Adds the receptions of rays that have had `depth` interactions.
   void operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth);
-  // The same where a ray cache has answered rays: traced[i] is WT_NONE (as a bit pattern) for them, and answered[i] the
-  // one receiver that they pass, or WT_NONE, however far their own segment is from it.
+  // The same where a ray cache has answered rays: for them traced[i] is WT_NONE (as a bit pattern), and answered[i] is
+  // the one receiver that they pass, or WT_NONE, no matter how far their own segment is from it.
   void operator()(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
                   const gpu::Buffer<float>& traced, const gpu::Buffer<uint32_t>& answered);
-  // first[i] becomes the receiver whose sphere ray i enters first, or WT_NONE.
+  // Sets first[i] to the receiver whose sphere ray i enters first, or WT_NONE.
   void first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first);
-  // Receptions in no particular order.
+  // Returns the receptions in no particular order.
   std::vector<wt_reception> list() const;
 
  private:

@@ -63,7 +63,7 @@ void ReceiverGroups::set_places(gpu::Context& context) {
   place_of_.resize(at.size());
   for (size_t place = 0; place < at.size(); ++place) place_of_[at[place]] = static_cast<uint32_t>(place);
   constexpr size_t step = size_t{size} * together;
-  at.resize((at.size() + step - 1) / step * step, at.empty() ? 0 : at.back());  // no link names the rest
+  at.resize((at.size() + step - 1) / step * step, at.empty() ? 0 : at.back());  // no link names the added places
   capacity = static_cast<uint32_t>(at.size());
   std::vector<float> planes(3 * at.size()), box_planes(6 * at.size() / size);
   const size_t groups = at.size() / size;

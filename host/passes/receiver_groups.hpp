@@ -1,5 +1,5 @@
-// Receivers in groups of 16 that lie close together, each in its box: what a sequence surely does not reach is passed
-// over group by group (candidates on CPUs).
+// Receivers in groups of 16 that are close together, each in its box: receivers that a sequence surely does not reach
+// are skipped group by group (candidates on CPUs).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,27 +12,27 @@ namespace wavetracer {
 
 struct ReceiverGroups {
   static constexpr uint32_t size = 16;     // places of a group, one each for a receiver
-  static constexpr uint32_t together = 8;  // groups that are tested at a time: their number is a multiple of it
+  static constexpr uint32_t together = 8;  // groups that are tested at once; their number is a multiple of it
   gpu::Buffer<uint32_t> order;             // the receiver at each place
   gpu::Buffer<float> places;               // three planes: x, y and z, recentred metres
-  gpu::Buffer<float> boxes;                // six planes, of each group: the middle of its box, and half of its size
+  gpu::Buffer<float> boxes;                // six planes: for each group the middle of its box, and half of its size
   gpu::Buffer<uint16_t> links;             // bit b of word tx * groups + g: place 16 g + b
   uint32_t capacity = 0;                   // places
 
-  // receivers: in recentred metres, all of them finite. What has not changed since the last call is kept.
+  // receivers: in recentred metres, all of them finite. Data that has not changed since the last call is kept.
   void set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
            const std::vector<Link>& links);
 
  private:
-  std::vector<float> positions_;      // of the receivers, three each
-  std::vector<uint32_t> place_of_;    // of each receiver
-  std::vector<uint16_t> link_words_;  // what `links` has
+  std::vector<float> positions_;      // positions of the receivers, three values each
+  std::vector<uint32_t> place_of_;    // place of each receiver
+  std::vector<uint16_t> link_words_;  // the words of `links`
 
   bool moved(const std::vector<EndState>& receivers);
   void set_places(gpu::Context& context);
 };
 
-// Links, a bit each: bit b of word tx * groups + g for the receiver whose place_of is 16 g + b.
+// The links, a bit each: bit b of word tx * groups + g for the receiver whose place_of is 16 g + b.
 template <class PlaceOf>
 std::vector<uint16_t> link_bits(uint32_t transmitter_count, size_t groups, const std::vector<Link>& links,
                                 const PlaceOf& place_of) {
@@ -44,8 +44,8 @@ std::vector<uint16_t> link_bits(uint32_t transmitter_count, size_t groups, const
   return words;
 }
 
-// The numbers of points, three coordinates each, group by group: halved along the longest side of their box until 16
-// are left, so that all groups but the last one are full.
+// The numbers of points, which have three coordinates each, group by group: halved along the longest side of their box
+// until 16 are left, so that all groups except the last one are full.
 std::vector<uint32_t> grouped(const std::vector<float>& positions);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Host side of kernels/refine.cl.
-// One sample or slot per work-item.
+// A work-item takes one sample or slot.
 #include "passes/refine.hpp"
 
 namespace wavetracer {

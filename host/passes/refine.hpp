@@ -1,12 +1,12 @@
-// refine: which samples of a launch are worth four more each, and those four.
-// Sequences are counted over all levels of a launch, so what is met often stops being refined by itself.
+// refine: selects the samples of a launch that are worth four more each, and makes those four. Sequences are counted
+// over all levels of a launch, so those that are met often are soon not refined any more.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/sample_list.hpp"
 
 namespace wavetracer {
 
-// Sequences in which samples ended: those met by one sample alone, and all of them.
+// The number of sequences in which samples ended: those with a single sample, and all.
 struct MetSequences {
   uint32_t once = 0, all = 0;
 };
@@ -14,12 +14,13 @@ struct MetSequences {
 class Refine {
  public:
   explicit Refine(gpu::Context& context);
-  // hits[n] += the samples of the level that ended in sequence n.
+  // Adds to hits[n] the samples of the level that ended in sequence n.
   void count_ends(const SampleList& level, gpu::Buffer<uint32_t>& hits);
   MetSequences met(const gpu::Buffer<uint32_t>& hits);
-  // marks[i] = i where sample i is to be refined, because at most `rare` samples end as it does; WT_NONE elsewhere.
+  // Sets marks[i] to i where sample i is to be refined, because at most `rare` samples have the same end; WT_NONE
+  // elsewhere.
   void mark(const SampleList& level, const gpu::Buffer<uint32_t>& hits, uint32_t rare, gpu::Buffer<float>& marks);
-  // The cells of the listed samples, in four, as the first 4 * count samples of `next`.
+  // Writes the cells of the listed samples, each divided by four, as the first 4 * count samples of `next`.
   void split(const SampleList& level, const gpu::Buffer<uint32_t>& list, uint32_t count, SampleList& next);
 
  private:

@@ -1,5 +1,5 @@
-// The samples of one level of a refined launch: a cell of the sphere of directions and a launcher each, in the order of
-// the launchers, then along the curve of the cells; and where each sample ended.
+// The samples of one level of a refined launch: each is a cell of the sphere of directions and a launcher. They are in
+// the order of the launchers, then along the curve of the cells. The list also says where each sample ended.
 #pragma once
 #include <cstdint>
 
@@ -23,7 +23,7 @@ struct SampleList {
 inline SampleList make_sample_list(gpu::Context& context, uint64_t count) {
   if (count > 0xFFFFFE00u)
     throw RuntimeError("a launch of rays = \"auto\" has outgrown 2^32 rays in a level; lower trace.max_rays");
-  // Kernels read 16 at once.
+  // Kernels read 16 samples at once.
   const auto capacity = static_cast<uint32_t>((count + 255) / 256 * 256 + 256);
   return {context.buffer<uint32_t>(2 * size_t{capacity}, "samples"), context.buffer<uint32_t>(capacity, "ends"),
           capacity};

@@ -1,5 +1,5 @@
 // Host side of kernels/scan.cl.
-// The host waits for the total: it is the one number that the frame loop reads a depth.
+// The host waits for the total: it is the only number that the frame loop reads at each depth.
 #include "passes/scan.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
   if (count == 0) return;
   const uint64_t tile = 4 * uint64_t{form_.items};
   const uint64_t wanted = count <= form_.alone ? 1 : std::clamp(form_.chunks, 1u, most_chunks);
-  // A chunk of 2^32 counts and more, which one chunk alone can reach, ends with the counts.
+  // A chunk of 2^32 counts and more, which only a single chunk can have, ends with the counts.
   const uint64_t chunk = ((count + wanted - 1) / wanted + tile - 1) / tile * tile;
   const uint64_t groups = (count + chunk - 1) / chunk;
   const auto words = static_cast<uint32_t>(std::min(chunk, uint64_t{~0u}));

@@ -1,5 +1,5 @@
-// scan: exclusive prefix sums of block counts, in place, and their total.
-// One launch where few work-items suffice, else two: sums of chunks, then each chunk from the sum before it.
+// scan: exclusive prefix sums of block counts, in place, and their total. It is one launch where few work-items
+// suffice, else two: the sums of chunks, then each chunk from the sum before it.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/tuning.hpp"

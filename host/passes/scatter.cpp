@@ -1,5 +1,5 @@
 // Host side of kernels/scatter.cl.
-// Which receivers a surface may serve holds for all its tiles, so the rows are counted before any is written.
+// All tiles of a surface may serve the same receivers, so the rows are counted before any is written.
 #include "passes/scatter.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
       first_row_(context.buffer<uint32_t>(1024 + 1, {"rows of tiles", advice::tiles})),
       count_(context.buffer<uint32_t>(1, {"lit surfaces", advice::tiles})) {
   std::vector<double> centres;
-  std::vector<uint32_t> first_centre;  // of each part
+  std::vector<uint32_t> first_centre;  // first centre of each part
   for (uint32_t part = 0; part < tiles.part_count(); ++part) {
     first_centre.push_back(static_cast<uint32_t>(centres.size() / 3));
     for (const Tile& tile : tiles.tiles(part))

@@ -1,5 +1,5 @@
 // scatter: rows of paths transmitter - tile - receiver, for the tiles of surfaces that a transmitter's rays saw
-// directly. A list of its own, which occlusion and visible take on as they do that of solve.
+// directly. The rows are a list of their own, which occlusion and visible take like that of solve.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,23 +15,23 @@ namespace wavetracer {
 
 class Scatter {
  public:
-  // surface_count: of the world. max_depth: interactions that a row has room for, at least one.
+  // surface_count: that of the world. max_depth: interactions that a row has room for, at least one.
   Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface_count, uint32_t max_depth);
-  // nodes: of the trie, in any order; roots among them are passed over. Rows are in no particular order;
-  // wt_solved::node is that of the tile's surface, seen from the transmitter.
-  // Throws RuntimeError, naming trace.tile_m, where the rows outgrow the buffers of the device.
+  // nodes: those of the trie, in any order; roots among them are skipped. Rows are in no particular order;
+  // wt_solved::node is that of the tile's surface, seen from the transmitter. Throws RuntimeError, naming trace.tile_m,
+  // where the rows outgrow the buffers of the device.
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                          Counters& counters);
 
-  // In the world, of each tile.
+  // The surface in the world of each tile.
   const gpu::Buffer<uint32_t>& surface_of_tile() const { return surface_of_tile_; }
 
  private:
-  // Fills entries_, all of them; their number.
+  // Fills entries_ with all entries, and returns their number.
   uint32_t find_lit(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                     const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
-  // Where the rows of each entry begin, and their number after the last; room for them all in the list.
+  // Returns the first row of each entry, and the number of rows after the last; the list gets room for all of them.
   std::vector<uint32_t> place_rows(uint32_t entry_count);
 
   gpu::Context& context_;

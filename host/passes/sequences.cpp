@@ -33,7 +33,7 @@ void Sequences::resize(uint64_t slots) {
     ages_ = context_.buffer<uint32_t>(slots, "ages of sequences");
     context_.fill(ages_, 0, Stage::sequences);
   }
-  table_ = context_.buffer<uint64_t>(slots, "sequences");  // last, as it says how many slots there are
+  table_ = context_.buffer<uint64_t>(slots, "sequences");  // last, since its size is the number of slots
   clear();
 }
 
@@ -48,7 +48,7 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
   const gpu::Buffer<uint32_t> old_quarters = quarters_, old_ages = ages_;
   gpu::Buffer<uint32_t> moved = context_.buffer<uint32_t>(old_table.size(), "moved sequences");
   for (;; slots *= 4) {
-    // Checked at every step: a slot must leave the bits of WT_ROOT and of a ray's quarter free.
+    // This is checked at every step: a slot must leave the bits of WT_ROOT and of a ray's quarter free.
     if (slots > uint64_t{1} << WT_QUARTER_SHIFT)
       throw RuntimeError("the set of distinct sequences has outgrown 2^29 slots; lower trace.rays or trace.max_depth");
     resize(slots);
@@ -85,8 +85,8 @@ uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t no
     const uint32_t added = counters_.length(&wt_counters::exchanged, room, Stage::sequences);
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
-    // Again with the same nodes: exchanges of what was just entered would make the set depend on when its table was
-    // full.
+    // This runs again with the same nodes: exchanges of sequences that were just entered would make the set depend on
+    // when its table was full.
     regrow(max_depth, node_count);
     counters_.restart_nodes(node_count, Stage::sequences);
   }

@@ -1,5 +1,5 @@
 // sequences: the set of distinct sequences of all transmitters, as a trie on the device; it grows when it is full.
-// A node's id is its slot, so ids change when the table grows: nothing but nodes() may hold one across regrow().
+// A node's id is its slot, so ids change when the table grows: only nodes() may hold one across regrow().
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/counters.hpp"
@@ -12,47 +12,48 @@ namespace wavetracer {
 
 class Sequences {
  public:
-  // keep_ages: sequences live on from frame to frame, and their ages say which are still met.
+  // keep_ages: sequences stay from frame to frame, and their ages say which are still met.
   Sequences(gpu::Context& context, uint64_t slots, bool keep_ages = false);
   // Empties the set and the counters.
   void clear();
-  // For passes that enter sequences.
+  // The set for passes that enter sequences.
   Trie trie() { return {table_, quarters_, counters_, ages(), now()}; }
   gpu::Buffer<uint64_t>& table() { return table_; }
-  // Of the slots: which quarters of the launches found them, see wt_found_by in kernels/lib/trie.clh. They live as long
-  // as the sequence.
+  // For each slot the quarters of the launches that found it, see wt_found_by in kernels/lib/trie.clh. They last as
+  // long as the sequence.
   gpu::Buffer<uint32_t>& quarters() { return quarters_; }
   Counters& counters() { return counters_; }
-  // Of the slots: twice the last frame, counted by begin_frame, in which a ray, an exchange or a path was there, and
-  // one more if a ray was. One element if not kept.
-  gpu::Buffer<uint32_t>* ages() { return keep_ages_ ? &ages_ : nullptr; }  // null: none are kept
+  // For each slot twice the last frame, counted by begin_frame, in which a ray, an exchange or a path met it, plus one
+  // if a ray did. There is one element if ages are not kept.
+  gpu::Buffer<uint32_t>* ages() { return keep_ages_ ? &ages_ : nullptr; }  // null: ages are not kept
   uint32_t frame() const { return frame_; }
-  // The age of what rays meet in this frame.
+  // The age of sequences that rays meet in this frame.
   uint32_t now() const { return 2 * frame_ + 1; }
-  // The next frame: what is entered from now on is younger than anything before.
+  // Begins the next frame: sequences entered from now on are younger than all before.
   void begin_frame() { ++frame_; }
-  // The visible paths' sequences get the age of this frame.
+  // Gives the visible paths' sequences the age of this frame.
   void keep(const SolvedList& solved);
   // Drops the sequences that no ray and no path has met for `frames` frames.
   void forget(uint32_t frames, uint32_t max_depth);
   // Did an insertion fail since the last clear() or regrow()?
   bool overflowed() const { return counters_.read(Stage::sequences).trie_overflow != 0; }
   // Moves every node of at most max_depth surfaces to a table four times as large. The first listed_count entries of
-  // nodes() go on to name the nodes that they named.
+  // nodes() still name the same nodes.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);
   // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it
-  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before, whose node_count it
-  // takes. Returns the length of nodes(), which has the new ones too, or a bound of it.
+  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before; it gives node_count.
+  // Returns the length of nodes(), new ones included, or a bound of it.
   uint32_t commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth);
-  // The roots of the transmitters, then every node. Returns the length of nodes(), or a bound of it.
+  // Lists the roots of the transmitters, then every node. Returns the length of nodes(), or a bound of it.
   uint32_t collect(uint32_t transmitter_count);
   const gpu::Buffer<uint32_t>& nodes() const { return nodes_; }
 
  private:
   void resize(uint64_t slots);
-  // At the head of nodes_, where they are not there yet.
+  // Writes them at the head of nodes_, where they are not there yet.
   void write_roots(uint32_t transmitter_count);
-  // A table of so many slots, or more, without the nodes older than `oldest`; where each old slot's node went.
+  // Makes a table of this many slots, or more, without the nodes older than `oldest`; returns the new slot of each old
+  // one's node.
   gpu::Buffer<uint32_t> rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest);
 
   gpu::Context& context_;

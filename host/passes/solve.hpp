@@ -12,7 +12,7 @@ namespace wavetracer {
 
 class Solve {
  public:
-  // remembers: paths that are hidden by what hid them before are not listed, but counted.
+  // remembers: paths that the same triangle hides as before are not listed, but counted.
   Solve(gpu::Context& context, uint32_t max_depth, bool remembers = false);
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,

@@ -1,5 +1,5 @@
-// Solved candidates on the device: what solve produces, occlusion marks and visible selects.
-// Layout: wt_solved in wavetracer/device/records.h.
+// Solved candidates on the device: solve produces them, occlusion marks them, and visible selects from them. The layout
+// is wt_solved in wavetracer/device/records.h.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/advice.hpp"
@@ -12,13 +12,13 @@ struct SolvedList {
   gpu::Buffer<double> vertices;
   gpu::Buffer<uint32_t> sequences;
   uint32_t count = 0, max_depth = 0;
-  uint32_t deepest = UINT32_MAX;  // no path has more interactions than this, which may be less than there is room for
-  // The word of wt_counters that has the length, where `count` may be a bound of it (counters.hpp); WT_NONE: it is
+  uint32_t deepest = UINT32_MAX;  // the most interactions of a path, which may be fewer than there is room for
+  // The word of wt_counters that has the length, where `count` may be a bound of it (counters.hpp); WT_NONE: `count` is
   // exact.
   uint32_t counter = WT_NONE;
 
-  // Room for so many rows of max_depth; what was there is lost. The headers, whose size says how much room there is,
-  // come last: where there is no memory for a buffer, the list goes on with the room that it had.
+  // Makes room for this many rows of max_depth; old rows are lost. The headers, whose size is the room that there is,
+  // come last: if there is no memory for a buffer, the list keeps the room that it had.
   void reserve(gpu::Context& context, size_t rows) {
     vertices = context.buffer<double>(3 * rows * max_depth, {"path vertices", advice::links});
     sequences = context.buffer<uint32_t>(rows * max_depth, {"path surfaces", advice::links});

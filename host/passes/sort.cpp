@@ -1,5 +1,5 @@
-// Where the sorts cross: one block of the bitonic one (passes/tuning.hpp).
-// One launch there, and no temporary memory.
+// The sorts cross at one block of the bitonic one (passes/tuning.hpp), which is one launch and needs no temporary
+// memory.
 #include "passes/sort.hpp"
 
 #include <algorithm>

@@ -9,16 +9,15 @@ namespace wavetracer {
 class Sort {
  public:
   explicit Sort(gpu::Context& context);
-  // Makes its temporary memory large enough for up to n keys; the sorts do so by themselves where it is not.
+  // Makes its temporary memory large enough for up to n keys; the sorts do so by themselves if it is not.
   void reserve(uint32_t n);
-  // stage: the profiling sum that the time goes to.
-  // Sorts keys[0 .. n - 1] by their lowest `bits` bits, above which they must be zero; order[i] becomes the place that
-  // the i-th had. Buffers may be longer than n.
+  // stage: the profiling sum that the time is added to. Sorts keys[0 .. n - 1] by their lowest `bits` bits; higher bits
+  // must be zero. order[i] becomes the place that the i-th key had. Buffers may be longer than n.
   void operator()(gpu::Buffer<uint32_t>& keys, gpu::Buffer<uint32_t>& order, uint32_t n, unsigned bits,
                   Stage stage = Stage::sort);
 
  private:
-  size_t words(uint32_t n) const;  // of temporary memory for up to n keys
+  size_t words(uint32_t n) const;  // words of temporary memory for up to n keys
 
   gpu::Context& context_;
   BitonicSort<uint32_t> bitonic_;

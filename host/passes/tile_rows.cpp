@@ -1,4 +1,4 @@
-// A list grows by a quarter more than is asked for, as far as the device allows.
+// A list grows to a quarter more than is asked for, as far as the device allows.
 #include "passes/tile_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How many paths by tiles or cells a device can hold.
+// The number of paths by tiles or cells that a device can hold.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,8 @@
 
 namespace wavetracer {
 
-// Room for so many rows, which are returned. Throws RuntimeError, naming trace.tile_m, for more than buffers hold.
+// Makes room for this many rows, and returns their number. Throws RuntimeError, naming trace.tile_m, for more than
+// buffers hold.
 uint32_t reserve_tile_rows(gpu::Context& context, SolvedList& list, uint64_t rows);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Host side of kernels/top_level.cl.
-// Four launches beside those of the sort, whatever the number of instances.
+// It makes four launches beside those of the sort, for any number of instances.
 #include "passes/top_level.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // top_level: the top-level tree over the instances of a frame, built on the device from their records there.
-// The host gives it their number and no more, and nothing is read back. Between its two halves keys are sorted.
+// The host only gives it their number, and nothing is read back. Keys are sorted between its two halves.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace wavetracer {
 
-// Keys to sort, and the permutation that sorts them, for the second half.
+// The keys to sort, and the permutation that sorts them, for the second half.
 struct InstanceOrder {
-  static constexpr unsigned key_level = 15;                // bits a coordinate
-  static constexpr unsigned key_bits = 2 * key_level + 1;  // one more for those that are absent
+  static constexpr unsigned key_level = 15;                // bits of a coordinate
+  static constexpr unsigned key_bits = 2 * key_level + 1;  // one more for absent instances
   gpu::Buffer<uint32_t> keys, order;
   uint32_t count;
 };
@@ -21,9 +21,9 @@ class TopLevelTree {
  public:
   // bodies: those of Place.
   TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bodies);
-  // A key an instance, those of absent ones last. Assumes that Place has moved the instances.
+  // Makes a key for each instance; those of absent ones are last. Place must have moved the instances.
   InstanceOrder& keys(const DeviceScene& scene);
-  // Writes tree and records of the first `present` instances of the sorted order, which are all that are present.
+  // Writes tree and records of the first `present` instances of the sorted order; no others are present.
   void operator()(DeviceScene& scene, uint32_t present);
 
  private:
@@ -31,7 +31,7 @@ class TopLevelTree {
   gpu::Kernel instance_keys_, leaves_, inner_boxes_, top_nodes_;
   gpu::Buffer<wt_body> bodies_;
   InstanceOrder instances_;
-  gpu::Buffer<float> boxes_, tree_;  // of instances, of nodes and leaves; eight floats each
+  gpu::Buffer<float> boxes_, tree_;  // those of instances; those of nodes and leaves; eight floats each
 };
 
 }  // namespace wavetracer

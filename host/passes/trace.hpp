@@ -1,5 +1,5 @@
 // trace: nearest hits of a queue of rays, and the hits of every block of rays; in launches of any shape.
-// Equal distances go to the lower primitive, so shapes, devices and trees all give the same hits.
+// At equal distances the lower primitive counts, so shapes, devices and trees all give the same hits.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/launch_shape.hpp"
@@ -9,12 +9,12 @@ namespace wavetracer {
 
 class Trace {
  public:
-  // What is traced: all there is, or the static scene alone (see trace_moving).
+  // The traced part: everything, or only the static scene (see trace_moving).
   enum class Scope { all, fixed };
 
   Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch = {},
         Scope scope = Scope::all);
-  // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does.
+  // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does it.
   bool counts_blocks() const { return counts_blocks_; }
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
 

@@ -1,5 +1,5 @@
-// trace_moving: hits of the static scene are replaced by those of instances that come before them.
-// Assumes a scene with instances (passes/place.hpp), and hits by a Trace of Scope::fixed.
+// trace_moving: replaces hits of the static scene by those of instances that come before them. It needs a scene with
+// instances (passes/place.hpp), and hits by a Trace of Scope::fixed.
 #pragma once
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"

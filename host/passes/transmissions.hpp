@@ -1,5 +1,5 @@
-// transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path.
-// Takes the place of occlusion: marks paths that pass more surfaces than they may, or one that nothing passes.
+// transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path. It
+// replaces occlusion: it marks paths that pass more surfaces than they may, or an opaque one.
 #pragma once
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
@@ -12,8 +12,8 @@ namespace wavetracer {
 
 class Transmissions {
  public:
-  // most: transmissions of a path. deepest: interactions of all kinds of a path with transmissions, or as many as a row
-  // of the list has room for, if these are fewer.
+  // most: the most transmissions of a path. deepest: the most interactions of all kinds of a path with transmissions;
+  // it is limited by the room in a row of the list.
   Transmissions(gpu::Context& context, const DeviceScene& scene, uint32_t most, uint32_t deepest = UINT32_MAX);
   void operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                   const StepTables& steps = {});

@@ -1,7 +1,7 @@
-// One table of how kernels are launched: every choice between CPUs and GPUs that changes time and no result.
-// A figure says where it was measured; rows without one were chosen by reasoning and not measured. bench_kernels,
-// bench_sort, bench_trace and bench_cache print what a changed row does. Passes of which a work-item does little for
-// one element, on every device, need no row: their groups are DeviceInfo::simple_local_size().
+// One table that says how kernels are launched: every choice between CPUs and GPUs that changes time and no result. A
+// comment with figures says where they were measured; rows without one were chosen by reasoning and not measured.
+// bench_kernels, bench_sort, bench_trace and bench_cache show the effect of a changed row. Passes whose work-items do
+// little for one element, on every device, need no row: their groups are DeviceInfo::simple_local_size().
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -12,49 +12,49 @@
 
 namespace wavetracer {
 
-// How the elements of a launch (rays, words, rows) are shared out.
+// The division of a launch's elements (rays, words, rows) among work-items.
 struct Work {
   uint32_t per_item = 1;  // elements that a work-item takes one after the other
   uint32_t group = 1;     // work-items per group
 
-  // Work-items for so many elements; the last one may have fewer.
+  // The work-items for this many elements; the last one may have fewer.
   gpu::Range range(size_t elements) const { return {(elements + per_item - 1) / per_item, group}; }
   // The same where the work-items of a group take per_item elements together.
   gpu::Range groups(size_t elements) const { return {(elements + per_item - 1) / per_item * group, group}; }
-  // per_item as a kernel's build option.
+  // per_item in the form of a kernel's build option.
   std::string option() const { return std::to_string(per_item) + "u"; }
 };
 
-// How prefix sums are made: `items` work-items per chunk (a power of two); one chunk where there are at most `alone`
-// counts, else about `chunks` of them, ScanTuning::most_chunks at most.
+// The way prefix sums are made: `items` work-items per chunk (a power of two); one chunk for at most `alone` counts,
+// else about `chunks` of them, at most ScanTuning::most_chunks.
 struct ScanTuning {
   static constexpr uint32_t most_chunks = 1024;
   uint32_t items, alone, chunks;
 };
 
-// How bitonic_sort is launched.
+// The launches of bitonic_sort.
 struct BitonicTuning {
-  uint32_t items;       // work-items per block of keys, at most
+  uint32_t items;       // the most work-items per block of keys
   uint32_t step_group;  // work-items per group of the steps over all keys
 };
 
-// How a form of radix_sort is launched.
+// The launches of a form of radix_sort.
 struct RadixTuning {
-  uint32_t digit_bits;                   // of the widest digit
-  uint32_t items;                        // per group
-  uint32_t offset_items, offset_groups;  // of the kernel that makes offsets of the counts
+  uint32_t digit_bits;                   // bits of the widest digit
+  uint32_t items;                        // items per group
+  uint32_t offset_items, offset_groups;  // those of the kernel that turns counts into offsets
   uint32_t tile;                         // a chunk is a multiple of this many keys
   uint32_t most_chunks;
   bool moves_tiles;       // a group moves one tile, not a chunk, and each tile has counts in temporary memory
-  uint32_t columns;       // of a tile (groups alone)
-  uint64_t direct_bytes;  // keys and values of up to so many bytes are written without lines (chunks alone)
+  uint32_t columns;       // columns of a tile (groups only)
+  uint64_t direct_bytes;  // up to this many bytes of keys and values are written without lines (chunks only)
 };
 
 struct Tuning {
-  bool alone;  // work-items take runs of elements by themselves (CPUs), or groups take blocks together
+  bool alone;  // work-items take runs of elements by themselves (CPUs); else groups take blocks together
 
   uint32_t block;            // rays per block: the unit in which hits are counted and rays are compacted
-  uint32_t blocks_per_item;  // where work-items are alone: blocks that interact and compact take in turn
+  uint32_t blocks_per_item;  // blocks that an item of interact and compact takes in turn, if alone
   Work blocks;               // interact and compact: elements are the rays or words
 
   Work generate_rays, order_keys, label_rays, gather_rays;
@@ -63,7 +63,7 @@ struct Tuning {
   Work cache_rays, cache_entries;  // cache_lookup and cache_store; cache_purge
   Work receive;
 
-  Work slots;  // collect: of the table of sequences
+  Work slots;  // collect: slots of the table of sequences
   Work sequences;
   uint32_t busy_nodes;  // commute: nodes that keep the device busy
   Work candidates, exact, prefixes;
@@ -71,20 +71,20 @@ struct Tuning {
   uint32_t pairs_group;             // wedge_pairs
   Work tiles;                       // rows of scatter
 
-  // Work-items per node that commute takes: each exchange waits for memory some times in a row.
+  // The work-items per node that commute takes: each exchange waits for memory several times in a row.
   uint32_t exchange_lanes(uint32_t nodes) const { return nodes < busy_nodes ? 4 : 1; }
 
   ScanTuning scan;
   BitonicTuning bitonic;
-  uint32_t top_level_items;  // of the one group that makes the inner boxes of the top-level tree
-  uint64_t batch_rays;       // rays in flight, where the configuration and memory leave the choice
+  uint32_t top_level_items;  // those of the one group that makes the inner boxes of the top-level tree
+  uint64_t batch_rays;       // rays in flight, where configuration and memory allow it
 };
 
 inline Tuning tuning_of(const gpu::DeviceInfo& device) {
   const bool cpu = device.cpu;
-  const uint32_t small = device.simple_local_size();  // its figure stands there
+  const uint32_t small = device.simple_local_size();  // DeviceInfo has its figure
   const uint32_t block = cpu ? 16 : 128;              // 16: the lanes of a packet; 128: not measured
-  // As many blocks as make a work-item of a CPU worth its start; not measured.
+  // This makes the work of a CPU's work-item worth its start; not measured.
   const uint32_t blocks_per_item = 64;
   const auto widest = static_cast<uint32_t>(std::bit_floor(device.max_work_group));
   return {
@@ -92,16 +92,16 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .block = block,
       .blocks_per_item = blocks_per_item,
       .blocks = cpu ? Work{block * blocks_per_item, 4} : Work{1, block},
-      // Kernels in vectors of 16 lanes on CPUs: per_item is that number, and cannot be another one.
+      // Kernels in vectors of 16 lanes on CPUs need exactly this per_item.
       .generate_rays = {cpu ? 16u : 1u, small},
       .order_keys = {cpu ? 16u : 1u, small},
-      // A page of 4 KiB of each plane; not measured.
+      // This is a page of 4 KiB of each plane; not measured.
       .label_rays = cpu ? Work{1024, 1} : Work{1, small},
       .gather_rays = cpu ? Work{1024, 1} : Work{1, small},
       .trace_group = 16,
       .trace_moving = cpu ? Work{16, 16} : Work{1, 128},
       .bounces = {1, cpu ? 64u : 128u},
-      // CPUs: sixteen searches of a run are begun together (lib/prefetch.clh). The length of a run was not measured.
+      // CPUs: sixteen searches of a run begin together (lib/prefetch.clh). The length of a run was not measured.
       .cache_rays = cpu ? Work{256, 1} : Work{1, small},
       .cache_entries = {16, small},
       .receive = {1, cpu ? 64u : 128u},
@@ -109,8 +109,8 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .sequences = {1, 64},
       .busy_nodes = cpu ? 0u : 1u << 16,  // not measured
       .candidates = {1, cpu ? 64u : 128u},
-      // Kernels in double with long private arrays, whose neighbours take very different times: small groups. GPUs: an
-      // H200 takes 0.41 ms for the legs of 132,000 solved paths in groups of 16, 0.31 in groups of 32 to 128
+      // Kernels in double with long private arrays, whose neighbours take very different times, have small groups.
+      // GPUs: an H200 takes 0.41 ms for the legs of 132,000 solved paths in groups of 16, 0.31 in groups of 32 to 128
       // (bench_drive, 100 vehicles, depth 3, 2026-11-24).
       .exact = {1, cpu ? 16u : 32u},
       .prefixes = {1, 64},  // the ground bounds many wedges and a wall few
@@ -120,22 +120,22 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // 32, for 600,000 prefixes (munich, 1 x 100, `run --repeat 60`, 2026-11-25). Pairs take long, and are few.
       .join_group = cpu ? 32u : 256u,
       .pairs_group = 32,
-      // A search for the entry serves many rows where there are few cores.
+      // One search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},
       // CPUs: one launch reads once, two read twice. Two free cores gain 1.07 at 2^18 counts, 1.3 at 2^20 and 2^22,
-      // 1.15 at 2^24 (PoCL, medians of 80); where another program keeps one of them busy two launches take 1.2 to 1.4
-      // times as long. So above 2^19. GPUs: not measured.
+      // 1.15 at 2^24 (PoCL, medians of 80); if another program keeps one of them busy, two launches take 1.2 to 1.4
+      // times as long. So two launches are used above 2^19. GPUs: not measured.
       .scan = cpu ? ScanTuning{1, 1u << 19, 4 * device.compute_units}
                   : ScanTuning{std::min(256u, widest), 4096, ScanTuning::most_chunks},
       .bitonic = {.items = std::min(1024u, widest), .step_group = 256},
       .top_level_items = std::min(1024u, widest),
-      // What fills the device, and what its caches like where there are few cores; not measured.
+      // This many rays fill the device; with few cores they also suit its caches. Not measured.
       .batch_rays = uint64_t{1} << (cpu ? 18 : 25),
   };
 }
 
-// Radix sort by groups. Tile and columns: what 48 KiB of local memory hold, the fastest of some twenty on an H200
-// (25 G pairs/s at 2^26 instead of 17, bench_sort); or 32 KiB.
+// Radix sort by groups. Tile and columns fill 48 KiB of local memory, and are the fastest of some twenty choices on an
+// H200 (25 G pairs/s at 2^26 instead of 17, bench_sort); or they fill 32 KiB.
 inline RadixTuning radix_groups(const gpu::DeviceInfo& device) {
   const bool large = device.local_memory >= 48 << 10;
   const uint32_t columns = large ? 72 : 32;
@@ -150,9 +150,9 @@ inline RadixTuning radix_groups(const gpu::DeviceInfo& device) {
           .direct_bytes = 0};
 }
 
-// Radix sort by single work-items. Eight chunks per core, because PoCL hands the first thread that comes half of all
-// groups (and one) at once, the next half of the rest: the last ones level that out. Keys and values of 16 MiB still
-// fit into the caches with the copy that they are moved to (measured with 32 MiB of third-level cache).
+// Radix sort by single work-items. There are eight chunks per core, because PoCL hands the first thread that comes half
+// of all groups (and one) at once, the next half of the rest; the last chunks even that out. Keys and values of 16 MiB
+// still fit into the caches with the copy that they are moved to (measured with 32 MiB of third-level cache).
 inline RadixTuning radix_chunks(const gpu::DeviceInfo& device) {
   return {.digit_bits = 8,
           .items = 1,
@@ -165,12 +165,13 @@ inline RadixTuning radix_chunks(const gpu::DeviceInfo& device) {
           .direct_bytes = uint64_t{16} << 20};
 }
 
-// A sort of at most one block of bitonic_sort is one launch there; above it radix_sort is faster: GPUs win more by
+// A sort of at most one block of bitonic_sort is one launch there; above it radix_sort is faster. GPUs gain more by
 // fewer launches than they lose by more work, CPUs sort a block in vectors (bench_sort prints both at sizes around it).
 constexpr uint32_t largest_bitonic_block = 8192;
 
-// Instances from which a GPU builds the top-level tree faster than the host: an H200 places 100, 400 and 10,000 in
-// 0.058, 0.065 and 0.31 ms with a tree of its own, and in 0.066, 0.20 and 4 to 6 ms with one by the host (bench_drive).
+// From this number of instances on a GPU builds the top-level tree faster than the host: an H200 places 100, 400 and
+// 10,000 in 0.058, 0.065 and 0.31 ms with a tree of its own, and in 0.066, 0.20 and 4 to 6 ms with one by the host
+// (bench_drive).
 constexpr size_t device_tree_instances = 100;
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Tables of a frame to buffers that later frames use again.
+// Uploads tables of a frame to buffers that later frames use again.
 #pragma once
 #include <cstring>
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// Values to a buffer, which is made anew where it is too small for them.
+// Copies values to a buffer, which is made anew if it is too small for them.
 template <class T>
 void upload(gpu::Context& context, gpu::Buffer<T>& buffer, const std::vector<T>& values, const char* name) {
   if (buffer && values.size() <= buffer.size())
@@ -17,8 +17,8 @@ void upload(gpu::Context& context, gpu::Buffer<T>& buffer, const std::vector<T>&
     buffer = context.buffer(values, name);
 }
 
-// The same of tables that most frames leave as they are: a write that changes nothing still takes microseconds of a
-// frame. last: what the buffer has, compared byte by byte.
+// The same for tables that most frames do not change: a write that changes nothing still takes microseconds of a frame.
+// last: the contents of the buffer, compared byte by byte.
 template <class T>
 void upload_changed(gpu::Context& context, gpu::Buffer<T>& buffer, std::vector<T>& last, std::vector<T> values,
                     const char* name) {

@@ -1,5 +1,5 @@
 // Host side of kernels/vegetation.cl.
-// One path per work-item; a tree over the boxes of volumes, which never move.
+// A work-item takes one path; the tree is over the boxes of volumes, which never move.
 #include "passes/vegetation.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace wavetracer {
 namespace {
 
-// In float32 and, by rounding outwards, around the volume.
+// The box around a volume in float32, rounded outwards.
 Box box_of(const device::wt_volume& volume) {
   const double across[2] = {
       std::abs(volume.cosine) * volume.half_size[0] + std::abs(volume.sine) * volume.half_size[1],

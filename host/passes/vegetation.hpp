@@ -1,5 +1,5 @@
-// vegetation: how far visible paths go inside of each kind of vegetation of the scene.
-// Made where a scene has any. Rays and exact paths know nothing of it: leaves turn and stop no wave.
+// vegetation: the lengths of visible paths inside of each kind of vegetation of the scene. It is made where a scene has
+// any. Rays and exact paths do not depend on it: leaves neither turn nor stop a wave.
 #pragma once
 #include "passes/counters.hpp"
 #include "passes/radio_ends.hpp"
@@ -13,7 +13,7 @@ namespace wavetracer {
 class Vegetation {
  public:
   Vegetation(gpu::Context& context, const VolumeTable& table);
-  // Metres, kind by kind of one path after the other.
+  // Returns metres, kind by kind for one path after the other.
   const gpu::Buffer<double>& operator()(const RadioEnds& ends, const SolvedList& visible, Counters& counters);
 
  private:
@@ -22,7 +22,7 @@ class Vegetation {
   Work work_;
   uint32_t kinds_;
   gpu::Buffer<wt_bvh2_node> nodes_;
-  gpu::Buffer<device::wt_volume> volumes_;  // in the order of leaves
+  gpu::Buffer<device::wt_volume> volumes_;  // in the order of leaves of the tree
   gpu::Buffer<double> triangles_, lengths_;
   gpu::Buffer<uint32_t> earlier_;
 };

@@ -1,5 +1,5 @@
 // Host side of kernels/visible.cl.
-// One solved path a work-item.
+// A work-item takes one solved path.
 #include "passes/visible.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// visible: the solved paths that occlusion has left, as a list of their own, a fraction of what was solved: those of
+// visible: the solved paths that occlusion has left, as a list of their own, a fraction of all solved paths: those of
 // all kinds, one after the other. The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
@@ -10,9 +10,9 @@ namespace wavetracer {
 class Visible {
  public:
   Visible(gpu::Context& context, uint32_t max_depth);
-  // The list begins with nothing, as its counter does.
+  // Empties the list; its counter is zero, too.
   void clear() { visible_.count = 0; }
-  // Appends those of `solved`.
+  // Appends the visible paths of `solved`.
   void operator()(const SolvedList& solved, Counters& counters);
   SolvedList& list() { return visible_; }
 

@@ -33,7 +33,7 @@ std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
   if (samples_.size() < samples.size()) {
     const size_t room = samples.size() + samples.size() / 4;
     rows_ = context_.buffer<wt_waypoint>(room * stride_, "waypoints of samples");
-    samples_ = context_.buffer<uint32_t>(room, "samples");  // last, as it says how much room there is
+    samples_ = context_.buffer<uint32_t>(room, "samples");  // last, since its size is the room that there is
   }
   std::vector<uint32_t> slots = samples;
   for (uint32_t& slot : slots) slot -= first_sample_;

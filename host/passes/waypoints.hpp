@@ -1,5 +1,5 @@
-// waypoints: where rays start and end, segment by segment, a row per sample.
-// Assumes labelled queues (see label_rays), and every depth of a batch passed once, in order.
+// waypoints: the places where rays start and end, segment by segment, one row per sample. It needs labelled queues (see
+// label_rays), and every depth of a batch must pass once, in order.
 #pragma once
 #include <vector>
 
@@ -11,18 +11,18 @@ namespace wavetracer {
 class Waypoints {
  public:
   Waypoints(gpu::Context& context, uint32_t max_depth);
-  // Room for batches of so many samples.
+  // Makes room for batches of this many samples.
   void reserve(uint64_t samples);
-  // Rows for the samples first_sample .. first_sample + count - 1. What was there is lost.
+  // Makes rows for the samples first_sample .. first_sample + count - 1. Old rows are lost.
   void begin_batch(uint32_t first_sample, uint32_t count);
-  // The segments of rays that have lived through `depth` interactions. Where segments after the last interaction end is
-  // not kept. traced: of each ray WT_NONE where a ray cache answered it; null without a cache.
+  // Adds the segments of rays that have had `depth` interactions. The ends of segments after the last interaction are
+  // not kept. traced: for each ray WT_NONE where a ray cache answered it; null without a cache.
   void operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
                   const gpu::Buffer<float>* traced = nullptr);
-  // The rows of these samples, stride() waypoints each. What follows on a miss is undefined.
+  // Returns the rows of these samples, stride() waypoints each. Waypoints after a miss are undefined.
   std::vector<wt_waypoint> rows(const std::vector<uint32_t>& samples);
   uint32_t stride() const { return stride_; }
-  // Device memory that a sample takes.
+  // Device memory of a sample.
   static uint64_t bytes_a_sample(uint32_t max_depth) { return (uint64_t{max_depth} + 1) * sizeof(wt_waypoint); }
 
  private:

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_chains.cl.
-// WT_STRINGS work-items for a pair of a transmitter and a receiver, whether it is a link or not.
+// WT_STRINGS work-items take a pair of a transmitter and a receiver, also if it is no link.
 #include "passes/wedge_chains.hpp"
 
 #include "passes/growing_list.hpp"

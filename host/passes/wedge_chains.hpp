@@ -1,5 +1,5 @@
 // wedge_chains: paths over several edges, a few of each link: the chains of edges that strings between its ends touch
-// when they are pulled tight over the roofs. The list grows until it holds them; one path may be in it several times.
+// when they are pulled tight over the roofs. The list grows until it holds them; a path may be in it several times.
 #pragma once
 #include <vector>
 
@@ -15,9 +15,9 @@ namespace wavetracer {
 
 class WedgeChains {
  public:
-  // grid: over the edges of the same world as the lists of wedges. most_edges: of a path, at most WT_MOST_EDGES.
-  // max_depth: interactions that a row has room for, at least most_edges. wavelength_m: the longest; edges under a
-  // string are taken as far as its Fresnel zone goes.
+  // grid: over the edges of the same world as the lists of wedges. most_edges: the most of a path, at most
+  // WT_MOST_EDGES. max_depth: interactions that a row has room for, at least most_edges. wavelength_m: the longest;
+  // edges under a string count within its Fresnel zone.
   WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t most_edges, uint32_t max_depth,
               double wavelength_m);
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends, Counters& counters);

@@ -1,4 +1,4 @@
-// Edges are listed twice over: counted, then entered.
+// Edges are visited twice: first counted, then entered.
 #include "passes/wedge_grid.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr double whole_turn_rad = 2 * std::numbers::pi - 1e-6;  // half planes are this wide
+constexpr double whole_turn_rad = 2 * std::numbers::pi - 1e-6;  // half planes have at least this angle
 constexpr double most_cells = 1 << 20;
 constexpr double margin_m = 1e-3;  // for the rounding of both sides
 
@@ -36,7 +36,7 @@ double reach_of(const wt_wedge& w) {
   return std::max(glm::length(from), glm::length(to));
 }
 
-// Cells that an edge touches, in rows and columns.
+// Visits the cells that an edge touches, in rows and columns.
 template <class Act>
 void visit_cells(const wt_edge_map_arguments& map, const wt_wedge& wedge, const Act& act) {
   const auto [from, to] = plan_of(wedge);
@@ -66,7 +66,7 @@ wt_edge_map_arguments grid_over(const std::vector<wt_wedge>& wedges, const std::
   high += margin_m;
   const glm::dvec2 size = high - low;
   const double cells = std::clamp(static_cast<double>(counting.size()), 1.0, most_cells / 4);
-  // Along a line of edges one row of cells is enough.
+  // For a line of edges one row of cells is enough.
   out.cell_m = std::max(std::sqrt(size.x * size.y / cells), std::max(size.x, size.y) / cells);
   out.origin[0] = low.x;
   out.origin[1] = low.y;
@@ -82,7 +82,7 @@ glm::dvec3 end_of(const wt_wedge& w, int end) {
   return end == 0 ? from : from + w.length * glm::dvec3{w.along[0], w.along[1], w.along[2]};
 }
 
-// The cells of 2 mm that a point is in or next to, of one instance.
+// A cell of 2 mm of one instance; a point has the cell that it is in and its neighbours.
 using Corner = std::array<int64_t, 4>;
 Corner corner_at(const wt_wedge& w, const glm::dvec3& p, const glm::ivec3& beside) {
   Corner out{w.instance};

@@ -1,5 +1,5 @@
 // The edges that may cross a line in plan: those of the static scene by the cells of a grid, those of vehicles by
-// instance. For kernels/lib/curtain.clh. Only edges that diffract outwards count, and none that is upright.
+// instance. It serves kernels/lib/curtain.clh. Only edges that diffract outwards count, and none that is upright.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,15 +11,15 @@
 namespace wavetracer {
 
 struct WedgeGrid {
-  // wedges: all of a world, as wedge_records has them, of which the first `static_count` stand still. The grid over
-  // those has about as many cells as it lists edges, and no more than 2^20. free_edges: do half planes count?
+  // wedges: all of a world, in the form of wedge_records; the first `static_count` do not move. The grid over those has
+  // about as many cells as it lists edges, and at most 2^20. free_edges: do half planes count?
   WedgeGrid(const std::vector<wt_wedge>& wedges, uint32_t static_count, uint32_t instance_count, bool free_edges);
 
   wt_edge_map_arguments map{};
-  std::vector<uint32_t> first;   // of each cell, row by row, then of each instance, into `listed`; then their end
+  std::vector<uint32_t> first;   // for each cell, row by row, then each instance: its start in `listed`; then the end
   std::vector<uint32_t> listed;  // numbers of wedges
-  std::vector<double> radii_m;   // of each instance: how far from its position its edges reach
-  // For the start and the end of each wedge: the upright one that begins or ends there, within 2 mm, or WT_NONE.
+  std::vector<double> radii_m;   // for each instance how far its edges reach from its position
+  // For the start and the end of each wedge: the upright wedge that begins or ends there, within 2 mm, or WT_NONE.
   std::vector<uint32_t> uprights;
 };
 

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_join.cl.
-// A prefix has one work-item or a group of them: a wedge may be seen by few or by thousands.
+// A prefix has one work-item or a group of them: few prefixes or thousands may see a wedge.
 #include "passes/wedge_join.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr uint32_t least_candidates = 1 << 14;
 
-// All of them may be solved: with what a solved path takes. At least what the list begins with.
+// The most candidates, at least as many as the list begins with. All of them may be solved, so the memory of solved
+// paths counts, too.
 uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
   const uint64_t path_bytes = sizeof(wt_solved) + (3 * sizeof(double) + sizeof(uint32_t)) * row_depth;
   const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(row_depth, 1u)),

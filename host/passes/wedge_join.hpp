@@ -1,6 +1,6 @@
 // wedge_join: candidates of diffracted paths, from prefixes of both ends that see one wedge; with wedge_pairs also from
-// those that see a wedge each.
-// The list grows until it holds them, or as far as is allowed: then they are asked for in parts.
+// those that see a wedge each. The list grows until it holds them, or as far as it may: then the caller asks for them
+// in parts.
 #pragma once
 #include <vector>
 
@@ -15,20 +15,20 @@ namespace wavetracer {
 
 class WedgeJoin {
  public:
-  // receiver_of_origin: of each end that launches, the receiver that it is, or WT_NONE. row_depth: interactions that a
+  // receiver_of_origin: for each end that launches, the receiver that it is, or WT_NONE. row_depth: interactions that a
   // solved path has room for.
   WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
             uint32_t row_depth);
-  // prefixes: sorted by their keys; first to end - 1 of them as those of transmitters. pairs: for paths over two wedges
-  // too, or nullptr. Returns the number of candidates, in list(); where it is more than most(), they are not there.
+  // prefixes: sorted by their keys; first to end - 1 of them serve as those of transmitters. pairs: for paths over two
+  // wedges too, or nullptr. Returns the number of candidates in list(); if it is more than most(), they are not there.
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,
                       const WedgeList& wedges, const RadioEnds& ends, Counters& counters, WedgePairs* pairs);
-  // So many candidates are listed at a time: what is solved of them takes a quarter of the device's memory at most.
+  // The most candidates that are listed at once: their solved paths take at most a quarter of the device's memory.
   uint32_t most() const { return most_; }
-  // Does waiting for the device cost little? On CPUs it does, and there long passes go in blocks.
+  // Does waiting for the device cost little? On CPUs it does, and there long passes run in blocks.
   bool waits() const { return context_.info().cpu; }
   void set_most(uint32_t most) { most_ = most; }
-  // Throws BufferError: there are so many candidates of one prefix.
+  // Throws BufferError: one prefix has this many candidates.
   [[noreturn]] void refuse(uint32_t candidates) const;
   const gpu::Buffer<wt_wedge_candidate>& list() const { return list_; }
 

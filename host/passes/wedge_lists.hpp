@@ -1,5 +1,5 @@
-// What the passes of diffracted paths hand on to each other: the wedges of the world, and the prefixes that see them.
-// Layouts: wt_wedge and wt_wedge_prefix in wavetracer/device/records.h.
+// The lists that the passes of diffracted paths hand on: the wedges of the world, and the prefixes that see them.
+// Layouts are wt_wedge and wt_wedge_prefix in wavetracer/device/records.h.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/records.h"
@@ -8,13 +8,13 @@ namespace wavetracer {
 
 struct WedgeList {
   gpu::Buffer<wt_wedge> wedges;
-  // Wedges of surface s: of_surfaces[first[s] .. first[s + 1]]. Corners are seen from one side of it: those on the side
-  // against its normal stand before sides[2 s], those on the other from sides[2 s + 1] on.
+  // The wedges of surface s are of_surfaces[first[s] .. first[s + 1]]. A corner is seen from one side of it: those on
+  // the side against its normal come before sides[2 s], those on the other from sides[2 s + 1] on.
   gpu::Buffer<uint32_t> first, sides, of_surfaces;
 };
 
 // Prefixes with their wedges as keys. Once the keys are sorted, order[i] is the place that the prefix of key i had, and
-// sorted[i] is that prefix: what sees one wedge stands together.
+// sorted[i] is that prefix: prefixes that see one wedge are together.
 struct WedgePrefixList {
   gpu::Buffer<uint32_t> keys, order;
   gpu::Buffer<wt_wedge_prefix> prefixes, sorted;

@@ -9,8 +9,8 @@
 namespace wavetracer {
 namespace {
 
-// The bits of known pairs, of each wedge with each other one, may take this much memory, 23,000 wedges. Of more, which
-// are corners first, each frame finds it out again.
+// The number of wedges for which the bits of known pairs are kept; their memory is limited to this, 23,000 wedges. If
+// there are more, each frame tests the last ones again; corners are last.
 uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
   const uint64_t most = std::min({uint64_t{1} << 31, device.max_buffer, device.global_memory / 16});
   const auto room = static_cast<uint64_t>(std::sqrt(static_cast<double>(most) / sizeof(wt_uint)));

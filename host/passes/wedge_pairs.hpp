@@ -1,5 +1,5 @@
-// wedge_pairs: candidates of paths over two wedges. What static surfaces surely hide from each other is left out, and
-// no path is lost by it (wedge_sight).
+// wedge_pairs: candidates of paths over two wedges. Pairs that static surfaces surely hide from each other are left
+// out, which loses no path (wedge_sight).
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/compact.hpp"
@@ -15,16 +15,18 @@ namespace wavetracer {
 
 class WedgePairs {
  public:
-  // The scene, of which device_scene was made, and whether waves pass surfaces of it that are not opaque.
+  // scene: that of device_scene; transmission: do waves pass surfaces of it that are not opaque?
   WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission);
-  // Finds the runs of prefixes that see one wedge. To be called once they are sorted, before their pairs are asked for.
+  // Finds the runs of prefixes that see one wedge. The prefixes must be sorted; call this before asking for their
+  // pairs.
   void list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes);
-  // Appends to the list, and counts in counters.wedge_candidates. join: of the same prefixes (see wedge_join).
+  // Appends to the list, and counts in counters.wedge_candidates. join: the arguments of the same prefixes (see
+  // wedge_join).
   void operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                   const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
                   const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list, Counters& counters);
 
-  WedgeSight sight;  // to be asked before prefixes are sorted
+  WedgeSight sight;  // must run before prefixes are sorted
 
  private:
   gpu::Context& context_;
@@ -33,7 +35,7 @@ class WedgePairs {
   Compact compact_;
   Scan scan_;
   uint32_t group_, kept_wedges_, run_count_ = 0;
-  gpu::Buffer<uint32_t> kept_;  // a word for each static wedge with each other one: which pieces see each other
+  gpu::Buffer<uint32_t> kept_;  // a word for each static wedge with each other one: the pieces that see each other
   gpu::Buffer<float> heads_;    // numbers in the bits, as Compact takes them
   gpu::Buffer<uint32_t> runs_, blocks_;
 };

@@ -1,5 +1,5 @@
 // Host side of kernels/wedge_prefixes.cl.
-// One node of the trie per work-item, then one prefix.
+// A work-item takes one node of the trie, then one prefix.
 #include "passes/wedge_prefixes.hpp"
 
 #include "passes/advice.hpp"
@@ -28,7 +28,7 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
                                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                            Counters& counters) {
   const Counters::Count count = &wt_counters::wedge_prefixes;
-  list_.count = grow_until_filled(  // read in each frame: a sort needs to know
+  list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
         kernel_(work_.range(node_count), Stage::wedge_prefixes, trie, quarters, nodes, ends.transmitters,
                 scene.exact_surfaces, scene.surfaces, wedges.first, wedges.sides, wedges.of_surfaces, wedges.wedges,

@@ -1,4 +1,4 @@
-// wedge_prefixes: which wedges the prefixes of all ends see, and from where their images look at them.
+// wedge_prefixes: the wedges that the prefixes of all ends see, and the places from which their images look at them.
 // The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
@@ -13,11 +13,11 @@ namespace wavetracer {
 class WedgePrefixes {
  public:
   explicit WedgePrefixes(gpu::Context& context);
-  // nodes: of the trie, in any order; roots among them are passed over. The keys are not sorted yet.
+  // nodes: those of the trie, in any order; roots among them are skipped. The keys are not sorted yet.
   WedgePrefixList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                               const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                               const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
-  // Sets list.sorted, by sorted keys.
+  // Sets list.sorted; the keys must be sorted.
   void place(WedgePrefixList& list);
 
  private:

@@ -1,5 +1,5 @@
-// wedge_sight: which pieces of edges the prefixes may see, past their last mirror and past what is static and surely in
-// the way (kernels/lib/sight.clh). No path is lost by it; what is moving hides nothing here.
+// wedge_sight: the pieces of edges that the prefixes may see, past their last mirror and past static surfaces that
+// surely hide them (kernels/lib/sight.clh). No path is lost by it; moving surfaces hide nothing here.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "passes/device_scene.hpp"
@@ -12,12 +12,12 @@ namespace wavetracer {
 
 class WedgeSight {
  public:
-  // device_scene: made of scene. transmission: do waves pass surfaces that are not opaque?
+  // device_scene: made from scene. transmission: do waves pass surfaces that are not opaque?
   WedgeSight(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission);
-  // Not sorted yet; prefixes that see nothing get the key WT_NONE.
+  // Tests prefixes that are not sorted yet; those that see nothing get the key WT_NONE.
   void operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes);
 
-  // For kernels that ask the same of other lines.
+  // Tables for kernels that test other lines in the same way.
   const gpu::Buffer<uint32_t>& first_sides() const { return first_sides_; }
   const gpu::Buffer<double>& sides() const { return sides_; }
   wt_sight_arguments arguments(const DeviceScene& scene, uint32_t count, uint32_t kept_wedges) const;
@@ -26,7 +26,7 @@ class WedgeSight {
   gpu::Kernel kernel_;
   Work work_;
   bool transmission_;
-  gpu::Buffer<uint32_t> first_sides_;  // ConvexFaces
+  gpu::Buffer<uint32_t> first_sides_;  // see ConvexFaces
   gpu::Buffer<double> sides_;
 };
 

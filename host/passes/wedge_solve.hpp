@@ -12,8 +12,8 @@ namespace wavetracer {
 
 class WedgeSolve {
  public:
-  // wavelength_m: the longest; waves of corners that are too faint for it are left out (kernels/lib/wedge.clh), of an
-  // infinite one none.
+  // wavelength_m: the longest; waves of corners that are too faint for it are left out (kernels/lib/wedge.clh), none if
+  // it is infinite.
   WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m);
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                          const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,

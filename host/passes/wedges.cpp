@@ -1,5 +1,5 @@
 // Host side of kernels/wedges.cl.
-// One wedge of an instance per work-item; the lists of surfaces do not change with frames.
+// A work-item takes one wedge of an instance; the lists of surfaces do not change with frames.
 #include "passes/wedges.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double half_plane_rad = 2 * std::numbers::pi - 1e-6;
 
-// Takes all surfaces of the world, those of instances in the coordinates of their models.
+// The normals of all surfaces of the world, those of instances in the coordinates of their models.
 std::vector<glm::dvec3> surface_normals(const Scene& scene, const std::vector<Scene>& models,
                                         const std::vector<Instance>& instances) {
   std::vector<glm::dvec3> normals;
@@ -26,8 +26,8 @@ std::vector<glm::dvec3> surface_normals(const Scene& scene, const std::vector<Sc
   return normals;
 }
 
-// From which side of the surface of this face is the wedge seen? 0: the one against its normal, 2: the other one, 1:
-// both. A corner is seen from the side of its free space alone.
+// From which side of the surface of this face is the wedge seen? 0: the side against its normal, 2: the other one, 1:
+// both. A corner is only seen from the side of its free space.
 uint32_t seen_from(const wt_wedge& wedge, int face, const glm::dvec3& normal) {
   if (wedge.exterior >= std::numbers::pi) return 1;
   double out = 0;
@@ -47,7 +47,8 @@ Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scen
   moving_count_ = static_cast<uint32_t>(records.size()) - static_count_;
   const std::vector<glm::dvec3> normals = surface_normals(scene, models, instances);
 
-  // Each surface has three lists, one behind the other: what the side against its normal sees, both, the other side.
+  // Each surface has three lists, one after the other: wedges seen from the side against its normal, from both, from
+  // the other side.
   std::vector<uint32_t> next(3 * normals.size() + 1, 0);
   const auto visit = [&](const auto& act) {
     for (uint32_t k = 0; k < records.size(); ++k) {

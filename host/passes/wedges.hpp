@@ -1,5 +1,5 @@
-// wedges: all wedges of the world on the device, those of instances where they are in a frame, and which surfaces they
-// bound. Static ones come first, then those of each instance as Instance::first_wedge says.
+// wedges: all wedges of the world on the device, those of instances at their places in a frame, and the surfaces that
+// they bound. Static ones come first, then those of each instance as Instance::first_wedge says.
 #pragma once
 #include <vector>
 
@@ -13,14 +13,14 @@ namespace wavetracer {
 
 class Wedges {
  public:
-  // free_edges: do half planes count? What does not count keeps its number, and bounds no surface.
+  // free_edges: do half planes count? A wedge that does not count keeps its number, and bounds no surface.
   Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
          const std::vector<Instance>& instances, bool free_edges);
-  // Moves those of instances to where the frame has them; place has run.
+  // Moves those of instances to their places in the frame; place must have run.
   void operator()(const DeviceScene& scene);
 
   uint32_t diffracting() const { return diffracting_; }  // wedges that count
-  unsigned key_bits() const;                             // of wt_wedge_key
+  unsigned key_bits() const;                             // bits of wt_wedge_key
   const WedgeList& list() const { return list_; }
 
  private:

@@ -1,4 +1,4 @@
-// The equations as the recommendations number them, f in GHz and attenuations in dB/km, up to air_at.
+// Equations have the numbers of the recommendations; f is in GHz and attenuations are in dB/km, up to air_at.
 // theta = 300 / T; e is the partial pressure of water vapour in hPa.
 #include "radio/air.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kelvin_at_0_c = 273.15;
 
-// P.838-3: sum of a exp(-((log f - b) / c)^2) + m log f + n.
+// A term of P.838-3: sum of a exp(-((log f - b) / c)^2) + m log f + n.
 struct RainTerm {
   double a, b, c;
 };
@@ -49,7 +49,7 @@ double line_shape(double f, double f0, double width, double mixing) {
   return f / f0 * (side(f0 - f) + side(f0 + f));
 }
 
-// Imaginary parts of the refractivity (P.676-13, equations 2 to 9).
+// The imaginary parts of the refractivity (P.676-13, equations 2 to 9).
 double oxygen_refractivity(double f, double dry_hpa, double e, double theta) {
   double out = 0;
   for (const auto& [f0, a1, a2, a3, a4, a5, a6] : oxygen_lines) {

@@ -1,5 +1,5 @@
-// What the air takes of waves per metre: rain (ITU-R P.838-3), fog (P.840-8), oxygen and water vapour (P.676-13, line
-// by line). Assumes the same weather everywhere.
+// Losses of waves in air per metre: rain (ITU-R P.838-3), fog (P.840-8), oxygen and water vapour (P.676-13, line by
+// line). The weather is the same everywhere.
 #pragma once
 #include "wavetracer/config.hpp"
 #include "wavetracer/device/field_records.h"
@@ -13,14 +13,14 @@ struct RainCoefficients {
 };
 RainCoefficients rain_coefficients(double frequency_ghz);
 
-// dB/km of oxygen, nitrogen and water vapour (P.676-13, Annex 1, equation 1; from 1 to 1000 GHz). pressure_hpa: of dry
-// air and water vapour together.
+// The loss in dB/km by oxygen, nitrogen and water vapour (P.676-13, Annex 1, equation 1; from 1 to 1000 GHz).
+// pressure_hpa: that of dry air and water vapour together.
 double gas_db_km(double frequency_ghz, double temperature_c, double pressure_hpa, double humidity_g_m3);
 
-// dB/km of 1 g/m3 of droplets (P.840-8, equation 2; Rayleigh scattering, up to 200 GHz).
+// The loss in dB/km by 1 g/m3 of droplets (P.840-8, equation 2; Rayleigh scattering, up to 200 GHz).
 double fog_db_km(double frequency_ghz, double temperature_c);
 
-// As fields read it.
+// The losses in the form that fields read.
 device::wt_air air_at(const AirConfig& air, double frequency_hz);
 
 }  // namespace wavetracer

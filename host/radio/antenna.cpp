@@ -1,5 +1,5 @@
 // The antenna of a radio end: pattern, slant, orientation.
-// Cosines and sines of slants and orientations are the host's: they are made once and carried to every device.
+// The host computes cosines and sines of slants and orientations once, and sends them to every device.
 #include "radio/antenna.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// The number of a named pattern, or WT_PATTERN_GRID and what the file has.
+// The number of a named pattern, or WT_PATTERN_GRID and the samples of the file.
 std::pair<uint32_t, PatternGrid> pattern_of(const RadioEnd& end) {
   static_assert(NamedAntenna::words.size() == WT_PATTERN_GRID);
   if (const auto antenna = NamedAntenna::parse(end.antenna)) return {static_cast<uint32_t>(antenna->index()), {}};
@@ -41,7 +41,7 @@ std::vector<double> slants_of(const RadioEnd& end) {
 glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg) {
   const double yaw = orientation_deg[0] * radians_per_degree, pitch = orientation_deg[1] * radians_per_degree,
                roll = orientation_deg[2] * radians_per_degree;
-  const glm::dmat3 about_z{std::cos(yaw), std::sin(yaw), 0, -std::sin(yaw), std::cos(yaw), 0, 0, 0, 1};  // by columns
+  const glm::dmat3 about_z{std::cos(yaw), std::sin(yaw), 0, -std::sin(yaw), std::cos(yaw), 0, 0, 0, 1};  // columns
   const glm::dmat3 about_y{std::cos(pitch), 0, -std::sin(pitch), 0, 1, 0, std::sin(pitch), 0, std::cos(pitch)};
   const glm::dmat3 about_x{1, 0, 0, 0, std::cos(roll), std::sin(roll), 0, -std::sin(roll), std::cos(roll)};
   return about_z * about_y * about_x;

@@ -1,6 +1,6 @@
 // The antenna of a radio end: an element pattern, one or two ports, turned into the global frame.
-// Everything is per port: ports of one antenna share place and pattern and differ in polarisation. Fields are computed
-// by wavetracer/device/antenna.h, here as on devices.
+// Everything is per port: ports of one antenna share place and pattern and differ in polarisation.
+// wavetracer/device/antenna.h computes fields, here as on devices.
 #pragma once
 #include <array>
 #include <complex>
@@ -14,7 +14,7 @@
 
 namespace wavetracer {
 
-// Rotation from the antenna's frame to the global one: yaw about z, then pitch about the new y, then roll about the
+// The rotation from the antenna's frame to the global one: yaw about z, then pitch about the new y, then roll about the
 // new x, in degrees (3GPP TR 38.901, eq. 7.1-2). A positive pitch turns the boresight +x down.
 glm::dmat3 rotation_of(const std::array<double, 3>& orientation_deg);
 
@@ -27,14 +27,14 @@ class Antenna {
   Antenna(uint32_t pattern, const PatternGrid& grid, const std::vector<double>& slants_rad, const glm::dmat3& rotation);
 
   uint32_t ports() const { return record_.ports; }
-  // That of its own orientation.
+  // The rotation of its own orientation.
   const glm::dmat3& rotation() const { return to_global_; }
   const device::wt_antenna& record() const { return record_; }
   const std::vector<double>& samples() const { return samples_; }
 
-  // The field pattern of a port in a global direction, of unit length and away from the antenna, along the spherical
-  // unit vectors there, in the antenna's own orientation. Squared length: gain over isotropic. By reciprocity it serves
-  // sending and receiving alike.
+  // The field pattern of a port along the spherical unit vectors of a global direction, in the antenna's own
+  // orientation. The direction has unit length and points away from the antenna. The squared length of the field is the
+  // gain over isotropic. By reciprocity it serves sending and receiving alike.
   FieldPair field(uint32_t port, const glm::dvec3& direction) const;
 
  private:
@@ -43,7 +43,8 @@ class Antenna {
   glm::dmat3 to_global_;
 };
 
-// Polarisations: "V"; "H"; "VH" (port 0 is V, port 1 is H); "cross" (port 0 is slanted by +45 degrees, port 1 by -45).
+// Polarisations are "V"; "H"; "VH" (port 0 is V, port 1 is H); "cross" (port 0 is slanted by +45 degrees, port 1 by
+// -45).
 // Throws ConfigError if the antenna or the polarisation is unknown, InputError if the pattern file is malformed.
 Antenna make_antenna(const RadioEnd& end);
 

@@ -1,4 +1,4 @@
-// Elements of ends, and the frequencies and times of responses: what follows from the configuration alone.
+// Elements of ends, and the frequencies and times of responses: these follow from the configuration alone.
 #include "wavetracer/arrays.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Elements differ by phase and spreading alone, so ports are taken as a whole: the power of a path over its ports times
-// what beams make of its elements. Links on all cores.
+// Elements differ only by phase and spreading, so ports are taken as a whole: the power of a path over its ports, times
+// the result of the beams for its elements. Links are computed on all cores.
 #include "radio/beams.hpp"
 
 #include <tbb/parallel_for.h>
@@ -18,16 +18,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr size_t ports = 4;  // pairs, of Paths::a
+constexpr size_t ports = 4;  // pairs of ports, as in Paths::a
 
-// The first element alone.
+// A codebook that uses the first element alone.
 Codebook first_element(uint32_t elements) {
   Codebook out{1, elements, std::vector<Complex>(elements)};
   out.weights[0] = 1;
   return out;
 }
 
-// Weights as columns of beams, one of each element.
+// The weights as columns of beams, one column for each element.
 struct BeamColumns {
   size_t beams, elements;
   std::vector<double> re, im;  // (element, beam)
@@ -42,7 +42,7 @@ struct BeamColumns {
   }
 };
 
-// What the beams of a link make of its paths, one after the other.
+// The sums of the beams of a link, for one of its paths after the other.
 class LinkBeams {
  public:
   LinkBeams(const Codebook& sent, const Codebook& heard)
@@ -57,7 +57,7 @@ class LinkBeams {
         re(size_t{sent.beams} * heard.beams),
         im(re.size()) {}
 
-  // Of one path, into re and im.
+  // Computes the sums for one path, into re and im.
   void hear(const PathOfElements& path, double carrier_hz, double delay_s);
 
  private:

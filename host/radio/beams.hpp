@@ -1,4 +1,4 @@
-// What the beams of two ends make of the paths between them.
+// The gains of the beams of two ends, over the paths between them.
 #pragma once
 #include <map>
 #include <memory>
@@ -13,12 +13,13 @@ class Beams {
   // Reads each codebook once. Throws ConfigError or InputError.
   explicit Beams(const Config& config);
 
-  // Rows of links of which an end has a codebook, see BeamRows. gain_db: the power of all paths through both beams, as
-  // path_gain_db in links.csv with w_rx a w_tx in the place of a (radio/grouped_power.hpp); -inf where nothing arrives.
+  // Returns a row for each link of which an end has a codebook, see BeamRows. gain_db: the power of all paths through
+  // both beams, as path_gain_db in links.csv with w_rx a w_tx in the place of a (radio/grouped_power.hpp); -inf where
+  // nothing arrives.
   BeamRows gains(const ElementModel& model, const FrameResult& frame) const;
 
  private:
-  // By name of the array, each once; of each end, or null.
+  // The codebooks by name of the array, each once; and that of each end, or null.
   std::map<std::string, Codebook> codebooks_;
   std::vector<const Codebook*> transmitters_, receivers_;
 

@@ -6,8 +6,8 @@
 
 namespace wavetracer {
 
-// At least one, that of radio.frequency_hz first. Throws ConfigError where radio.frequencies_hz begins with another
-// one.
+// Returns at least one carrier; that of radio.frequency_hz is the first. Throws ConfigError where radio.frequencies_hz
+// begins with another one.
 std::vector<double> carriers_hz(const RadioConfig& radio);
 
 }  // namespace wavetracer

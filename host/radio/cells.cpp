@@ -1,4 +1,4 @@
-// A centre is inside where a short leg that leaves it upwards is: the same rule as for what paths lose inside.
+// A centre is inside if a short leg that leaves it upwards is: the same rule as for the losses of paths inside.
 #include "radio/cells.hpp"
 
 #include <fmt/format.h>
@@ -53,12 +53,12 @@ double boxes_in(const Counts& n) {
   return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
 }
 
-// Is the upright leg from here, of a micrometre, inside?
+// Is the upright leg of a micrometre that begins at the centre inside?
 bool holds(const device::wt_volume& record, const double* triangles, const dvec3& centre) {
   return device::wt_length_inside(&record, triangles, centre, centre + dvec3(0, 0, probe_m)) > probe_m / 2;
 }
 
-// Of the boxes whose centres are inside.
+// The centres of the boxes, those that are inside.
 std::vector<dvec3> centres_inside(const Volume& volume, const device::wt_volume& record, const double* triangles,
                                   const Counts& n) {
   std::vector<dvec3> out;
@@ -99,7 +99,7 @@ std::vector<Cell> make_cells(const Scene& scene, double cell_m, uint64_t most) {
     const Volume& volume = scene.volumes[i];
     const double volume_m3 = exact_m3(volume);
     if (!scatters(scene, volume) || !(volume_m3 > 0)) continue;
-    // A mesh may be thin in its box: finer, until half of it is found.
+    // A mesh may fill little of its box: boxes get smaller until half of the volume is found.
     Counts n = counts_of(volume, cell_m);
     std::vector<dvec3> centres;
     for (int finer = 0; finer < 6; ++finer) {

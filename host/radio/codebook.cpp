@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::string_view codebook_header = "beam,element,re,im";
 constexpr uint32_t most_beams = 65536;
-constexpr uint64_t most_weights = uint64_t{1} << 26;  // of a codebook: 1 GiB
+constexpr uint64_t most_weights = uint64_t{1} << 26;  // in a codebook: 1 GiB
 
-// Where a line of a codebook file is, for errors.
+// The place of a line of a codebook file, for errors.
 struct CodebookLine {
   const std::string& file;
   size_t number;
@@ -106,7 +106,7 @@ Codebook dft_codebook(uint32_t rows, uint32_t columns) {
   out.weights.reserve(uint64_t{out.beams} * out.elements);
   for (uint32_t beam = 0; beam < out.beams; ++beam)
     for (uint32_t element = 0; element < out.elements; ++element) {
-      // Rows go down, so that their phases grow upwards the other way than those of columns.
+      // Rows go down, so their phases grow upwards, in the opposite sense to those of columns.
       const double down = static_cast<double>(beam % rows) * (element % rows) / rows,
                    left = static_cast<double>(beam / rows) * (element / rows) / columns;
       out.weights.push_back(std::polar(amplitude, 2 * std::numbers::pi * std::fmod(down - left, 1.0)));

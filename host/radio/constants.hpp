@@ -1,5 +1,5 @@
 // Physical constants of the radio side, SI units.
-// The speed of light is that of vacuum: delays are lengths over it.
+// The speed of light is that in vacuum: delays are lengths divided by it.
 #pragma once
 
 namespace wavetracer {

@@ -1,5 +1,5 @@
-// Planes of mirrors and lines of edges are those of the scene, where the frame has them; they pass through the vertices
-// of the path.
+// Planes of mirrors and lines of edges are those of the scene at their places in the frame; they pass through the
+// vertices of the path.
 #include "radio/element_link.hpp"
 
 #include <algorithm>
@@ -74,8 +74,8 @@ ElementLink::ElementLink(const ElementModel& model, const FrameResult& frame, Li
   end_row_ = row_at([&](const Link& other) { return other <= link; });
 }
 
-// Mirrors after the last bend are those of the receiver, from its end on; where nothing bends, all are the
-// transmitter's.
+// Mirrors after the last bend belong to the receiver, counted from its end on. If nothing bends the path, all belong to
+// the transmitter.
 UnfoldedPath ElementLink::unfolded(size_t row) const {
   const Paths& paths = frame_.paths;
   UnfoldedPath out;
@@ -97,7 +97,7 @@ UnfoldedPath ElementLink::unfolded(size_t row) const {
       const glm::dvec3 along =
           kind == diffraction ? rotation * scene.wedges.at(paths.vertex_surface[k]).along : glm::dvec3(0);
       out.bends.at(static_cast<size_t>(out.count++)) = {point, along};
-    }  // what is transmitted goes straight on
+    }  // a transmission goes straight on
   }
   for (size_t i = after.size(); i-- > 0;) out.heard = mirrored(out.heard, after[i].first, after[i].second);
   return out;

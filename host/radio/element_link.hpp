@@ -8,24 +8,24 @@
 
 namespace wavetracer {
 
-// A path between two elements.
+// Values of a path between two elements.
 struct ElementPair {
   double delay_s;
-  double amplitude;  // over that between the centres
+  double amplitude;  // relative to that between the centres
 };
 
 // A path between all elements.
 class PathOfElements {
  public:
   ElementPair between(size_t rx_element, size_t tx_element) const;
-  // The same of transmitting elements first to first + count - 1.
+  // The same for transmitting elements first to first + count - 1.
   void between(size_t rx_element, size_t first, size_t count, double* delay_s, double* amplitude) const;
 
  private:
   friend class ElementLink;
   double delay_s_ = 0;  // between the centres
   bool plane_ = false;
-  std::vector<double> sent_m_, heard_m_;  // plane: by how much elements are nearer than the centres
+  std::vector<double> sent_m_, heard_m_;  // plane: how much nearer elements are than the centres
   PointColumns sent_at_;                  // spherical: images of elements, in the path's coordinates
   std::vector<glm::dvec3> heard_at_;
   UnfoldedPath path_;
@@ -34,7 +34,7 @@ class PathOfElements {
 
 class ElementLink {
  public:
-  // All of them must outlive it. Throws std::out_of_range for ends that the frame does not have.
+  // All arguments must outlive it. Throws std::out_of_range for ends that the frame does not have.
   ElementLink(const ElementModel& model, const FrameResult& frame, Link link);
 
   uint32_t tx_elements() const { return static_cast<uint32_t>(sent_m_.size()); }
@@ -52,7 +52,7 @@ class ElementLink {
   const ElementModel& model_;
   const FrameResult& frame_;
   glm::dvec3 tx_m_, rx_m_;                    // centres, recentred
-  std::vector<glm::dvec3> sent_m_, heard_m_;  // elements from their centres, scene axes
+  std::vector<glm::dvec3> sent_m_, heard_m_;  // elements relative to their centres, in scene axes
   uint32_t tx_ports_, rx_ports_;
   size_t first_row_, end_row_;
 };

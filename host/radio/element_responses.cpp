@@ -1,5 +1,5 @@
-// Coefficients and responses between elements: pair by pair, so that every sum is made in the order of the paths,
-// whichever core makes it.
+// Coefficients and responses between elements are computed pair by pair, so every sum is made in the order of the
+// paths, on whichever core.
 #include "radio/element_responses.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 using Complex = std::complex<double>;
 using PortMatrix = std::array<Complex, 4>;
 
-// The coefficients of paths at a carrier, and by how much Doppler shifts are larger there.
+// The coefficients of paths at a carrier, and the factor of Doppler shifts there.
 struct CarrierRows {
   const std::vector<PortMatrix>& a;
   double doppler_scale;
@@ -33,7 +33,7 @@ CarrierRows rows_at(const FrameResult& frame, std::span<const double> carriers_h
   return {frame.carriers.at(carrier - 1).a, carriers_hz[carrier] / carriers_hz[0]};
 }
 
-// All that a link's response needs of one path.
+// The data of one path that a link's response needs.
 struct ResponsePath {
   PathOfElements elements;
   std::vector<Complex> a;  // (time, rx port, tx port), turned by the Doppler shift
@@ -56,8 +56,8 @@ std::vector<ResponsePath> paths_of(const ElementLink& link, const FrameResult& f
   return out;
 }
 
-// Blocks of pairs: one receiving element and some transmitting ones. out(time, rx antenna, tx antenna, frequency,
-// value)
+// Computes blocks of pairs: one receiving element and some transmitting ones. out(time, rx antenna, tx antenna,
+// frequency, value) takes each result.
 template <class Out>
 void respond(const ElementLink& link, const FrameResult& frame, const CarrierRows& rows, const FrequencyAxis& axis,
              std::span<const double> times_s, const Out& out) {
@@ -83,9 +83,9 @@ void respond(const ElementLink& link, const FrameResult& frame, const CarrierRow
   });
 }
 
-constexpr uint64_t most_response_bytes = uint64_t{1} << 35;  // of a frame
+constexpr uint64_t most_response_bytes = uint64_t{1} << 35;  // the most of a frame
 
-// The rows of each link, which are none yet.
+// The rows of each link, still empty.
 Responses empty_responses(const ElementModel& model, const FrameResult& frame, size_t times, size_t frequencies) {
   Responses out{static_cast<uint32_t>(times), static_cast<uint32_t>(frequencies), {0}, {}};
   for (const Link& link : frame.world.links)

@@ -4,8 +4,8 @@
 
 namespace wavetracer {
 
-// Empty where response.bandwidth_hz is not given. frame: with the coefficients of all carriers. Throws RuntimeError
-// where they are too many for the memory of a frame.
+// Returns nothing where response.bandwidth_hz is not given. frame: with the coefficients of all carriers. Throws
+// RuntimeError where the responses are too many for the memory of a frame.
 Responses make_responses(const ElementModel& model, const Config& config, const FrameResult& frame);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Materials of all scenes stand in one list, part after part; surfaces of the world point into it.
+// Materials of all scenes are in one list, part after part; surfaces of the world point into it.
 #include "radio/field_tables.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace wavetracer {
 namespace {
 
-// Of the surfaces of one scene; materials that no surface uses are not asked for.
+// The materials of the surfaces of one scene; materials that no surface uses are not asked for.
 std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
   std::vector<bool> is_used(scene.materials.size());
   for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
@@ -39,7 +39,7 @@ std::vector<device::wt_material> materials_at(const Scene& scene, double frequen
 
 void add_materials(FieldTables& tables, const Scene& scene, const Config& config, std::span<const Scene> models,
                    std::span<const Instance> instances) {
-  std::vector<uint32_t> first;  // of each part's materials
+  std::vector<uint32_t> first;  // start of each part's materials
   const auto add_part = [&](const Scene& part) {
     first.push_back(static_cast<uint32_t>(tables.materials.size()));
     const auto records = materials_at(part, config.radio.frequency_hz);
@@ -67,7 +67,7 @@ void add_antennas(FieldTables& tables, const Config& config) {
   for (const RadioEnd& end : config.receivers) add(end, tables.ports.rx);
 }
 
-// After the tiles.
+// Adds the cells after the tiles.
 void add_cells(FieldTables& tables, const Scene& scene, double cell_m) {
   const std::vector<Cell> cells = make_cells(scene, cell_m, TileTable::most_tiles - tables.surface_of_tile.size());
   const size_t first = scene.surfaces.size();

@@ -1,4 +1,4 @@
-// Rows as devices have them, in the order of links; then row by row, on all cores.
+// Rows are made as on devices, in the order of links; then they are computed row by row, on all cores.
 #include "radio/fields.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace {
 
 glm::dvec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-// A geometry as solved paths, whose rows are all as they are.
+// A geometry as solved paths, with a row for each path as it is.
 struct SolvedRows {
   std::vector<wt_solved> solved;
   std::vector<double> vertices, transmitters, receivers;
@@ -36,7 +36,7 @@ struct SolvedRows {
   }
 };
 
-// Throws std::out_of_range for a number that nothing has.
+// Throws std::out_of_range for a number that does not exist.
 void check_numbers(const PathGeometry& paths, size_t surfaces, size_t wedges, size_t tiles) {
   for (size_t i = 0; i < paths.surface.size(); ++i) {
     const uint8_t kind = paths.interaction[i];
@@ -131,7 +131,7 @@ OrderedRows ordered_rows(const device::wt_path_list& list, const device::wt_fiel
   return ordered;
 }
 
-// Metres that each path is inside of each kind of vegetation.
+// The metres of each path inside of each kind of vegetation.
 std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_path_list& list, size_t count) {
   const size_t kinds = table.material.size();
   const device::wt_volumes all = table.all();

@@ -1,6 +1,6 @@
-// From exact path geometry to propagation paths: delays, angles and coefficients, in double on the host.
-// The same code as on devices (wavetracer/device/path_field.h), row by row: the reference that devices are tested
-// against, and what paths that come from elsewhere are evaluated by. Results do not depend on the number of threads.
+// From exact path geometry to propagation paths: delays, angles and coefficients, in double on the host. The code is
+// the same as on devices (wavetracer/device/path_field.h), row by row. It is the reference that devices are tested
+// against, and it evaluates paths that come from elsewhere. Results do not depend on the number of threads.
 #pragma once
 #include <functional>
 #include <map>
@@ -12,21 +12,21 @@
 
 namespace wavetracer {
 
-// How many paths of a link were left out, because an antenna touches a surface or another antenna: an end that is at
-// most WT_ON_SURFACE_M from the plane of a surface stands on it, and the surface is no mirror next to that end; ends at
-// most as far from each other have no line of sight. Both ends of a path are treated alike, so that channels are
-// reciprocal.
+// The number of a link's paths that were left out, because an antenna touches a surface or another antenna. An end that
+// is at most WT_ON_SURFACE_M from the plane of a surface is on it, and the surface is no mirror next to that end; ends
+// that are at most this far from each other have no line of sight. Both ends of a path are treated alike, so that
+// channels are reciprocal.
 using LeftOut = std::map<Link, uint32_t>;
 
 // Keeps references to the scene and the models.
 class FieldModel {
  public:
-  // As make_field_tables.
+  // It takes the arguments of make_field_tables.
   FieldModel(const Scene& scene, const Config& config, std::span<const Scene> models = {},
              std::span<const Instance> instances = {});
 
-  // geometry: in any order of rows, in the recentred frame of the scene, its surfaces, wedges and tiles numbered
-  // through the world. Rows of the result are sorted by tx, rx, delay, surfaces (the world's numbers), interactions and
+  // geometry: in any order of rows, in the recentred frame of the scene; surfaces, wedges and tiles have their numbers
+  // in the world. Rows of the result are sorted by tx, rx, delay, surfaces (the world's numbers), interactions and
   // vertices.
   //   a[r tx_ports + t]: rx port r, tx port t; lambda / (4 pi) times both antennas' fields, every interaction and the
   //     spreading, which is 1 / L where nothing diffracts or scatters.
@@ -39,7 +39,7 @@ class FieldModel {
   // Throws RuntimeError for an interaction of no known kind.
   Paths compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
                 LeftOut* left_out = nullptr) const;
-  // The same with every end where the configuration has it, and no instances.
+  // The same with every end at its place in the configuration, and no instances.
   Paths compute(uint32_t frame, const PathGeometry& geometry) const { return compute(frame, geometry, still_); }
 
  private:
@@ -53,7 +53,7 @@ class FieldModel {
 // The same for a single frame of a world in which no surface moves.
 Paths compute_paths(const Scene& scene, const Config& config, uint32_t frame, const PathGeometry& geometry);
 
-// What to tell the user where anything was left out.
+// The text of a warning about the paths that were left out; left_out is not empty.
 using EndName = std::function<std::string(uint32_t end)>;
 std::string left_out_warning(const LeftOut& left_out, const EndName& tx_name, const EndName& rx_name);
 

@@ -1,5 +1,5 @@
-// Groups of a link are told by a hash of their steps in 64 bits: of 10,000 groups two have one hash once in 10^11
-// links.
+// Groups of a link are distinguished by a 64-bit hash of their steps: of 10,000 groups two have the same hash once in
+// 10^11 links.
 #include "radio/group_numbers.hpp"
 
 #include <tbb/parallel_for.h>
@@ -13,17 +13,17 @@
 namespace wavetracer {
 namespace {
 
-constexpr size_t rows_at_once = 512;  // links are given to a core until they have so many
+constexpr size_t rows_at_once = 512;  // links are given to a core until they have this many
 
-// Numbers of keys in the order in which they are asked for: a table with open addresses.
+// Numbers keys in the order in which they are asked for: a table with open addresses.
 class KeyNumbers {
  public:
-  // Forgets all keys, and makes room for so many.
+  // Removes all keys, and makes room for this many.
   void clear(size_t most) {
     slots_.assign(std::bit_ceil(2 * most), Slot{});
     count_ = 0;
   }
-  // The number of a key, and whether it is new.
+  // Returns the number of a key, and whether it is new.
   std::pair<uint32_t, bool> operator[](uint64_t key) {
     size_t at = key & (slots_.size() - 1);
     while (slots_[at].number != no_group && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
@@ -41,7 +41,7 @@ class KeyNumbers {
   uint32_t count_ = 0;
 };
 
-// Rows first to end - 1 are of one link. numbers, straight: room.
+// Numbers rows first to end - 1, which are of one link. numbers, straight: memory to work in.
 void number_link(Paths& paths, size_t first, size_t end, std::span<const device::wt_path_waves> waves,
                  KeyNumbers& numbers, KeyNumbers& straight) {
   numbers.clear(most_groups * (end - first));
@@ -64,7 +64,7 @@ void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves) {
   static_assert(most_groups == WT_MOST_GROUPS);
   paths.group.resize(paths.size());
   paths.group_weight.resize(paths.size());
-  std::vector<size_t> parts{0};  // of whole links
+  std::vector<size_t> parts{0};  // each is whole links
   for (size_t row = 0; row < paths.size();) {
     row = end_of_link(paths, row);
     if (row - parts.back() >= rows_at_once || row == paths.size()) parts.push_back(row);

@@ -1,4 +1,4 @@
-// Numbers of groups of paths (wavetracer/paths.hpp), from the waves that each path is one with.
+// Numbers of groups of paths (wavetracer/paths.hpp), from the waves that each path belongs to.
 #pragma once
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace wavetracer {
 
-// Sets the columns `group` and `group_weight`. waves: of each path. Groups of a link are numbered from 0 in the order
-// in which its paths name them. Two paths without diffraction are never one wave. Runs on all cores.
+// Sets the columns `group` and `group_weight`. waves: those of each path. Groups of a link are numbered from 0 in the
+// order in which its paths name them. Two paths without diffraction never share a wave. Runs on all cores.
 void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Most paths are whole groups: their powers need no phase, and stay what they are to the last bit.
+// Most paths are whole groups: their powers need no phase, and keep all their bits.
 #include "radio/grouped_power.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is said of paths that were left out.
+// The warning about paths that were left out.
 #include <fmt/format.h>
 
 #include "radio/fields.hpp"
@@ -7,7 +7,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr size_t most_named = 4;  // links of a warning
+constexpr size_t most_named = 4;  // links that a warning names
 
 }  // namespace
 

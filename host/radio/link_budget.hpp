@@ -9,7 +9,7 @@
 namespace wavetracer {
 
 struct LinkBudget {
-  double received_dbm = 0, snr_db = 0;  // NaN where the configuration does not give what they need
+  double received_dbm = 0, snr_db = 0;  // NaN where the configuration lacks a value that they need
 };
 
 // Noise power at the detector, dBm; NaN without radio.bandwidth_hz.
@@ -19,7 +19,7 @@ inline double noise_dbm(const RadioConfig& radio) {
   return 10 * std::log10(boltzmann_j_k * temperature_k * *radio.bandwidth_hz / 1e-3) + radio.noise_figure_db;
 }
 
-// gain_db: of the link, -inf where no power arrives.
+// gain_db: that of the link, -inf where no power arrives.
 inline LinkBudget link_budget(const RadioConfig& radio, double gain_db) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const double received_dbm = radio.transmit_power_dbm ? *radio.transmit_power_dbm + gain_db : nan;

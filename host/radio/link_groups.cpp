@@ -1,5 +1,5 @@
 // Rows grouped by link: two stable counting sorts, by receiver and then by transmitter.
-// Linear, and so cheap that it runs on one core.
+// The time is linear, and so short that one core suffices.
 #include "radio/link_groups.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace wavetracer {
 namespace {
 
-// The rows in the order of their keys, stable.
+// Returns the rows in the order of their keys, stable.
 std::vector<uint32_t> counting_sort(const std::vector<uint32_t>& rows, std::span<const uint32_t> key) {
   std::vector<uint32_t> next(key.empty() ? 1 : std::ranges::max(key) + size_t{2}, 0);
   for (const uint32_t k : key) ++next[k + 1];

@@ -1,5 +1,5 @@
 // Rows of paths grouped by the link that they belong to.
-// Assumes that ends are numbered from 0 without large gaps: a counter is kept for each.
+// Ends must be numbered from 0 without large gaps: each has a counter.
 #pragma once
 #include <cstdint>
 #include <span>

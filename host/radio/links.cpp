@@ -1,5 +1,5 @@
 // Figures of a link from its paths, in two passes so that spreads keep their digits beside long delays.
-// Assumes sorted rows and sorted links, which are walked once, side by side.
+// Rows and links must be sorted; they are walked once, side by side.
 #include "radio/links.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace wavetracer {
 namespace {
 
 struct Moments {
-  double mean, rms;  // rms about the mean
+  double mean, rms;  // rms: about the mean
 };
 
 struct RowRange {

@@ -1,5 +1,5 @@
 // The complex relative permittivity of a radio material at a frequency.
-// Assumes that coefficients and range were validated where the material was made.
+// Coefficients and range were validated where the material was made.
 #include "radio/material.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace wavetracer {
 std::string range_problem(std::span<const Material> materials, double frequency_hz) {
   const double ghz = frequency_hz / 1e9;
   std::string unknown, first, newer;
-  bool measured = false;  // one of them has a range that is no limit
+  bool measured = false;  // one of them has a measured range, not a limit
   for (const Material& material : materials) {
     if (ghz >= material.min_ghz && ghz <= material.max_ghz) continue;
     unknown += fmt::format("{}the material \"{}\" is only known from {}", unknown.empty() ? "" : ", ", material.name,

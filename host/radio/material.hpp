@@ -13,8 +13,8 @@ namespace wavetracer {
 // Throws ConfigError if the frequency lies outside the range that the material is known in.
 std::complex<double> complex_permittivity(const Material& material, double frequency_hz);
 
-// Empty if all materials are known at the frequency; else one text that names those that are not, with their ranges and
-// what to do.
+// Returns an empty text if all materials are known at the frequency; else a text that names those that are not, with
+// their ranges and a remedy.
 std::string range_problem(std::span<const Material> materials, double frequency_hz);
 
 }  // namespace wavetracer

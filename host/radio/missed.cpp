@@ -1,6 +1,6 @@
-// Horvitz and Thompson's estimate (J. Am. Stat. Assoc. 47, 1952): what was found with a chance p stands for 1 / p, of
-// which it is one itself. The chance of a path is told by how many quarters of the launch found it.
-// Frames of a drive see nearly the same, so their counts make a mean frame, and not a larger sample.
+// Horvitz and Thompson's estimate (J. Am. Stat. Assoc. 47, 1952): a path that was found with a chance p stands for 1 /
+// p paths, itself included. The number of quarters of the launch that found a path tells its chance. Frames of a drive
+// see nearly the same, so their counts make a mean frame, and not a larger sample.
 #include "wavetracer/missed.hpp"
 
 #include <tbb/parallel_for.h>
@@ -15,20 +15,21 @@
 namespace wavetracer {
 namespace {
 
-// Of paths like one that k + 1 of four quarters found, so many are missed: a quarter finds it with p = (k + 1) / 4, all
-// of them miss it with (1 - p)^4.
+// The number of missed paths for each path that k + 1 of four quarters found: a quarter finds such a path with p = (k +
+// 1) / 4, and all of them miss it with (1 - p)^4.
 constexpr std::array<double, 4> missed_each = {81.0 / 175, 1.0 / 15, 1.0 / 255, 0};
 
-// A. Chao's lower bound (Biometrics 43, 1987): with f1 and f2 found by one and by two of four quarters, 3/8 f1^2 / f2
-// are missed at least, and as many where all are alike. It tells of many; of few, chances that are spread over decades.
+// A. Chao's lower bound (Biometrics 43, 1987): if f1 and f2 were found by one and by two of four quarters, at least 3/8
+// f1^2 / f2 are missed, and exactly that many where all have the same chance. It holds for many; for few, chances are
+// spread over decades.
 constexpr double chao = 3.0 / 8, many = 5;
 
-// Measured, see docs/method.md: rays are even and sequences differ in size, so the truth lies within a factor of the
-// estimate and of its deviation by chance.
+// These were measured, see docs/method.md: rays are even and sequences differ in size, so the truth is within a factor
+// of the estimate and of its deviation by chance.
 constexpr double deviations = 1.96, path_factor = 3, power_factor = 5;
-constexpr double unseen = 3;  // as many may be missed where nothing was seen: the rule of three
+constexpr double unseen = 3;  // this many may be missed where nothing was seen: the rule of three
 
-// What missed_each is to be multiplied with: 1 for few, and so that f1 tells as much as Chao says for many.
+// The factor of missed_each: 1 for few; for many, f1 says as much as in Chao's bound.
 double likeness(double f1, double f2) { return (chao * f1 / missed_each[0] + many) / (f2 + many); }
 
 MissedRange missed_paths(const std::array<double, 4>& found) {
@@ -44,7 +45,7 @@ MissedRange missed_paths(const std::array<double, 4>& found) {
           .high = path_factor * likeness(f1, f2) * (estimate + deviations * std::sqrt(variance)) + unseen};
 }
 
-// Rows are counted in parts of so many, whose sums do not depend on the number of cores.
+// Rows are counted in parts of this many, whose sums do not depend on the number of cores.
 constexpr size_t rows_of_part = 4096;
 
 MissedCounts counts_of_rows(const Paths& paths, size_t first, size_t end) {

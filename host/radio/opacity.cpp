@@ -1,5 +1,4 @@
-// Straight through a slab, the way on which least is lost.
-// Materials that no surface uses are not asked for.
+// A wave loses least straight through a slab. Materials that no surface uses are not asked for.
 #include "radio/opacity.hpp"
 
 #include <cmath>

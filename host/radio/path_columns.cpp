@@ -1,4 +1,4 @@
-// All cores take part: most of the time goes to pages that are touched first.
+// All cores take part: most of the time is spent on pages that are touched first.
 #include "radio/path_columns.hpp"
 
 #include <tbb/parallel_for.h>

@@ -9,21 +9,20 @@
 namespace wavetracer {
 
 struct Ports {
-  uint32_t tx = 1, rx = 1;  // the most that any end of that side has
+  uint32_t tx = 1, rx = 1;  // the most ports of any end of that side
 };
 
-// Paths of one frame with room for so many rows and vertices. Their pages are touched, which takes longer than all
-// else.
+// Paths of one frame with room for this many rows and vertices. Their pages are touched, which takes most of the time.
 Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports);
-// Room for another number of them.
+// Makes room for another number of them.
 void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame);
-// Fills paths of these sizes. rows: in their order; vertices: of all rows, one after the other.
-// Returns how many have WT_ROW_NEAR_EDGE.
+// Fills paths of these sizes. rows: in their order; vertices: those of all rows, one after the other. Returns the
+// number of rows that have WT_ROW_NEAR_EDGE.
 uint32_t fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
                       std::span<const device::wt_vertex_row> vertices);
-// Fills what differs for the same rows at another carrier; returns likewise.
+// Fills the columns that differ for the same rows at another carrier; returns the same number.
 uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports);
-// Both of the first two.
+// Makes the columns and fills them.
 Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
                  uint32_t frame, Ports ports);
 

@@ -1,6 +1,6 @@
 // Far-field patterns of antenna elements in their own frame: boresight +x, dipoles along z.
-// A field is the amplitude over that of an isotropic antenna: its squared length is the gain, as a ratio. The closed
-// forms, of which only TR 38.901's is no pattern of a lossless antenna, are in wavetracer/device/antenna.h.
+// A field is the amplitude relative to that of an isotropic antenna: its squared length is the gain, as a ratio. The
+// closed forms are in wavetracer/device/antenna.h; all except that of TR 38.901 are patterns of lossless antennas.
 #pragma once
 #include <complex>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-// Components along theta-hat (V) and phi-hat (H).
+// The components along theta-hat (V) and phi-hat (H).
 struct FieldPair {
   std::complex<double> theta, phi;
 };
@@ -21,11 +21,11 @@ struct PatternGrid {
   std::vector<double> samples;                         // row by row: theta and phi components, real and imaginary
 };
 
-// A pattern measured or computed elsewhere. The file is a CSV with the header
+// Reads a pattern that was measured or computed elsewhere. The file is a CSV with the header
 //   theta_deg,phi_deg,v_re,v_im,h_re,h_im
 // and one row per direction, in any order: a regular grid over theta from 0 to 180 and phi around the full circle (the
-// closing 360 may be there or not). Blank lines and lines that start with # are skipped. Throws InputError, naming file
-// and line.
+// closing 360 may be present or not). Blank lines and lines that start with # are skipped. Throws InputError, naming
+// file and line.
 PatternGrid load_pattern(const std::string& file);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Antenna patterns read from a CSV grid; the format is documented at load_pattern.
-// Assumes angles of at most six decimals: the grid is compared in whole micro-degrees.
+// Angles may have at most six decimals: the grid is compared in whole micro-degrees.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,7 +71,7 @@ void insert(const std::string& file, Samples& samples, size_t line, const std::a
 }
 
 Samples read_samples(const std::string& file) {
-  check_input_file(file, "the antenna pattern", uint64_t{256} << 20);  // bytes; one of every degree has 4 MB
+  check_input_file(file, "the antenna pattern", uint64_t{256} << 20);  // bytes; one with every degree has 4 MB
   std::ifstream stream(file);
   if (!stream) throw InputError(fmt::format("{}: the antenna pattern cannot be opened", file));
   Samples samples;

@@ -1,4 +1,5 @@
-// Loops that compilers do several elements of at a time: real and imaginary parts apart, no branches inside.
+// These loops let compilers take several elements at a time: real and imaginary parts are apart, and there are no
+// branches.
 #include "radio/response_sum.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 constexpr size_t frequency_block = 16;
 using PairColumn = std::array<double, ResponseSum::most_pairs>;
 
-// Without the checks for infinities that operator* makes.
+// A product without the checks for infinities that operator* makes.
 std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -54,7 +55,7 @@ void ResponseSum::add(const double* delay_s, const double* amplitude, size_t pai
     add_each(delay_s, amplitude, pairs, coefficients);
 }
 
-// Blocks of frequencies: the phases within a block are the same for all of them, and one factor leads to the next.
+// Frequencies come in blocks: the phases within a block are the same for all of them, and one factor leads to the next.
 WAVETRACER_WIDE void ResponseSum::add_even(const double* delay_s, const double* amplitude, size_t pairs,
                                            std::span<const std::complex<double>> coefficients) {
   PairColumn turns, first_re, first_im, step_re, step_im;
@@ -64,7 +65,7 @@ WAVETRACER_WIDE void ResponseSum::add_even(const double* delay_s, const double* 
   };
   phases_at(axis_.frequencies_hz.front(), first_re, first_im);
   phases_at(axis_.step_hz, step_re, step_im);
-  // One step after the other depends on the one before, so steps are made of all pairs at a time.
+  // Each step depends on the one before, so a step is made for all pairs at a time.
   std::array<std::array<double, frequency_block>, most_pairs> within_re, within_im;
   PairColumn along_re, along_im;
   along_re.fill(1);
@@ -85,7 +86,7 @@ WAVETRACER_WIDE void ResponseSum::add_even(const double* delay_s, const double* 
       const size_t at = place(c, i, 0);
       const double *const re = within_re[i].data(), *const im = within_im[i].data();
       size_t k = 0;
-      for (; k + frequency_block <= count_; k += frequency_block) {  // of a length that the compiler knows
+      for (; k + frequency_block <= count_; k += frequency_block) {  // the compiler knows this length
         add_product(base, re, im, frequency_block, &re_[at + k], &im_[at + k]);
         base = product(base, along);
       }

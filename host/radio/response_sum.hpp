@@ -7,23 +7,23 @@
 
 namespace wavetracer {
 
-// Where frequencies are evenly spaced, few phases are computed by themselves, and the others follow from them by
-// multiplication: to 1e-13 for a million of them.
+// At evenly spaced frequencies few phases are computed directly, and the others follow from them by multiplication: to
+// 1e-13 for a million of them.
 struct FrequencyAxis {
   explicit FrequencyAxis(std::span<const double> frequencies_hz);
-  std::span<const double> frequencies_hz;  // which must outlive it
-  double step_hz = 0;                      // 0: few, or not evenly spaced
+  std::span<const double> frequencies_hz;  // must outlive it
+  double step_hz = 0;                      // 0: there are few, or they are not evenly spaced
 };
 
 class ResponseSum {
  public:
   static constexpr size_t most_pairs = 32;
-  // How many pairs make sums of a size that stays in a core's cache: 1 to most_pairs.
+  // The number of pairs whose sums stay in a core's cache: 1 to most_pairs.
   static size_t pairs_at_once(const FrequencyAxis& axis, size_t coefficients);
 
   // The axis must outlive it.
   ResponseSum(const FrequencyAxis& axis, size_t coefficients);
-  // A path between this number of pairs, at most pairs_at_once(): its delay and relative amplitude there.
+  // Adds a path between this number of pairs, at most pairs_at_once(): its delay and relative amplitude there.
   void add(const double* delay_s, const double* amplitude, size_t pairs,
            std::span<const std::complex<double>> coefficients);
   std::complex<double> value(size_t coefficient, size_t pair, size_t frequency) const {
@@ -32,7 +32,7 @@ class ResponseSum {
   }
 
  private:
-  // Of evenly spaced frequencies these stand side by side, of others the pairs.
+  // Evenly spaced frequencies are side by side; otherwise pairs are.
   size_t place(size_t coefficient, size_t pair, size_t frequency) const {
     return axis_.step_hz != 0 ? (coefficient * pairs_ + pair) * count_ + frequency
                               : (coefficient * count_ + frequency) * pairs_ + pair;

@@ -23,22 +23,23 @@ struct ScatteredWave {
 // F_alpha(theta_i) of the paper, its closed form. cos_theta: 0 to 1.
 double lobe_integral(uint32_t alpha, double cos_theta);
 
-// The scattered power a solid angle and area, over the power density of the wave that arrives, of a surface that
-// scatters everything: cos(theta_i) f in 1/sr. alpha = 0: Lambert's law, cos(theta_i) cos(theta_s) / pi.
-// Else cos(theta_i) ((1 + cos psi) / 2)^alpha / F_alpha(theta_i) is the paper's, but it is not the same there and back.
-// Here the smaller of both is taken: reciprocal, the paper's towards the mirrored direction and wherever the wave
-// leaves steeper than it came, and never of more power than it. At 0, 45, 60 and 80 degrees of incidence 77%, 80%, 82%
-// and 91% of its power are left for alpha = 4, 96%, 90%, 86% and 85% for alpha = 50, 62%, 73%, 80% and 92% for
-// alpha = 1. A geometric mean of both would scatter more than arrives, at 85 degrees 1.8 times as much for alpha = 4.
+// The scattered power per solid angle and area, over the power density of the arriving wave, of a surface that scatters
+// all power: cos(theta_i) f in 1/sr. alpha = 0 is Lambert's law, cos(theta_i) cos(theta_s) / pi. For other alpha the
+// paper has cos(theta_i) ((1 + cos psi) / 2)^alpha / F_alpha(theta_i), which differs in the reverse direction. Here the
+// smaller of both is taken. It is reciprocal, equals the paper's towards the mirrored direction and wherever the wave
+// leaves steeper than it came, and never has more power than the paper's. At 0, 45, 60 and 80 degrees of incidence it
+// keeps 77%, 80%, 82% and 91% of that power for alpha = 4, 96%, 90%, 86% and 85% for alpha = 50, 62%, 73%, 80% and 92%
+// for alpha = 1. A geometric mean of both would scatter more than arrives, at 85 degrees 1.8 times as much for alpha =
+// 4.
 double scattering_pattern(uint32_t alpha, double cos_in, double cos_out, double cos_psi);
 
-// What the tile sends from k_in towards k_out, unit vectors on the same side of it as those of a reflection. Powers:
-// S^2 |R_a(theta_i)| |R_b(theta_s)| pattern area, from polarisation a to b, of which the share 1 - K stays in a = b and
-// K goes to the other one. The paper has |R_a(theta_i)|^2, which is not reciprocal. Both are the same for conductors
-// and towards the mirrored direction; a half space of concrete sends 1.39, 1.07, 0.88, 0.65 (TE) and 0.66, 0.99, 2.38,
-// 0.67 (TM, whose |R|^2 at 60 degrees is 0.01) times that power by Lambert's law at 0, 45, 60 and 80 degrees.
-// Phases are uniform, one for each of TE-TE, TM-TM and TE-TM, functions of (seed, tile) alone. Reciprocal: the dyad of
-// -k_out to -k_in is the transpose of that of k_in to k_out.
+// The wave that the tile sends from k_in towards k_out, unit vectors on the same side of it as those of a reflection.
+// The power from polarisation a to b is S^2 |R_a(theta_i)| |R_b(theta_s)| pattern area; the share 1 - K of it stays in
+// a = b and K goes to the other one. The paper has |R_a(theta_i)|^2, which is not reciprocal. Both are the same for
+// conductors and towards the mirrored direction; a half space of concrete sends 1.39, 1.07, 0.88, 0.65 (TE) and 0.66,
+// 0.99, 2.38, 0.67 (TM, whose |R|^2 at 60 degrees is 0.01) times that power by Lambert's law at 0, 45, 60 and 80
+// degrees. Phases are uniform, one for each of TE-TE, TM-TM and TE-TM, and depend on (seed, tile) alone. It is
+// reciprocal: the dyad of -k_out to -k_in is the transpose of that of k_in to k_out.
 ScatteredWave scatter(const Material& material, std::complex<double> permittivity, double wavelength_m,
                       const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, double area_m2,
                       uint64_t seed, uint32_t tile);

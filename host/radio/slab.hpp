@@ -12,10 +12,10 @@ struct SlabCoefficients {
   std::complex<double> reflection_te, reflection_tm, transmission_te, transmission_tm;
 };
 
-// permittivity: relative, with a negative imaginary part for losses, its real part or its losses not zero.
-// cos_theta: cosine of the angle between the direction of travel and the slab's normal, 0 (grazing) to 1.
-// thickness_m: 0 or more; infinity is the half space, out of which nothing is transmitted.
-// Finite for every such input, whatever the losses: a metal, a resonant slab, exact grazing incidence.
+// permittivity: relative, with a negative imaginary part for losses; its real part and its losses are not both zero.
+// cos_theta: cosine of the angle between the direction of travel and the slab's normal, 0 (grazing) to 1. thickness_m:
+// 0 or more; infinity is the half space, out of which nothing is transmitted. The result is finite for every such
+// input: a metal, a resonant slab, exact grazing incidence.
 SlabCoefficients slab_coefficients(std::complex<double> permittivity, double cos_theta, double thickness_m,
                                    double wavelength_m);
 

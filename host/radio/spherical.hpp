@@ -1,5 +1,5 @@
 // Directions, their angles and their spherical unit vectors.
-// theta is the angle from +z, phi that from +x towards +y; at the poles, where phi is free, it is 0.
+// theta is the angle from +z, phi that from +x towards +y; at the poles, where phi is free, phi is 0.
 #pragma once
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -22,7 +22,7 @@ inline Angles angles_of(const glm::dvec3& direction) {
   return {angles.theta, angles.phi};
 }
 
-// direction: of unit length.
+// direction: has unit length.
 inline SphericalBasis basis_of(const glm::dvec3& direction) {
   const device::wt_basis basis = device::wt_spherical_basis(direction);
   return {basis.first, basis.second};

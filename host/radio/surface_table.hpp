@@ -1,4 +1,4 @@
-// Surfaces by their numbers in the world, and where they are at an instant.
+// Surfaces by their numbers in the world, and their places at an instant.
 #pragma once
 #include <glm/geometric.hpp>
 
@@ -14,7 +14,7 @@ class SurfaceTable : public WorldNumbers {
 
   const Surface& surface(const WorldPlace& place) const { return scene(place.part).surfaces[place.index]; }
 
-  // In the world's axes.
+  // The normal in the world's axes.
   glm::dvec3 normal(const WorldPlace& place, const WorldState& state) const {
     const glm::dvec3& normal = surface(place).normal;
     return place.instance == no_instance ? normal : state.instances[place.instance].rotation * normal;

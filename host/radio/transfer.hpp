@@ -1,5 +1,5 @@
 // The transverse field of a wave along a path: a 2 x 2 matrix in a basis that travels with the wave.
-// Plane waves at plane surfaces; spreading and antennas are left to the caller. The arithmetic is that of
+// It is for plane waves at plane surfaces; spreading and antennas are left to the caller. The arithmetic is that of
 // wavetracer/device/transfer.h.
 #pragma once
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace wavetracer {
 
-// Row major: {m00, m01, m10, m11}.
+// Rows come one after the other: {m00, m01, m10, m11}.
 using Matrix2 = std::array<std::complex<double>, 4>;
 
 inline Matrix2 matrix_of(const device::wt_matrix& m) {
@@ -28,7 +28,7 @@ class Transfer {
       : state_(device::wt_transfer_from({departure.theta, departure.phi})) {}
 
   // The wave travels along k_in, meets a surface and continues along k_out: its field normal to the plane of incidence
-  // (TE) and in that plane (TM) is multiplied by te and tm, with the signs of slab.hpp. Unit vectors.
+  // (TE) and in that plane (TM) is multiplied by te and tm, with the signs of slab.hpp. All are unit vectors.
   void meet(const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, std::complex<double> te,
             std::complex<double> tm) {
     device::wt_meet(&state_, k_in, k_out, normal, {te.real(), te.imag()}, {tm.real(), tm.imag()});

@@ -1,13 +1,13 @@
 // The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
-// Time convention exp(+j 2 pi f t).
+// The time convention is exp(+j 2 pi f t).
 #pragma once
 #include <cmath>
 #include <complex>
 
 namespace wavetracer {
 
-// g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. Finite at 0, where it is
-// sqrt(pi) exp(j pi / 4); 1 / s far out.
+// g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. It is sqrt(pi) exp(j pi / 4) at 0,
+// and 1 / s for large s.
 std::complex<double> transition_over_root(double s);
 
 // F(x) = sqrt(x) g(sqrt x), x >= 0 (R. Kouyoumjian and P. Pathak, Proc. IEEE 62(11), 1974, eq. 27): 0 at a shadow

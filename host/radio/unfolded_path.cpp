@@ -1,4 +1,5 @@
-// Lengths by unfolding: about an edge, both sides of a path turn into one plane without a change of length (Fermat).
+// Lengths come from unfolding: about an edge, both sides of a path turn into one plane without a change of length
+// (Fermat).
 #include "radio/unfolded_path.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ struct TwoEdges {
   double determinant() const { return ss * tt - st * st; }
 };
 
-// The length is convex in both places, and where the path was solved for is near: a few steps.
+// The length is convex in both places, and the solved path is near, so a few steps suffice.
 PathSpread over_edges(const std::array<Bend, 2>& edges, const glm::dvec3& from, const glm::dvec3& to) {
   constexpr int most_steps = 30;
   glm::dvec2 at(0);
@@ -45,7 +46,7 @@ PathSpread over_edges(const std::array<Bend, 2>& edges, const glm::dvec3& from, 
     const double determinant = now.determinant();
     if (!(determinant > 0)) break;
     glm::dvec2 move(-(now.tt * now.s - now.st * now.t) / determinant, -(now.ss * now.t - now.st * now.s) / determinant);
-    // What a step gains, by the quadratic form: half of it is left over by rounding.
+    // This is the gain of a step by the quadratic form; rounding leaves half of it.
     if (-(now.s * move.x + now.t * move.y) < 1e-13 * now.length * 1e-3) break;
     TwoEdges next(edges, from, to, at + move);
     for (int half = 0; half < most_steps && next.length > now.length; ++half) {
@@ -74,7 +75,7 @@ glm::dvec3 UnfoldedPath::coordinates(const glm::dvec3& image) const {
   return {along, distance(image, bend.point + along * bend.along), 0};
 }
 
-// The spreading over an edge is 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, by
+// The spreading over an edge is 1 / (before after sin b sqrt(1 / before + 1 / after)) of wt_edge_spreading, with
 // distances from its line.
 WAVETRACER_WIDE void UnfoldedPath::between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to,
                                            double* length_m, double* amplitude) const {

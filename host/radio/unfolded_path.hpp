@@ -1,6 +1,6 @@
-// A path between points near those that it was solved for: mirrors unfolded, so that what is left of it is straight but
-// for the edges and tiles that bend it.
-// Its mirrors are planes and its edges lines that go on beyond their ends: whether a point is hidden is not asked.
+// A path between points near those that it was solved for. Its mirrors are unfolded, so it is straight except at the
+// edges and tiles that bend it. Its mirrors are planes, and its edges are lines that go on beyond their ends: whether a
+// point is hidden is not tested.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -10,25 +10,25 @@
 
 namespace wavetracer {
 
-// p -> turn p + shift: several mirrors, one after the other.
+// p -> turn p + shift: the effect of several mirrors, one after the other.
 struct Isometry {
   glm::dmat3 turn{1.0};
   glm::dvec3 shift{0};
   glm::dvec3 operator()(const glm::dvec3& p) const { return turn * p + shift; }
 };
 
-// What a mirror makes of an isometry. normal: of unit length; point: in the mirror.
+// Returns the isometry after one more mirror. normal: of unit length; point: in the mirror.
 Isometry mirrored(const Isometry& image, const glm::dvec3& normal, const glm::dvec3& point);
 
-// Where a path bends, but for its mirrors.
+// A place where a path bends, other than a mirror.
 struct Bend {
   glm::dvec3 point{0};
-  glm::dvec3 along{0};  // of an edge, unit length; 0 of a point that scatters
+  glm::dvec3 along{0};  // for an edge, unit length; 0 for a point that scatters
   bool edge() const { return along != glm::dvec3(0); }
 };
 
-// How long a path is, and how its wave spreads: the factor 1 / length of a path without bends, and what takes its place
-// where there are bends (path_edges.h, path_field.h).
+// The length of a path, and the spreading of its wave: the factor 1 / length for a path without bends, and its
+// replacement where there are bends (path_edges.h, path_field.h).
 struct PathSpread {
   double length_m, amplitude;
 };
@@ -45,18 +45,18 @@ struct PointColumns {
 };
 
 struct UnfoldedPath {
-  Isometry sent, heard;  // what mirrors before the first bend make of the transmitter, those after it of the receiver
-  std::array<Bend, 2> bends;  // two only of edges
-  int count = 0;              // of them
+  Isometry sent, heard;  // images of the transmitter in mirrors before the first bend, of the receiver in the others
+  std::array<Bend, 2> bends;  // two bends are always edges
+  int count = 0;              // the number of bends
 
-  // What lengths are made of, of a point's image: its place where nothing or two edges bend the path; its distance from
-  // a point that scatters; how far along one edge it is, and how far away from its line.
+  // The coordinates of a point's image from which lengths are computed: its place where nothing or two edges bend the
+  // path; its distance from a point that scatters; its place along one edge and its distance from the edge's line.
   glm::dvec3 coordinates(const glm::dvec3& image) const;
-  // Between points first to first + points - 1 of some and one, all in coordinates.
+  // Computes lengths between points first to first + points - 1 of `from` and one point, all in coordinates.
   void between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to, double* length_m,
                double* amplitude) const;
-  // Between the images of a transmitter's point and of a receiver's. One edge: a closed form. Two edges: the shortest
-  // way over both lines by Newton's method, to 1e-12 of its length.
+  // Computes them between the images of a transmitter's point and of a receiver's. One edge has a closed form. With two
+  // edges Newton's method finds the shortest way over both lines, to 1e-12 of its length.
   PathSpread between(const glm::dvec3& sent_image, const glm::dvec3& heard_image) const;
 };
 

@@ -1,5 +1,5 @@
-// Many phases at once: exp(-j 2 pi turns), whole turns left out first.
-// Without branches and tables, so that compilers do several at a time; within 5e-15.
+// Many phases at once: exp(-j 2 pi turns), after whole turns are removed. There are no branches or tables, so that
+// compilers compute several at a time; the error is below 5e-15.
 #pragma once
 #include <cstddef>
 
@@ -7,9 +7,9 @@
 
 namespace wavetracer {
 
-// turns: less than 2^50 in size.
+// turns: below 2^50 in size.
 WAVETRACER_WIDE_PART void unit_phases(const double* turns, size_t count, double* re, double* im) {
-  constexpr double whole = 6755399441055744.0;                             // 1.5 2^52: what is added to it is rounded
+  constexpr double whole = 6755399441055744.0;                             // 1.5 2^52: a number added to it is rounded
   constexpr double quarter_of_angle = -1.5707963267948966192313216916398;  // -2 pi / 4
   for (size_t i = 0; i < count; ++i) {
     const double rounded = (turns[i] + whole) - whole;

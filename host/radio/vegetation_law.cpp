@@ -1,6 +1,6 @@
-// Kinds of vegetation are the materials of volumes, in the order in which volumes have them first.
-// A_m: A_1 = 1.37 dB and alpha = 0.42 were measured in a mixed wood near St. Petersburg from 106 to 2118 MHz, 0.18 dB
-// and 0.752 in a deciduous one near Mulhouse from 900 to 1800 MHz; beyond, the law is carried on.
+// Kinds of vegetation are the materials of volumes, in the order in which volumes first use them. For A_m: A_1 = 1.37
+// dB and alpha = 0.42 were measured in a mixed wood near St. Petersburg from 106 to 2118 MHz, 0.18 dB and 0.752 in a
+// deciduous one near Mulhouse from 900 to 1800 MHz; outside of these ranges the law is extrapolated.
 #include "radio/vegetation_law.hpp"
 
 #include <fmt/format.h>

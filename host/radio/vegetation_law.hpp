@@ -1,4 +1,4 @@
-// What vegetation takes of waves (ITU-R P.833-10, section 2.1), and the volumes of a scene as fields and devices read
+// Losses of waves in vegetation (ITU-R P.833-10, section 2.1), and the volumes of a scene as fields and devices read
 // them. host/scene/volumes.hpp makes them.
 #pragma once
 #include <vector>
@@ -8,27 +8,27 @@
 
 namespace wavetracer {
 
-// dB per metre, and the most that a path loses.
+// The loss in dB per metre, and the most that a path loses.
 struct VegetationLoss {
   double db_m, most_db;
 };
-// Of what the law does not give: g is the line of Figure 2, 0.2 dB/m at 1 GHz and in proportion to the frequency (30
-// MHz to 30 GHz), a sixth less without leaves; A_m = A_1 f^alpha (equation 2).
+// Values that the law does not give are filled in: g is the line of Figure 2, 0.2 dB/m at 1 GHz and in proportion to
+// the frequency (30 MHz to 30 GHz), a sixth less without leaves; A_m = A_1 f^alpha (equation 2).
 VegetationLoss vegetation_loss(const VegetationLaw& law, double frequency_hz);
 
 struct VolumeTable {
   std::vector<device::wt_volume> volumes;
-  std::vector<double> triangles;   // of meshes, nine each
-  std::vector<uint32_t> material;  // of each kind: its index in Scene::materials
-  std::vector<uint32_t> earlier;   // as wt_volumes has it
+  std::vector<double> triangles;   // nine doubles for each triangle of a mesh
+  std::vector<uint32_t> material;  // for each kind its index in Scene::materials
+  std::vector<uint32_t> earlier;   // in the form of wt_volumes
 
-  // For functions of wavetracer/device/volumes.h, while this is not changed.
+  // The volumes for functions of wavetracer/device/volumes.h; valid as long as this is not changed.
   device::wt_volumes all() const { return {volumes.data(), triangles.data(), earlier.data()}; }
 };
 // Throws ConfigError for more than WT_MOST_KINDS kinds.
 VolumeTable volume_table(const Scene& scene);
 
-// Of each kind, at a carrier.
+// The losses of each kind, at a carrier.
 std::vector<device::wt_foliage> foliages_at(const VolumeTable& table, const Scene& scene, double frequency_hz);
 
 }  // namespace wavetracer

@@ -1,6 +1,6 @@
-// Which surface or wedge a number of the world means: those of the static scene come first, then those of each
-// instance, in the order of its model (Instance::first_surface, first_wedge).
-// The table is flat: worlds have thousands of moving surfaces, and every vertex of every path asks.
+// The surface or wedge that a number of the world means: those of the static scene come first, then those of each
+// instance, in the order of its model (Instance::first_surface, first_wedge). The table is flat: worlds have thousands
+// of moving surfaces, and it is read for every vertex of every path.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@
 namespace wavetracer {
 
 struct WorldPlace {
-  uint32_t part;      // which scene: 0 the static one, 1 + m model m
+  uint32_t part;      // the scene: 0 is the static one, 1 + m is model m
   uint32_t index;     // its number there
   uint32_t instance;  // no_instance: static
 };
@@ -20,7 +20,7 @@ struct WorldPlace {
 // Keeps references to the scene and the models.
 class WorldNumbers {
  public:
-  // items: what is numbered, &Scene::surfaces or &Scene::wedges.
+  // items: the numbered things, &Scene::surfaces or &Scene::wedges.
   template <class Item>
   WorldNumbers(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances,
                std::vector<Item> Scene::*items)
@@ -30,7 +30,7 @@ class WorldNumbers {
         moving_.push_back({1 + instances[i].model, k, i});
   }
 
-  // id: a number in the world. Throws std::out_of_range for one that nothing has.
+  // id: a number in the world. Throws std::out_of_range for a number that does not exist.
   WorldPlace at(uint32_t id) const {
     return id < static_count_ ? WorldPlace{0, id, no_instance} : moving_.at(id - static_count_);
   }
@@ -41,7 +41,7 @@ class WorldNumbers {
   const Scene& scene_;
   std::span<const Scene> models_;
   size_t static_count_;
-  std::vector<WorldPlace> moving_;  // of the numbers from the static scene's on
+  std::vector<WorldPlace> moving_;  // places of the numbers from the static scene's on
 };
 
 }  // namespace wavetracer

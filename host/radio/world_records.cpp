@@ -1,4 +1,4 @@
-// The arithmetic is that of kernels/place.cl and wedges.cl, for the same bits.
+// The arithmetic is that of kernels/place.cl and wedges.cl, which gives the same bits.
 #include "radio/world_records.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Finds the boxes that a point is in, or nearly: a binary tree over boxes that stand still, halved at the median of its
-// longest axis. Built once, asked for every antenna of every frame.
+// Finds the boxes that a point is in or near: a binary tree over boxes that do not move, halved at the median of its
+// longest axis. It is built once, and searched for every antenna of every frame.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -45,8 +45,8 @@ class BoxTree {
   }
 
  private:
-  // In the order of a walk: the children of a node follow it, and `next` is the first node that is not below it. Only
-  // leaves have boxes, first .. end - 1 of order_.
+  // Nodes are in the order of a walk: the children of a node follow it, and `next` is the first node that is not below
+  // it. Only leaves have boxes, first .. end - 1 of order_.
   struct Node {
     TreeBox box;
     uint32_t next, first, end;

@@ -1,5 +1,5 @@
-// Depths of entries by a walk over the trees of the chained tables; in the other kinds a search has one step.
-// A tree that the thesis' races have torn may meet an entry twice: its first depth counts.
+// Depths of entries come from a walk over the trees of the chained tables; in the other kinds a search has one step. In
+// a tree that races of the thesis' table have damaged, the walk may meet an entry twice: its first depth counts.
 #include "simulation/cache_entries.hpp"
 #include <stdexcept>
 #include <utility>

@@ -1,5 +1,6 @@
-// One host read for each count of rays: the missed, and of groups those that lead and those that were refused.
-// A group's hit is handed on by the rules of a look-up, so a quantised key may refuse it, and an exact one never does.
+// The host reads each count of rays once: the missed ones and, with groups, the leaders and those that were refused. A
+// group's hit is shared by the rules of a look-up, so it may be refused with a quantised key, and never with an exact
+// one.
 #include "simulation/cache_misses.hpp"
 
 namespace wavetracer {
@@ -78,7 +79,7 @@ void MissTracer::reserve(uint64_t rays) {
   indices_ = context_.buffer<uint32_t>(rays_.capacity, "missed indices");
   if (!receives_) return;
   receptions_ = context_.buffer<uint32_t>(rays_.capacity, "receptions");
-  context_.fill(receptions_, WT_NONE);  // as it stays where receptions are not kept
+  context_.fill(receptions_, WT_NONE);  // keeps this value where receptions are not kept
 }
 
 uint32_t MissTracer::count(const RayQueue& rays, const gpu::Buffer<float>& marks) {

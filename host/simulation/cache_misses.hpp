@@ -1,5 +1,5 @@
 // Rays that a ray cache has not answered: each is traced, or with cache.innerframe one of each group of equal keys.
-// What was traced goes into the table, and the hits to the whole queue.
+// Traced segments go into the table, and hits to the whole queue.
 #pragma once
 #include <memory>
 
@@ -13,30 +13,30 @@
 
 namespace wavetracer {
 
-// What look-ups leave of a queue, ray by ray.
+// The result of look-ups for a queue, ray by ray.
 struct CacheAnswers {
-  gpu::Buffer<float> missed;        // [i]: i where ray i is to be traced, else WT_NONE (see Compact)
+  gpu::Buffer<float> missed;        // [i] is i where ray i is to be traced, else WT_NONE (see Compact)
   gpu::Buffer<uint32_t> receivers;  // with scope = "all": the receiver that the segment passes, or WT_NONE
 };
 
-// missed = traced + shared.
+// Counts of missed rays: missed = traced + shared.
 struct MissCounts {
   uint32_t traced = 0;
-  uint32_t groups = 0;  // of equal keys, of which one ray each was traced
+  uint32_t groups = 0;  // groups of equal keys; one ray of each was traced
   uint32_t shared = 0;  // rays that took the hit of another one
 };
 
-// Traces marked rays side by side and stores what they hit.
+// Traces marked rays side by side and stores their hits.
 class MissTracer {
  public:
-  // trails: where receptions are kept with scope = "all", else null; outlives this.
+  // trails: given where receptions are kept with scope = "all", else null; outlives this.
   MissTracer(gpu::Context& context, const DeviceScene& scene, const CacheTable& table, uint32_t static_surfaces,
              TraceShape shape, const LaunchShape& launch, RayTrails* trails);
   void reserve(uint64_t rays);
   uint32_t capacity() const { return rays_.capacity; }
-  // Rays whose mark is not WT_NONE; leaves what trace() needs. One host read.
+  // Counts the rays whose mark is not WT_NONE; prepares trace(). One host read.
   uint32_t count(const RayQueue& rays, const gpu::Buffer<float>& marks);
-  // The rays that count() has counted, more than none.
+  // Traces the rays that count() has counted, at least one.
   void trace(const DeviceScene& scene, RayQueue& rays, HitList& hits, const gpu::Buffer<float>& marks, uint32_t marked,
              CacheTable& table, uint32_t now, CacheAnswers& answers);
 
@@ -53,7 +53,7 @@ class MissTracer {
   RayQueue rays_;
   HitList hits_;
   gpu::Buffer<uint32_t> blocks_, indices_;
-  gpu::Buffer<uint32_t> receptions_;  // scope = "all": of the marked rays
+  gpu::Buffer<uint32_t> receptions_;  // scope = "all": those of the marked rays
 };
 
 class CacheMisses {
@@ -62,7 +62,7 @@ class CacheMisses {
   // Makes room for queues of this many rays.
   virtual void reserve(uint64_t rays) { tracer_.reserve(rays); }
   uint32_t capacity() const { return tracer_.capacity(); }
-  // The hits of the rays that are missed. Afterwards answers.missed marks those that were traced. now: the frame.
+  // Finds the hits of the missed rays. Afterwards answers.missed marks those that were traced. now: the frame.
   virtual MissCounts find(const DeviceScene& scene, RayQueue& rays, HitList& hits, CacheTable& table, uint32_t now,
                           CacheAnswers& answers) = 0;
 
@@ -71,7 +71,7 @@ class CacheMisses {
   MissTracer tracer_;
 };
 
-// By cache.innerframe.
+// Makes the kind that cache.innerframe chooses.
 std::unique_ptr<CacheMisses> make_cache_misses(gpu::Context& context, const CacheTable& table, uint32_t static_surfaces,
                                                MissTracer tracer);
 

@@ -1,5 +1,5 @@
-// Sequences and points are compared with constants, since they follow from additions, products, quotients and roots
-// alone. Fields are compared with the host's: their tables may depend on the library of the machine.
+// Sequences and points are compared with constants, since only additions, products, quotients and roots compute them.
+// Fields are compared with the host's: their tables may depend on the library of the machine.
 #include "simulation/check_frame.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ uint64_t hash_of(const std::vector<uint64_t>& words) {
 
 using FieldBits = std::vector<uint64_t>;
 
-// All that fields computes of a row.
+// All values that fields computes for a row.
 FieldBits bits_of(const Paths& paths, size_t row) {
   FieldBits out{paths.depth[row]};
   const auto add = [&](double value) { out.push_back(std::bit_cast<uint64_t>(value)); };
@@ -107,7 +107,7 @@ CheckResult check_fields(Setup& setup, const FrameResult& frame) {
 
 CheckResult check_cached(const FrameResult& first, const FrameResult& again) {
   const bool same = known_of(first.paths) == known_of(again.paths);
-  // With cache.locking = "mutex" nobody waits for a lock: a device with many rays at once is refused nearly always.
+  // With cache.locking = "mutex" no ray waits for a lock: a device with many rays at once is nearly always refused.
   if (same && again.cache.hits + again.cache.conflicts > 0)
     return {"ray cache", true,
             fmt::format("{} of {} look-ups were answered, {} refused by locks, and the paths are the same",

@@ -1,4 +1,4 @@
-// Checks of a small frame: its set of sequences, its paths and their fields, and what a ray cache answers.
+// Checks of a small frame: its set of sequences, its paths and their fields, and the answers of a ray cache.
 #pragma once
 #include <vector>
 
@@ -9,16 +9,16 @@
 
 namespace wavetracer {
 
-// The paths of a frame as known_frames.hpp has them.
+// The paths of a frame in the form of known_frames.hpp.
 KnownFrame known_of(const Paths& paths);
 
-// The set of sequences that the setup's last frame left on the device holds each once, below another one.
+// Checks that the set of sequences that the setup's last frame left on the device holds each once, below another one.
 CheckResult check_sequences(Setup& setup, const FrameResult& frame);
-// The paths are those of the known frame of these features.
+// Checks that the paths are those of the known frame of these features.
 CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& features);
-// The fields of the setup's last frame are the host's own, to the last bit.
+// Checks that the fields of the setup's last frame are the host's own, to the last bit.
 CheckResult check_fields(Setup& setup, const FrameResult& frame);
-// again: the same frame after `first`, which its cache must answer in part, and no ray otherwise.
+// again: the same frame after `first`; its cache must answer some rays, and must not change the paths.
 CheckResult check_cached(const FrameResult& first, const FrameResult& again);
 
 }  // namespace wavetracer

@@ -1,4 +1,4 @@
-// Keys repeat, so that a sort which is not stable shows.
+// Keys repeat, so that a sort that is not stable is found.
 #include "simulation/check_lists.hpp"
 
 #include <fmt/format.h>

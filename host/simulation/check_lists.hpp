@@ -1,11 +1,11 @@
-// Checks of what works on lists of words, against the host's own: sorts and prefix sums.
+// Checks of the passes on lists of words, against the host's own: sorts and prefix sums.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "simulation/check_result.hpp"
 
 namespace wavetracer {
 
-// Stable sorts of few keys, by the bitonic network, and of many, by digits.
+// Checks stable sorts of few keys, by the bitonic network, and of many, by digits.
 CheckResult check_sorts(gpu::Context& context);
 CheckResult check_sums(gpu::Context& context);
 

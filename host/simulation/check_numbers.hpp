@@ -7,7 +7,7 @@ namespace wavetracer {
 class CheckNumbers {
  public:
   explicit CheckNumbers(uint64_t seed) : state_(seed) {}
-  // D. Knuth's constants for modulo 2^64; the high bits are the good ones.
+  // These are D. Knuth's constants for modulo 2^64; the high bits are the good ones.
   uint32_t operator()() {
     state_ = state_ * 6364136223846793005u + 1442695040888963407u;
     return static_cast<uint32_t>(state_ >> 32);

@@ -5,10 +5,10 @@
 namespace wavetracer {
 
 struct CheckResult {
-  std::string name;  // of what was checked
+  std::string name;  // name of the checked part
   bool passed = false;
   std::string found;   // in words: "37 of 1,000 rays hit the wrong triangle"
-  double seconds = 0;  // compiling included
+  double seconds = 0;  // includes compiling
 };
 
 }  // namespace wavetracer

@@ -22,7 +22,7 @@ struct CheckRay {
   glm::vec3 origin, direction;
 };
 
-// Half of them leave a point together, as a launch does; of the rest each has its own way.
+// Half of the rays leave one point, as in a launch; the others have independent lines.
 std::vector<CheckRay> make_check_rays() {
   CheckNumbers numbers(7);
   const auto place = [&] {
@@ -46,7 +46,7 @@ struct CheckTriangle {
   uint32_t primitive, surface;
 };
 
-// The triangles of the whole world are numbered as on the device.
+// Lists the triangles of the whole world, numbered as on the device.
 std::vector<CheckTriangle> make_check_triangles(const Setup& s, const WorldState& state) {
   std::vector<CheckTriangle> out;
   const auto add = [&](const Scene& scene, uint32_t first_surface, const Placement& at) {
@@ -65,7 +65,7 @@ std::vector<CheckTriangle> make_check_triangles(const Setup& s, const WorldState
   return out;
 }
 
-// Where the line of the ray passes the plane, and how far inside of the triangle: negative outside.
+// The place where the line of the ray crosses the plane, and how far inside of the triangle that is: negative outside.
 struct Crossing {
   double t, inside_m;
 };
@@ -90,7 +90,7 @@ struct CheckHit {
   double t = std::numeric_limits<double>::infinity();
 };
 
-// The nearest triangle that is passed so far inside.
+// The nearest triangle that the ray crosses at least this far inside.
 CheckHit nearest(const std::vector<CheckTriangle>& triangles, const CheckRay& ray, double inside_m) {
   CheckHit out;
   for (const CheckTriangle& triangle : triangles) {

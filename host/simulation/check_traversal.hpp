@@ -5,7 +5,7 @@
 
 namespace wavetracer {
 
-// state: where the vehicles of the setup have been placed.
+// state: the state in which the vehicles of the setup have been placed.
 CheckResult check_traversal(Setup& setup, const WorldState& state);
 
 }  // namespace wavetracer

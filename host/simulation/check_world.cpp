@@ -20,7 +20,7 @@ void add_mesh(RawScene& scene, const std::string& name, const std::vector<Quad>&
   }
 }
 
-// Walls and a roof over a convex ground plan, counter-clockwise seen from above.
+// The walls and the roof over a convex ground plan, counter-clockwise seen from above.
 std::vector<Quad> house(const std::array<glm::dvec2, 4>& plan, double height_m) {
   std::vector<Quad> out;
   for (size_t i = 0; i < 4; ++i) {
@@ -82,8 +82,8 @@ Config check_config(const CheckedFeatures& features) {
   config.receivers[2].velocity_m_s = {3, -14, 0.5};
   if (features.instances) add_vehicles(config);
   TraceConfig& trace = config.trace;
-  // Twice as few rays find the same paths, and five times as many no others: what a frame knows must not depend on
-  // where a single ray goes. Longer paths with edges and through walls would.
+  // Half as many rays find the same paths, and five times as many find no others: the result must not depend on the
+  // direction of a single ray. With longer paths over edges and through walls it would.
   trace.rays = 40000;
   trace.max_depth = features.diffractions > 0 || features.transmission ? 2 : 5;
   trace.diffraction = features.diffractions > 0;
@@ -104,10 +104,10 @@ Scene check_scene(const Config& config) {
   for (const MaterialConfig& material : config.materials) raw.materials.emplace_back().name = material.name;
   add_mesh(raw, "ground", {{{{-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0}}}}, 2);
   add_mesh(raw, "house", house({{{5, 6}, {17, 6}, {17, 20}, {5, 20}}}, 9.5), 0);
-  // Turned by an angle of a triangle of 3, 4 and 5.
+  // It is turned by an angle of a triangle of 3, 4 and 5.
   add_mesh(raw, "turned house", house({{{-16, 5}, {-8, 11}, {-14, 19}, {-22, 13}}}, 7.25), 1);
   add_mesh(raw, "screen", {{{{-9, -8.5, 0}, {-1, -8.5, 0}, {-1, -8.5, 3.5}, {-9, -8.5, 3.5}}}}, 1);
-  // Faces the house, so that waves go back and forth between the two.
+  // It faces the house, so that waves go back and forth between the two.
   add_mesh(raw, "wall", {{{{-4.5, 7, 0}, {-4.5, 19, 0}, {-4.5, 19, 6}, {-4.5, 7, 6}}}}, 2);
   ResolvedMaterials resolved = resolve_materials(raw, config.scene, config.materials, config.radio.frequency_hz);
   return build_scene(raw, std::move(resolved), config.trace.diffraction ? EdgeSearch::of_scene : EdgeSearch::none);
@@ -115,7 +115,7 @@ Scene check_scene(const Config& config) {
 
 WorldState check_state(const World& world) {
   WorldState out = world.state(0);
-  // Columns: where the axes of a vehicle point.
+  // The columns are the directions of the axes of a vehicle.
   constexpr glm::dmat3 left(0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, 1), right(0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1);
   for (size_t i = 0; i < out.instances.size(); ++i) {
     out.instances[i].rotation = i == 0 ? left : right;

@@ -1,4 +1,4 @@
-// Words for people, in the order of a path.
+// The features in words, in the order of a path.
 #include "simulation/checked_features.hpp"
 
 namespace wavetracer {

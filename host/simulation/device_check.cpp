@@ -1,4 +1,4 @@
-// Checks of single kernels come first, so that what fails after them is known to be something else.
+// Single kernels are checked first, so that a later failure has another cause.
 #include "simulation/device_check.hpp"
 
 #include <exception>
@@ -22,7 +22,7 @@ class DeviceCheck {
       check_kernels();
       check_a_frame();
     } catch (const std::bad_alloc&) {
-      throw;  // that says nothing of the device
+      throw;  // this does not concern the device
     } catch (const std::exception& error) {
       results_.push_back({stage_, false, error.what(), watch_.lap()});
     }

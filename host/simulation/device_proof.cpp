@@ -1,4 +1,4 @@
-// Context::recall knows device, driver and platform; all else that the result depends on is in its subject.
+// Context::recall knows device, driver and platform; its subject has everything else that the result depends on.
 #include "simulation/device_proof.hpp"
 
 #include <fmt/format.h>

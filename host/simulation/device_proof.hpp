@@ -1,4 +1,4 @@
-// A device proves itself before it is used: it has passed the checks of device_check.hpp, now or in an earlier start.
+// The proof of a device before it is used: it has passed the checks of device_check.hpp, now or in an earlier start.
 #pragma once
 #include <span>
 #include <string>
@@ -11,16 +11,16 @@ namespace wavetracer {
 
 struct Setup;
 
-// What is checked for a run of this setup. The thesis' tables of a ray cache are as printed, with faults that are
-// theirs and not a device's, so they are left out.
+// The features that are checked for a run of this setup. The thesis' tables of a ray cache are left out: they keep the
+// faults of the printed code, which are not a device's.
 CheckedFeatures features_to_check(const Setup& setup);
 
 // Checks the device for these features, unless it has passed before with the same driver, platform, kernels and version
-// of the program: that is kept beside the compiled kernels, and where there is no room for those, each call checks.
-// Throws DeviceError that names device and driver, what has failed, and what to do.
+// of the program. That result is stored beside the compiled kernels; without room for it, each call checks. Throws
+// DeviceError that names device and driver, the failed check, and a remedy.
 void prove_device(gpu::Context& context, const CheckedFeatures& features);
 
-// Keeps what the checks have found for the next call of prove_device().
+// Stores the results of the checks for the next call of prove_device().
 void keep_proof(gpu::Context& context, const CheckedFeatures& features, std::span<const CheckResult> results);
 
 }  // namespace wavetracer

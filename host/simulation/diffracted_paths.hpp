@@ -1,6 +1,6 @@
-// The passes of diffracted paths: what prefixes of both ends see is sorted by wedge, joined there, and solved.
-// No ray need hit an edge: a ray that meets a face says that its prefix sees the wedges of that face. Assumes that both
-// ends of every link have launched, and that place has run.
+// The passes of diffracted paths: prefixes of both ends are sorted by the wedges that they see, joined there, and
+// solved. No ray need hit an edge: a ray that meets a face says that its prefix sees the wedges of that face. Both ends
+// of every link must have launched, and place must have run.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -23,13 +23,13 @@
 
 namespace wavetracer {
 
-// Pairs of edges that take longer than a frame of a drive are made of so many prefixes at a time, so that a frame can
-// be given up in between, and says how far it has come.
+// Pairs of edges may take longer than a frame of a drive. So they are made from this many prefixes at a time, and a
+// frame can be cancelled in between and report its progress.
 constexpr uint32_t prefix_block = 4096, most_at_once = 1 << 15;
 
 struct DiffractedPaths {
   // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth:
-  // interactions that a solved path has room for, max_depth or more.
+  // interactions that a solved path has room for, at least max_depth.
   DiffractedPaths(gpu::Context& context, Wedges world, const std::vector<uint32_t>& receiver_of_origin,
                   uint32_t max_depth, uint32_t row_depth, double wavelength_m, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
@@ -38,7 +38,7 @@ struct DiffractedPaths {
         pairs(std::move(two)),
         solve(context, row_depth, wavelength_m),
         sort_(context) {
-    // So that tests need no scene of millions of candidates.
+    // With this, tests need no scene of millions of candidates.
     if (const std::string most = environment("WAVETRACER_MOST_CANDIDATES"); !most.empty())
       join.set_most(static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L)));
   }
@@ -57,15 +57,15 @@ struct DiffractedPaths {
   WedgeJoin join;
   std::optional<WedgePairs> pairs;
   WedgeSolve solve;
-  std::optional<WedgeChains> chains;  // with two edges and more
+  std::optional<WedgeChains> chains;  // given with two edges and more
 
  private:
   Sort sort_;
 };
 
-// From wedge_join to visible, with a part of the prefixes after the other where all have too many candidates for one
-// list, or take long. see: what follows wedge_solve; told(done): before another part, with how many of the prefixes are
-// done. Returns what the counters have not: all parts but the last.
+// Runs wedge_join to visible. The prefixes are divided into parts where all have too many candidates for one list, or
+// take long. see: runs the passes after wedge_solve; told(done): is called before another part, with the number of
+// prefixes that are done. Returns the counts that the counters lack: those of all parts except the last.
 template <class See, class Told>
 Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                         const WedgePrefixList& prefixes, const See& see, const Told& told) {

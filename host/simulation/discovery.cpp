@@ -1,4 +1,4 @@
-// Batches of a launch, and levels of a refined one, through the wavefront loop.
+// Runs batches of a launch, and levels of a refined one, through the wavefront loop.
 #include "simulation/discovery.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 constexpr uint64_t initial_slots = 1 << 18;
 constexpr uint64_t room_step = 256;  // room for rays is a multiple of this
 
-// Rays in flight, as tuned for the device where memory and the configuration allow it.
+// The number of rays in flight: that tuned for the device where memory and the configuration allow it.
 uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& trace, const TracingDepth& depth,
                       const RayFollower& follower) {
   const uint64_t waiting = depth.transmissions > 0 ? depth.interactions - 1 : 0;  // queues beside the two of the loop
@@ -24,10 +24,10 @@ uint64_t choose_batch(const gpu::DeviceInfo& device, const TraceConfig& trace, c
   return std::min(rays, std::max(room_step, samples / room_step * room_step));
 }
 
-// Refined launches go along their curve.
+// A launch with a fixed number of rays follows the plan; refined launches go along their curve.
 OrderPlan order_of(const TraceConfig& trace, const OrderPlan& plan) { return trace.rays ? plan : OrderPlan{}; }
 
-// Queues say whose rays they hold where a cache or a follower must know.
+// Rays in queues are labelled where a cache or a follower must know their transmitter and sample.
 bool needs_labels(const DiscoveryOptions& options) { return options.finder || options.follower; }
 
 InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& depth, const DiscoveryOptions& options) {
@@ -37,8 +37,8 @@ InteractOptions interact_options(const TraceConfig& trace, const TracingDepth& d
           .transmission = depth.transmissions > 0};
 }
 
-// Does nothing happen to rays between two depths but their reflection? Then they need no queues. On CPUs packets of
-// rays through queues are faster.
+// Are rays only reflected between two depths? Then they need no queues. On CPUs packets of rays through queues are
+// faster.
 bool at_once(const gpu::DeviceInfo& device, const TracingDepth& depth, const DiscoveryOptions& options) {
   return !device.cpu && !needs_labels(options) && depth.transmissions == 0 && !options.order.each_depth &&
          options.order.launch.plain();
@@ -151,7 +151,7 @@ bool Discovery::trace_level(const DeviceScene& scene, DiscoveryCounts& counts) {
 
 void Discovery::reserve(uint64_t rays) {
   if (rays <= room_) return;
-  room_ = 0;  // until all parts have been made: what fits one of them fits them all
+  room_ = 0;  // until all parts are made: a number that fits one of them fits them all
   rays = (rays + room_step - 1) / room_step * room_step;
   wavefront_.reserve(rays);
   source_.reserve(rays);

@@ -1,5 +1,5 @@
-// Times of frames are multiples of a step, so an interval may end a rounding error before a frame.
-// Assumes that vehicles and transmitters keep their numbers from frame to frame.
+// Times of frames are multiples of a step, so an interval may end a rounding error before a frame. Vehicles and
+// transmitters must keep their numbers from frame to frame.
 #include "simulation/discovery_clock.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace wavetracer {
 
 namespace {
-// The rounding of a difference of times near this one.
+// The rounding error of a difference of times near this one.
 double interval_tolerance_s(double time_s) { return std::max(1e-9, 2 * time_spacing_s(time_s)); }
 }  // namespace
 

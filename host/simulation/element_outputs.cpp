@@ -1,4 +1,4 @@
-// Nothing is made where nothing asks for it.
+// Outputs are only made if the configuration asks for them.
 #include "simulation/element_outputs.hpp"
 
 #include "radio/element_responses.hpp"

@@ -1,4 +1,4 @@
-// What a frame has between the elements of arrays: responses ([response]) and gains of beams (array.codebook).
+// The outputs of a frame between the elements of arrays: responses ([response]) and gains of beams (array.codebook).
 #pragma once
 #include <optional>
 
@@ -10,11 +10,12 @@ namespace wavetracer {
 
 class ElementOutputs {
  public:
-  // config: with all ends of the world. All of them must outlive it. Reads codebooks; throws ConfigError or InputError.
+  // config: has all ends of the world. All arguments must outlive this. Reads codebooks; throws ConfigError or
+  // InputError.
   ElementOutputs(const Config& config, const Scene& scene, const World& world);
-  // Whether a frame gets anything.
+  // Does a frame get any of these outputs?
   bool on() const { return model_.has_value(); }
-  // Of a frame that is complete but for them.
+  // Adds them to a frame that is complete otherwise.
   void operator()(FrameResult& frame) const;
 
  private:

@@ -1,4 +1,4 @@
-// Geometry decides: which passes a configuration needs, and the choice between the two that check legs.
+// Geometry decides: this chooses the passes that a configuration needs, and one of the two that check legs.
 #include "simulation/exact_paths.hpp"
 
 #include <unistd.h>
@@ -12,8 +12,8 @@ namespace wavetracer {
 
 namespace {
 
-// Tiles whose centres fit into a buffer of the device, and that take half of the memory of the machine while they are
-// made, about 110 bytes each.
+// The number of tiles whose centres fit into a buffer of the device, and that take at most half of the memory of the
+// machine while they are made, about 110 bytes each.
 uint64_t fitting_tiles(const gpu::DeviceInfo& device) {
   const auto memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   return std::min({TileTable::most_tiles, device.max_buffer / (3 * sizeof(double)), memory / 2 / 110});

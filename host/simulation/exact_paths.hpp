@@ -1,4 +1,4 @@
-// The passes that lead from what rays have found to paths; the frame calls them in their order (frame.cpp).
+// The passes that lead from the results of rays to paths; the frame calls them in their order (frame.cpp).
 // Each kind of path has its candidates and its solve; legs, visibility and merging are the same for all.
 #pragma once
 #include <optional>
@@ -19,25 +19,25 @@
 namespace wavetracer {
 
 struct ExactPaths {
-  // trace: see with_features. frames_follow: what is hidden in a frame is mostly hidden in the next one, too.
+  // trace: see with_features. frames_follow: a path that is hidden in a frame is mostly hidden in the next one, too.
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
              const TraceConfig& trace, double longest_wavelength_m, const Origins& origins, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
-  // Of paths: specular, diffracted, scattered off surfaces and off vegetation.
+  // The number of kinds of paths: specular, diffracted, scattered off surfaces and off vegetation.
   uint64_t kinds() const {
     return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{crowns.has_value()};
   }
 
   uint32_t max_depth;
   Candidates candidates;
-  std::optional<Blockers> blockers;  // where frames follow each other and legs are not listed
+  std::optional<Blockers> blockers;  // set where frames follow each other and legs are not listed
   Solve solve;
   std::optional<DiffractedPaths> diffraction;
   std::optional<Scatter> scatter;
   std::optional<Crowns> crowns;
-  std::optional<Occlusion> occlusion;  // one of these two
+  std::optional<Occlusion> occlusion;  // this or the next one is set
   std::optional<Transmissions> transmissions;
   Visible visible;
 };

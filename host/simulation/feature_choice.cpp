@@ -1,5 +1,5 @@
-// One rule a feature; the reason is for people, and names what to change.
-// Materials and edges of vehicles count as those of the scene do.
+// There is one rule for each feature; the reason is a text for the user, and names the key to change. Materials and
+// edges of vehicles count like those of the scene.
 #include "simulation/feature_choice.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ bool any_material(const Scene& scene, const World& world, const Holds& holds) {
   });
 }
 
-// One text names all of them; what asks for a material later would name the first.
+// One text names all of them; later code that needs a material would only name the first.
 void check_materials(const Config& config, const Scene& scene, const World& world) {
   std::vector<Material> used;
   any_material(scene, world, [&](const Material& material) {
@@ -50,13 +50,13 @@ struct Reason {
   std::string words;
 };
 
-// On unless one of the reasons holds; the first that does is given.
+// The feature is on unless one of the reasons holds; the first that holds is given.
 Feature feature(const std::vector<Reason>& reasons) {
   const auto found = std::ranges::find_if(reasons, &Reason::holds);
   return found == reasons.end() ? Feature{true, {}} : Feature{false, found->words};
 }
 
-// What a kind of interaction needs of the scene, by its code; a kind that is not there needs nothing.
+// The needs of each kind of interaction, by its code; a kind that is missing here needs nothing.
 std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Scene& scene, const World& world) {
   const bool wedges = any_scene(scene, world, [](const Scene& s) { return !s.wedges.empty(); });
   const bool closed = any_scene(scene, world, [](const Scene& s) {

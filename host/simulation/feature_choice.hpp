@@ -1,5 +1,5 @@
-// Which features a run computes: those that the configuration asks for and that the scene needs.
-// A feature that is off makes no pass, runs no kernel and takes no memory.
+// Chooses the features that a run computes: those that the configuration asks for and that the scene needs. A feature
+// that is off makes no pass, runs no kernel and takes no memory.
 #pragma once
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"

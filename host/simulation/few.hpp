@@ -1,4 +1,4 @@
-// The first few texts of a list, then how many more there are: warnings are for people.
+// The first few texts of a list, then the number of the others, for warnings.
 #pragma once
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// The passes in their order; nothing is read between them but the numbers of rows.
+// The passes run in their order; only the numbers of rows are read between them.
 #include "simulation/finished_paths.hpp"
 
 #include "radio/carriers.hpp"
@@ -10,7 +10,7 @@
 namespace wavetracer {
 namespace {
 
-// What is read of a frame before it is known how much there is: little more than of the last one.
+// The rows that are read of a frame before their number is known: a little more than in the last frame.
 RowCounts expected_rows(const wt_counters& last) {
   return {last.rows + last.rows / 16 + 16, last.row_vertices + last.row_vertices / 16 + 64};
 }

@@ -1,7 +1,7 @@
 // From visible paths to the rows of a frame, on the device until they are finished: reversed twins and distinct rows in
-// their order, then fields, and one read of the columns.
-// The reversed twin of a path is that of the link the other way, where both ends send and receive: what is a path one
-// way is a path the other way. Assumes that a transmitter and a receiver that are one end stand in the same point.
+// their order, then fields, and one read of the columns. The reversed twin of a path belongs to the link the other way,
+// if both ends send and receive: a path in one direction is also a path in the other. A transmitter and a receiver that
+// are one end must be at the same point.
 #pragma once
 #include "passes/distinct.hpp"
 #include "passes/fields.hpp"
@@ -19,22 +19,22 @@ namespace wavetracer {
 
 class FinishedPaths {
  public:
-  // config: with all ends of the world, and the features that are on. Throws ConfigError.
+  // config: has all ends of the world, and the features that are on. Throws ConfigError.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
   // Starts the passes. visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose
-  // paths are wanted, where they are not all that ends.links has. carriers: are fields of radio.frequencies_hz wanted,
-  // besides those of the first?
+  // paths are wanted, if they are not all of ends.links. carriers: are fields of radio.frequencies_hz wanted besides
+  // those of the first carrier?
   void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
              const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, bool carriers,
              Counters& counters);
-  // Other materials for the frames that follow, at the first carrier: as many as FieldTables has, in its order.
+  // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
-  // The paths, once the device has finished, with the counters as it left them; with trace.diffraction they have
-  // groups. left_out: gets paths that radio/fields.hpp does not count. carriers: gets the fields that were started
-  // besides; may be nullptr.
+  // Returns the paths, once the device has finished, with the counters as it left them; with trace.diffraction they
+  // have groups. left_out: gets the paths that are left out (radio/fields.hpp). carriers: gets the fields at the other
+  // carriers, if they were started; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
-  // Fields::near_edges() of the paths that take() gave, at each carrier.
+  // Fields::near_edges() for the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
     std::vector<uint32_t> out;
     for (const Fields& fields : fields_) out.push_back(fields.near_edges());
@@ -46,13 +46,13 @@ class FinishedPaths {
   Distinct distinct_;
   Sort sort_;
   Scan scan_;
-  std::optional<Vegetation> vegetation_;  // where the scene has any
-  std::vector<Fields> fields_;            // of each carrier, which share nothing but the rows
+  std::optional<Vegetation> vegetation_;  // set where the scene has any
+  std::vector<Fields> fields_;            // one for each carrier; they only share the rows
   std::vector<double> carriers_hz_;
-  std::optional<PathGroups> groups_;  // with diffraction
+  std::optional<PathGroups> groups_;  // set with diffraction
 };
 
-// Paths that were found elsewhere as visible ones, instead of those that the list has.
+// Replaces the visible paths of the list by paths that were found elsewhere.
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible);
 
 }  // namespace wavetracer

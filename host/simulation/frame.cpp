@@ -16,7 +16,8 @@ double power_of_all(const Paths& paths) {
   return sum;
 }
 
-// Every known path is one of all, but for those whose sequences were dropped in this frame.
+// Counts paths that were found late: every known path is among all, except those whose sequences were dropped in this
+// frame.
 LateCounts late_counts(const Paths& known, const Paths& all) {
   LateCounts out{.discoveries = 1, .paths = all.size() - std::min(known.size(), all.size()), .all = power_of_all(all)};
   if (out.paths > 0) out.power = std::max(out.all - power_of_all(known), 0.0);
@@ -33,7 +34,7 @@ FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_
     try {
       solve({.pose = [this] { return plan_.world.state(0); }, .compiling = true});
     } catch (const gpu::BufferError&) {
-      // Frames make their lists shorter, or say it.
+      // Real frames shorten their lists, or report the error.
     }
     forget();
   }
@@ -45,8 +46,8 @@ void FrameLoop::forget() {
   if (s_.cache) s_.cache->clear();
 }
 
-// A frame that is given up leaves half of its sequences, which the next one must not take for all. Frames of blocks
-// neither reuse anything nor leave anything.
+// A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of
+// blocks neither reuse sequences nor leave any.
 FrameResult FrameLoop::run(const FrameTask& task) {
   if (task.is_block()) forget();
   try {
@@ -82,9 +83,10 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
   DiscoveryMark& discovery = task.discovery ? *task.discovery : discovery_;
   const bool searches = !spared && clock_.due(out.world, !warm, discovery);
-  std::optional<Paths> known;  // before rays add to the sequences
+  std::optional<Paths> known;  // computed before rays add to the sequences
   if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
-  // Frames like the one before: what tells of rays on their way, and blocks of links, are not.
+  // Frames are alike if they do the same as the one before; those that follow rays and those of blocks of links are
+  // not.
   const bool alike = !block && !task.compiling && !known && !s_.cache && !s_.trails;
   if (searches) next_frame(s_.discovery->sequences());
   if (s_.cache) s_.cache->begin_frame(out.world);
@@ -101,7 +103,7 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
   const bool spheres = s_.trails && s_.trails->receives();
-  if (s_.cache || spheres) out.paths.quarters.clear();  // what they find, no smaller launch tells of
+  if (s_.cache || spheres) out.paths.quarters.clear();  // their quarters do not estimate misses
   const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
   if (few) account.warn(*few);
   if (found.rays > 0 && !few) out.missed = missed_counts(out.paths, 0, out.paths.size());
@@ -120,8 +122,8 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   return account.close();
 }
 
-// From rays to fields, without waiting for the device where the frame is like the one before; once more, and waiting,
-// if it was not.
+// Goes from rays to fields, without waiting for the device if the frame is like the one before. If it proves not to be,
+// it runs once more and waits.
 FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                                        const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
@@ -146,7 +148,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
   return out;
 }
 
-// The paths of the sequences that are known, with the same rules as those of the frame.
+// The paths of the known sequences, by the same rules as those of the frame.
 Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                              FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
@@ -170,7 +172,7 @@ void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const Radi
                   s_.discovery->sequences().counters());
 }
 
-// What is entered from now on is younger than all before, and what is too old is forgotten.
+// Sequences entered from now on are younger than all before, and those that are too old are dropped.
 void FrameLoop::next_frame(Sequences& set) {
   if (!plan_.reuse) warm_frames_ = 0;
   set.begin_frame();
@@ -186,7 +188,7 @@ void FrameLoop::begin_sequences(Sequences& set, bool searches) {
     set.counters().zero();
 }
 
-// With diffraction listeners launch too, and what both ends see meets at the edge.
+// With diffraction listeners launch, too, and prefixes of both ends meet at the edge.
 DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   std::vector<Launcher> transmitters = sending(world), listeners;
   if (plan_.trace.diffraction) listeners = listening(world, plan_.origins);
@@ -212,7 +214,7 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
   return s_.discovery->find_all(s_.device_scene, launches);
 }
 
-// The thesis' way: rays that pass a receiver's sphere are its paths.
+// The thesis' method: a ray that passes a receiver's sphere is a path.
 Uncounted FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
   set.collect(ends.transmitter_count);
@@ -235,7 +237,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     exact.visible(solved, counters);                  // visible
     account.device_done();
   };
-  constexpr uint64_t steps = 100;  // of each kind
+  constexpr uint64_t steps = 100;  // for each kind
   const auto tell = [&] { watch.tell("paths", steps * ++kinds_done, steps * exact.kinds()); };
   watch.tell("paths", 0, steps * exact.kinds());
 

@@ -14,25 +14,25 @@ namespace wavetracer {
 // The inputs of a frame.
 struct FrameTask {
   uint32_t frame = 0;
-  std::function<WorldState()> pose = {};              // where everything is
-  EndName transmitter_name = {}, receiver_name = {};  // for warnings; asked after the poses
-  std::optional<TransmitterRange> transmitters = {};  // only the links of these; not given: all
-  std::optional<ReceiverRange> receivers = {};        // likewise
-  LeftOut* left_out = nullptr;                        // a part of a frame adds its own here instead of a warning
-  bool timed = true;                                  // its stages on the device are profiled
-  DiscoveryMark* discovery = nullptr;                 // of the source of poses; null: of the drive
-  bool between = false;  // two frames of poses: launches no rays where frames may do without
+  std::function<WorldState()> pose = {};              // gives the state of the world
+  EndName transmitter_name = {}, receiver_name = {};  // for warnings; called after pose
+  std::optional<TransmitterRange> transmitters = {};  // only the links of these; not set: all
+  std::optional<ReceiverRange> receivers = {};        // only the links of these; not set: all
+  LeftOut* left_out = nullptr;                        // a part of a frame adds its own here; the whole warns
+  bool timed = true;                                  // stages on the device are profiled
+  DiscoveryMark* discovery = nullptr;                 // that of the source of poses; null: that of the drive
+  bool between = false;  // the time is between two frames of poses: launches no rays if that is allowed
   bool is_block() const { return transmitters || receivers; }
-  bool compiling = false;  // launches are there to be compiled: few rays, and no warnings
+  bool compiling = false;  // launches only compile: few rays, no warnings
 };
 
 class FrameLoop {
  public:
-  // setup outlives this. On a CPU, compiles what a frame launches.
+  // setup outlives this. On a CPU, this compiles the kernels that a frame launches.
   explicit FrameLoop(Setup& setup);
-  // Throws FrameStopped if the observer has cancelled the frame, and the errors of poses and blocks.
+  // Throws FrameStopped if the observer has cancelled the frame, and passes on errors of poses and blocks.
   FrameResult run(const FrameTask& task);
-  // The next frame is cold: it reuses nothing.
+  // Makes the next frame cold: it reuses nothing.
   void forget();
 
  private:
@@ -55,13 +55,13 @@ class FrameLoop {
   Setup& s_;
   const RunPlan& plan_;
   DiscoveryClock clock_;
-  DiscoveryMark discovery_;   // of the drive
-  RadioEnds ends_;            // of the frame
-  uint64_t warm_frames_ = 0;  // that launched rays since the last cold one, which counts
+  DiscoveryMark discovery_;   // that of the drive
+  RadioEnds ends_;            // those of the frame
+  uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one
 };
 
 // Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
-// sequences since the call before, whose exchanges are added then. Returns what no counter has.
+// sequences since the last call; then their exchanges are added. Returns the counts that no counter has.
 Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
                       const FrameWatch& watch, FrameAccount& account);
 

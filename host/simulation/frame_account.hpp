@@ -8,14 +8,14 @@
 
 namespace wavetracer {
 
-// Counts what no counter has: rows of scattering, and the parts of a list but its last one.
+// Counts that no counter has: rows of scattering, and the parts of a list except its last one.
 struct Uncounted {
   uint64_t candidates = 0, solved = 0;
 };
 
 class FrameAccount {
  public:
-  // The frame begins. context outlives this.
+  // Begins the frame. context outlives this.
   FrameAccount(gpu::Context& context, uint32_t frame);
 
   // Ends a stage of the host: its seconds are those since the stage before, or since device_done().
@@ -26,14 +26,14 @@ class FrameAccount {
   void discovered(const DiscoveryCounts& found);
   void counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides);
   void warn(std::string text) { result.warnings.push_back(std::move(text)); }
-  // Paths of near ends that were left out. names: of the ends of the frame.
+  // Reports paths of near ends that were left out. names: those of the ends of the frame.
   void left_out(const LeftOut& paths, const EndName& transmitter_name, const EndName& receiver_name);
-  // Paths that are closer to an edge than the theory of diffraction goes: at the first carrier and the others.
+  // Reports paths that are closer to an edge than the theory of diffraction holds: at the first carrier and the others.
   void near_edges(const std::vector<uint32_t>& paths_at, const std::vector<CarrierFields>& others, double first_hz);
-  // The result, complete.
+  // Returns the complete result.
   FrameResult close();
 
-  FrameResult result;  // so far
+  FrameResult result;  // the result so far
 
  private:
   gpu::Context& context_;

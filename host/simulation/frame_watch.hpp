@@ -12,7 +12,7 @@ namespace wavetracer {
 class FrameWatch {
  public:
   void set(FrameObserver observer) { observer_ = std::move(observer); }
-  // What follows is part `part` of `parts` of a frame, counted from 0; they are taken to be as large as each other.
+  // Says that part `part` of `parts` of a frame follows, counted from 0; all parts count as equally large.
   void set_part(uint64_t part, uint64_t parts) {
     part_ = part;
     parts_ = parts;
@@ -28,7 +28,7 @@ class FrameWatch {
  private:
   FrameObserver observer_;
   uint64_t part_ = 0, parts_ = 1;
-  mutable std::array<uint64_t, 2> largest_{};  // of the launches and steps of a part, by stage
+  mutable std::array<uint64_t, 2> largest_{};  // numbers of launches and steps of a part, by stage
 };
 
 }  // namespace wavetracer

@@ -1,10 +1,10 @@
-// Tracing, and the counts that it leaves to others in launches of another shape.
+// Traces rays; in launches of another shape a later pass counts their hits.
 #include "simulation/hit_finder.hpp"
 
 namespace wavetracer {
 
-// Packets win as long as neighbours in the queue travel together, which they do to the last depth once they were born
-// or sorted in order.
+// Packets are faster as long as neighbours in the queue travel together. They do so to the last depth if rays were
+// launched or sorted in order.
 TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& trace, const OrderPlan& order) {
   if (!device.cpu) return TraceShape::bvh2;
   return trace.directions == "random" && !order.key ? TraceShape::bvh8 : TraceShape::packet16;

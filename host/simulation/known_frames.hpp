@@ -1,5 +1,5 @@
-// The frames that every device computes alike, bit for bit: how many paths each has, and hashes of them.
-// One row a set of features, by CheckedFeatures::frame(). The test `device_check` prints what a row should be.
+// The frames that every device computes alike, bit for bit: the number of their paths, and hashes of them. There is one
+// row for each set of features, by CheckedFeatures::frame(). The test `device_check` prints the right rows.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace wavetracer {
 
 struct KnownFrame {
   uint32_t paths = 0;
-  uint64_t sequences = 0;  // mix64 of what the paths meet, and how
-  uint64_t points = 0;     // mix64 of where
+  uint64_t sequences = 0;  // mix64 of the surfaces, wedges and kinds of interactions of the paths
+  uint64_t points = 0;     // mix64 of their points
   bool operator==(const KnownFrame&) const = default;
 };
 

@@ -1,5 +1,5 @@
-// A launch: which ends send rays, in which directions, and what discovery counts of it.
-// Launches are values: they describe what is traced, not how.
+// A launch: the ends that send rays, their directions, and the counts of its discovery. Launches are values: they say
+// what is traced, not how.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-// Every stride-th direction of the full set, from `phase` on. Neighbours of a sorted launch are stride apart.
+// Every stride-th direction of the full set, from `phase` on. Neighbours in a sorted launch are stride apart.
 struct DirectionShare {
   uint64_t phase = 0, stride = 1;
 };
@@ -32,20 +32,20 @@ inline std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitte
   return out;
 }
 
-// Why a refined launch ended: it reached trace.recall; its next level would launch more than trace.max_rays; its
-// cells are as small as they get; or none of its last rays met anything rare, so that there is nothing to refine.
+// The reason why a refined launch ended: it reached trace.recall; its next level would launch more than trace.max_rays;
+// its cells are as small as possible; or none of its last rays met anything rare, so that nothing is left to refine.
 enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 
-// What discovery adds to FrameCounts.
+// The counts that discovery adds to FrameCounts.
 struct DiscoveryCounts {
   uint64_t rays = 0, hits = 0;
   std::vector<uint64_t> segments_per_depth;
-  uint64_t unread = 0;  // rays whose segments the device has counted, and nobody has read yet (wt_counters::ended)
-  // Of a refined launch: the share of sequences that one sample alone met, and why it ended.
+  uint64_t unread = 0;  // rays with segments that the device counted, not read yet (wt_counters::ended)
+  // For a refined launch: the share of sequences that a single sample met, and why the launch ended.
   double share_once = 0;
   LaunchEnd end = LaunchEnd::recall;
 
-  // Adds the segments of so many rays. ended: how many of them ended after how many hits.
+  // Adds the segments of `alive` rays. ended: the number of them that ended after each number of hits.
   void add_ended(uint64_t alive, const wt_uint* ended) {
     for (uint64_t& segments : segments_per_depth) {
       segments += alive;

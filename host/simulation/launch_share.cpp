@@ -1,4 +1,4 @@
-// Shares of the directions, and the numbers of rays that they come from.
+// The shares of the directions, and the numbers of rays in full launches.
 #include "simulation/launch_share.hpp"
 
 #include <algorithm>
@@ -8,8 +8,8 @@ namespace wavetracer {
 
 namespace {
 
-constexpr uint64_t compiling_rays = 4096;  // of each launcher
-constexpr uint64_t refreshed_share = 10;   // of the directions, the part that a frame launches anew where none is given
+constexpr uint64_t compiling_rays = 4096;  // rays of each launcher
+constexpr uint64_t refreshed_share = 10;   // one in this many directions is launched in a warm frame by default
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Which directions a frame launches: all of them in a cold frame, a share of them in the frames after it; fewer from
+// The directions that a frame launches: all of them in a cold frame, a share of them in the frames after it; fewer from
 // listeners than from transmitters.
 #pragma once
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace wavetracer {
 
-// All directions in a cold frame (warm_frames = 0); after it every stride-th, another set each time: `stride` frames
-// together launch all. Steps of the golden ratio, so that a few frames spread evenly. refresh_rays: of each launcher in
-// such a frame; where none is given, a tenth.
+// Gives all directions in a cold frame (warm_frames = 0), and after it every stride-th, another set each time: `stride`
+// frames together launch all. The sets follow in steps of the golden ratio, so that a few frames are spread evenly.
+// refresh_rays: rays of each launcher in such a frame; not set: a tenth.
 DirectionShare share_of(uint64_t rays, std::optional<uint64_t> refresh_rays, uint64_t warm_frames);
 
-// Rays of each listener. Edges are met by many rays, so a tenth of trace.rays suffices, but not less than 100,000.
+// The number of rays of each listener. Many rays meet edges, so a tenth of trace.rays suffices, but at least 100,000.
 uint64_t listener_rays(const TraceConfig& trace);
 
 // The launches of a frame with a fixed number of rays: transmitters, then listeners where there are some.

@@ -1,5 +1,5 @@
-// Planes are judged in double within the box of their surface.
-// A box is more than its surface: a launch too many costs rays, and never a path.
+// Planes are tested in double within the box of their surface. A box is larger than its surface: an unneeded launch
+// costs rays, but never a path.
 #include "simulation/launch_sides.hpp"
 
 #include <tbb/parallel_for.h>
@@ -16,11 +16,11 @@
 namespace wavetracer {
 namespace {
 
-constexpr size_t most_planes = 3;  // of a corner
+constexpr size_t most_planes = 3;  // the most planes of a corner
 
 double size_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-// As far beside a surface as a reflected ray starts (kernels/lib/mirror.clh).
+// A step as far beside a surface as a reflected ray starts (kernels/lib/mirror.clh).
 double step_beside(const glm::dvec3& p) { return 1.9e-6 * std::max(size_of(p), 0.1); }
 
 std::vector<TreeBox> boxes_of(const Scene& scene) {
@@ -37,7 +37,7 @@ LaunchSides::Planes::Planes(const Scene& of)
 void LaunchSides::Planes::find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const {
   std::vector<uint32_t> on;
   boxes.at(p, tolerance_m, [&](uint32_t i) { on.push_back(i); });
-  std::ranges::sort(on);  // the first planes count, and the order of a tree is nobody's business
+  std::ranges::sort(on);  // only the first planes count, and the result must not depend on the order of a tree
   for (const uint32_t i : on) {
     const Surface& s = scene->surfaces[i];
     const double above_m = glm::dot(s.normal, p) - s.offset_m;
@@ -48,7 +48,7 @@ void LaunchSides::Planes::find(const glm::dvec3& p, double tolerance_m, std::vec
 LaunchSides::LaunchSides(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances)
     : instances_(instances), static_(scene), models_(models.begin(), models.end()) {}
 
-// Planes that are one are listed once: patches of the ground, walls that touch.
+// Equal planes are listed once: patches of the ground, walls that touch.
 std::vector<LaunchSides::Plane> LaunchSides::planes_at(const Launcher& launcher, const WorldState& state, double step_m,
                                                        std::optional<Known>& known) const {
   const glm::dvec3& p = launcher.position_m;
@@ -93,7 +93,7 @@ std::vector<Launcher> LaunchSides::of(const std::vector<Launcher>& launchers, co
       sides[i] = std::move(both);
     }
   };
-  // One thread does a hundred before others are awake.
+  // One thread does a hundred launchers before others have started.
   tbb::parallel_for(tbb::blocked_range<size_t>(0, launchers.size(), 128), [&](const tbb::blocked_range<size_t>& range) {
     for (size_t i = range.begin(); i < range.end(); ++i) find(i);
   });

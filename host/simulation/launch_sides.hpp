@@ -1,6 +1,6 @@
-// Launches from antennas on surfaces. Rays start where float32 has the antenna, which may be behind a surface that it
-// stands on or just in front of; paths are decided in double, where a surface closer than 0.1 mm hides nothing from an
-// antenna (kernels/lib/legs.clh). So such an antenna launches from both sides of the surface, a step beside it.
+// Launches from antennas on surfaces. In float32 the start of a ray may be behind a surface that the antenna stands on,
+// or just in front of it; paths are decided in double, where a surface closer than 0.1 mm does not hide an antenna
+// (kernels/lib/legs.clh). So such an antenna launches from both sides of the surface, a step beside it.
 #pragma once
 #include <optional>
 #include <span>
@@ -14,12 +14,12 @@
 
 namespace wavetracer {
 
-// Keeps references to the models and the instances. Launchers of one call have transmitters of their own.
+// It keeps references to the models and the instances. Launchers of one call have different transmitters.
 class LaunchSides {
  public:
   LaunchSides(const Scene& scene, std::span<const Scene> models, std::span<const Instance> instances);
 
-  // The same launchers, those on surfaces once for each side of each of them, three surfaces at most.
+  // Returns the same launchers; those on surfaces appear once for each side of each surface, of at most three surfaces.
   std::vector<Launcher> of(const std::vector<Launcher>& launchers, const WorldState& state);
 
  private:
@@ -33,11 +33,11 @@ class LaunchSides {
     explicit Planes(const Scene& scene);
     const Scene* scene;
     BoxTree boxes;
-    double radius_m;  // of the scene about its own origin
-    // Appends those that the point is on.
+    double radius_m;  // that of the scene about its own origin
+    // Appends the planes that the point is on.
     void find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const;
   };
-  // Of the static scene, for each launcher: those at its place, which most keep from frame to frame.
+  // For each launcher the planes of the static scene at its place, which mostly does not change from frame to frame.
   struct Known {
     glm::dvec3 position_m;
     std::vector<Plane> planes;

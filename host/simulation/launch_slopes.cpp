@@ -1,5 +1,5 @@
-// Height differences are counted in half octaves and their shares in eighths, so that tables depend on numbers of links
-// alone, not on their order, and are few: launchers share them, and so do frames.
+// Height differences are counted in half octaves and their shares in eighths. So tables depend only on numbers of
+// links, not on their order, and there are few: launchers share them, and so do frames.
 #include "simulation/launch_slopes.hpp"
 
 #include <algorithm>
@@ -9,17 +9,16 @@ namespace wavetracer {
 
 namespace {
 
-// A wall is met all the same where a ray is so much too high or too low.
+// A ray still meets a wall if it is this much too high or too low.
 constexpr double least_height_m = 2;
 constexpr double half_octave = 1.4142135623730951;
-// Rays within this slope of the horizon suffice, however far the scene reaches: longer paths would be of some
-// kilometres.
+// Rays within this slope of the horizon suffice for scenes of any size: longer paths would have some kilometres.
 constexpr double least_z0 = 1.0 / 300;
-// For roofs, bridges and what else is above or below. In munich a tenth loses paths of an antenna on a roof, and half
-// costs twice the rays on streets (docs/method.md).
+// This share is for roofs, bridges and other things above or below. In munich a tenth loses paths of an antenna on a
+// roof, and half costs twice the rays on streets (docs/method.md).
 constexpr double uniform_share = 0.25;
 constexpr uint32_t eighths = 8;
-constexpr size_t most_tables = 4096;  // remembered
+constexpr size_t most_tables = 4096;  // tables that are remembered
 
 uint32_t bin_of(double height_m) {
   uint32_t bin = 0;
@@ -28,7 +27,7 @@ uint32_t bin_of(double height_m) {
   return bin;
 }
 
-// A path between these heights above the ground: straight, or by way of the ground.
+// Counts a path between these heights above the ground: straight, or by way of the ground.
 void count(double from_m, double to_m, SlopeCounts& counts) {
   const double rise = to_m - from_m;
   if (std::abs(rise) < least_height_m) {
@@ -40,7 +39,7 @@ void count(double from_m, double to_m, SlopeCounts& counts) {
   counts.down[bin_of(from_m + to_m)] += 2;
 }
 
-// Shares of the whole, each that is not zero at least one eighth.
+// The shares of the whole; each that is not zero gets at least one eighth.
 SlopeCounts in_eighths(const SlopeCounts& counts) {
   uint64_t sum = 0;
   for (uint32_t bin = 0; bin < SlopeCounts::bins; ++bin) sum += uint64_t{counts.up[bin]} + counts.down[bin];
@@ -63,7 +62,7 @@ std::vector<float> table_of(const SlopeCounts& counts, double reach_m) {
   return height_table(shares, uniform_share);
 }
 
-// The lowest surface straight below; the floor of the scene's box where there is none.
+// The height of the lowest surface straight below; that of the floor of the scene's box if there is none.
 double lowest_below(const Surroundings& around, const glm::dvec3& place) {
   const Scene& scene = around.scene();
   double lowest = place.z;

@@ -1,4 +1,4 @@
-// Windows are computed in double, by + - * / sqrt and the angles of elementary.h: the same on every host.
+// Windows are computed in double, with + - * / sqrt and the angles of elementary.h, so they are the same on every host.
 #include "simulation/launch_windows.hpp"
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 namespace wavetracer {
 namespace {
 
-// Larger windows than this, a twelfth of the sphere, are not worth one: a launch in all directions meets what is there.
+// The largest useful window, a twelfth of the sphere: above it a launch in all directions meets enough.
 constexpr double largest_sr = 1;
-constexpr double to_spare = 0.01;     // of the longer side of a window
-constexpr double rounding = 5e-7;     // of float32 directions
-constexpr double steep = 0.7;         // sine of the elevation from which a window is never level
-constexpr double level_price = 1.5;   // how much larger a level window may be than one that is not
-constexpr double ahead_share = 0.99;  // of the way to the box: rays start there
+constexpr double to_spare = 0.01;     // margin, as a part of the longer side of a window
+constexpr double rounding = 5e-7;     // error of float32 directions
+constexpr double steep = 0.7;         // above this sine of the elevation a window is never level
+constexpr double level_price = 1.5;   // a level window may be this much larger than one that is not
+constexpr double ahead_share = 0.99;  // rays start at this part of the way to the box
 
 std::array<glm::dvec3, 8> corners(const LaunchBounds& box, const glm::dvec3& p) {
   std::array<glm::dvec3, 8> out;
@@ -42,7 +42,7 @@ void spare(LaunchWindow& window) {
   window.high = std::min(window.high + more, 1.0);
 }
 
-// The window whose z is up: azimuths and elevations of the box. Not of a box that is straight above or below.
+// The window with z up: azimuths and elevations of the box. There is none for a box that is straight above or below.
 std::optional<LaunchWindow> level_window(const LaunchBounds& box, const glm::dvec3& p) {
   const double way_x = std::max({box.lower.x - p.x, p.x - box.upper.x, 0.0});
   const double way_y = std::max({box.lower.y - p.y, p.y - box.upper.y, 0.0});
@@ -64,8 +64,8 @@ std::optional<LaunchWindow> level_window(const LaunchBounds& box, const glm::dve
   return out;
 }
 
-// The window around the direction to the middle of the box, whose z is as far up as it can be. Not of a box that is
-// around p, or beside it.
+// The window around the direction to the middle of the box, with z as far up as possible. There is none for a box that
+// is around p, or beside it.
 std::optional<LaunchWindow> tilted_window(const LaunchBounds& box, const glm::dvec3& p) {
   const glm::dvec3 middle = (box.lower + box.upper) / 2.0 - p;
   LaunchWindow out{};
@@ -88,9 +88,9 @@ std::optional<LaunchWindow> tilted_window(const LaunchBounds& box, const glm::dv
   return out;
 }
 
-// The part between two heights of a table, of which it has the shares.
+// The part of a table between two heights, which has the table's shares.
 std::vector<float> part_of(std::span<const float> table, double low, double high) {
-  // Returns where the table reaches a height, in cells: heights fall from 1 to -1.
+  // It returns the place, in cells, at which the table reaches a height; heights fall from 1 to -1.
   const auto place_of = [&](double height) {
     size_t k = 1;
     while (k + 1 < table.size() && double{table[k]} > height) ++k;
@@ -165,7 +165,7 @@ Launcher LaunchWindows::through(const LaunchWindow& window, Launcher from, Slope
   values.push_back(static_cast<float>(ahead_m));
   for (const glm::dvec3& axis : {window.x, window.y, window.z})
     for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(axis[k]));
-  values.resize(2 * size_t{height_table_size});  // two tables' room
+  values.resize(2 * size_t{height_table_size});  // room for two tables
   from.heights = static_cast<uint32_t>(tables.values.size() / height_table_size);
   from.window = true;
   from.position_m += ahead_m * window.x;

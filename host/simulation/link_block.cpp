@@ -1,5 +1,5 @@
-// Cuts by transmitter and receiver.
-// Whether a launcher sends or listens is decided in the whole frame: that says how many rays it has.
+// A block is cut by transmitter and receiver. The whole frame decides whether a launcher sends or listens, which sets
+// its number of rays.
 #include "simulation/link_block.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from,
     block.own.push_back(link);
     block.solved.push_back(link);
     launch(link.tx);
-    launch(origins.origin_of_receiver[link.rx]);  // where paths are met from both ends
+    launch(origins.origin_of_receiver[link.rx]);  // in paths that are met from both ends
     const Link twin{transmitter_of_receiver[link.rx], receiver_of_transmitter[link.tx]};
     if (twin.tx == no_end || twin.rx == no_end || !std::ranges::binary_search(links, twin)) continue;
     block.solved.push_back(twin);

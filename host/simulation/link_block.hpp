@@ -1,6 +1,5 @@
 // The links of some of a frame's transmitters and receivers: their paths are the same, bit for bit, as in the whole
-// frame. A link is found from all ends whose rays it may meet on its way, so these launch as they do in the whole
-// frame.
+// frame. The rays of all ends that may find a link are needed, so these ends launch as in the whole frame.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -23,12 +22,12 @@ struct LinkBlock {
   std::vector<char> launches;  // by origin: its rays may find a path of an own link
 };
 
-// links: all of the frame, sorted.
+// links: all links of the frame, sorted.
 LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to,
                           std::span<const uint32_t> receiver_of_transmitter,
                           std::span<const uint32_t> transmitter_of_receiver, const Origins& origins);
 
-// Those that launch in the block, in their order.
+// The launchers of the block, in their order.
 std::vector<Launcher> launchers_of(const LinkBlock& block, const std::vector<Launcher>& launchers);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// Which ends launch rays: transmitters of wanted links and, if paths are met from both ends, their receivers.
-// An end that sends and receives launches once; a receiver that does not send is a listener, an origin of its own.
+// The ends that launch rays: transmitters of wanted links and, if paths are met from both ends, their receivers. An end
+// that sends and receives launches once; a receiver that does not send is a listener, an origin of its own.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace wavetracer {
 // Origins of rays: the transmitters by their number, then the listeners.
 struct Origins {
   std::vector<uint32_t> listeners;           // receivers
-  std::vector<uint32_t> receiver_of_origin;  // the receiver that an origin is too, or no_end
+  std::vector<uint32_t> receiver_of_origin;  // the receiver that an origin also is, or no_end
   std::vector<uint32_t> origin_of_receiver;  // no_end where a receiver does not launch
   uint32_t count() const { return static_cast<uint32_t>(receiver_of_origin.size()); }
 };
@@ -44,7 +44,7 @@ inline std::vector<Launcher> sending(const WorldState& world) {
   return out;
 }
 
-// The receivers of wanted links that are not among those, in the order of their origins.
+// The receivers of wanted links that do not send, in the order of their origins.
 inline std::vector<Launcher> listening(const WorldState& world, const Origins& origins) {
   std::vector<const EndState*> ends(origins.count(), nullptr);
   for (const Link& link : world.links)

@@ -1,5 +1,5 @@
-// Who has which place, and how fast. Whatever may be wrong with a pose is found before the traffic changes.
-// Assumes poses of one instant, all from one source.
+// Places of vehicles, and their velocities. All errors in poses are found before the traffic changes. Poses must be of
+// one instant and from one source.
 #include "simulation/live_places.hpp"
 
 #include <fmt/format.h>
@@ -17,16 +17,17 @@
 namespace wavetracer {
 namespace {
 
-// Faster than any vehicle on the ground: such a step is a jump, whose speed would shift frequencies by nonsense.
+// This is faster than any vehicle on the ground: such a step is a jump, whose speed would give meaningless Doppler
+// shifts.
 constexpr double jump_m_s = 150;
-constexpr double most_m_s = 1000, most_rad_s = 100;  // of velocities that are given
-constexpr double unit_tolerance = 1e-3;              // of an orientation's length
+constexpr double most_m_s = 1000, most_rad_s = 100;  // limits of given velocities
+constexpr double unit_tolerance = 1e-3;              // tolerance of an orientation's length
 
 bool within(const glm::dvec3& v, double most) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;  // false for NaN
 }
 
-// The rotation from one orientation to the other, the shorter way, in a second.
+// The angular velocity that turns one orientation into the other, the shorter way, in this time.
 glm::dvec3 turning(const glm::dquat& from, const glm::dquat& to, double seconds) {
   glm::dquat turn = to * glm::conjugate(from);
   if (turn.w < 0) turn = -turn;
@@ -35,10 +36,10 @@ glm::dvec3 turning(const glm::dquat& from, const glm::dquat& to, double seconds)
   return sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / sine / seconds) : glm::dvec3(0);
 }
 
-// Quaternions that are unit up to rounding stay as they are, to the last bit.
+// Quaternions that have unit length up to rounding stay unchanged.
 glm::dquat unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) <= 1e-12 ? q : glm::normalize(q); }
 
-// At the share u of the way between two poses; see LivePlaces::between.
+// The pose at the share u of the way between two poses; see LivePlaces::between.
 Pose pose_between(const LiveTraffic::Vehicle& from, const LiveTraffic::Vehicle& to, double duration_s, double u) {
   const glm::dvec3 way_m = to.position_m - from.position_m, even_m_s = way_m / duration_s;
   if (glm::length(even_m_s) > jump_m_s) {
@@ -126,7 +127,7 @@ void LivePlaces::check(const LivePose& pose) const {
     refuse("bad_value", fmt::format("a component of angular_velocity_rad_s is beyond {} rad/s", most_rad_s));
 }
 
-// The first place of the vehicle's type that is free, and takes it.
+// Finds the first free place of the vehicle's type, and takes it.
 uint32_t LivePlaces::free_place(const LivePose& pose, std::vector<bool>& taken) const {
   const LiveType& type = type_of(pose);
   const auto first = taken.begin() + type.first_place, end = first + type.count, free = std::find(first, end, false);

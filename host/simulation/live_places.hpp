@@ -1,5 +1,5 @@
-// Places of a live world: one per possible vehicle, grouped by type, and which vehicle of a client has which place.
-// Assumes that instances and ends are made once, so that a vehicle that comes takes a place that is free.
+// Places of a live world: one per possible vehicle, grouped by type, and the place of each vehicle of a client.
+// Instances and ends are made once, so a new vehicle takes a free place.
 #pragma once
 #include <span>
 #include <string>
@@ -13,29 +13,30 @@
 namespace wavetracer {
 
 struct PlacedPose {
-  uint32_t place;  // the index of its track
+  uint32_t place;  // index of its track
   Pose pose;       // recentred
   std::string id;
-  bool arrives = false;  // it was not there in the frame before, or has jumped
+  bool arrives = false;  // it was not present in the frame before, or has jumped
 };
 
 class LivePlaces {
  public:
-  // Throws ConfigError for a type that is unknown or occurs twice, and if there are trajectories too.
+  // Throws ConfigError for a type that is unknown or occurs twice, and if there are trajectories as well.
   LivePlaces(const Config& config, const VehicleModels& vehicles, const Scene& scene);
 
-  // A track per place, TYPE.NUMBER, of one sample: the middle of the scene, where nobody is present. File coordinates.
+  // Gives each place a track, TYPE.NUMBER, of one sample: the middle of the scene, with no vehicle present. File
+  // coordinates.
   Trajectories tracks() const;
   const std::vector<LiveType>& types() const { return types_; }
   const LiveBounds& bounds() const { return bounds_; }  // file coordinates
 
-  // The vehicles of a frame in their places: those of the last frame keep theirs, others take the first free one of
-  // their type. Updates the traffic; throws PoseError and leaves it as it was.
+  // Puts the vehicles of a frame into places: those of the last frame keep theirs, others take the first free one of
+  // their type. Updates the traffic; if it throws PoseError, it leaves the traffic as it was.
   std::vector<PlacedPose> place(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) const;
 
-  // The vehicles at a time between the last two frames, both included: those that were in both of them, on the cubic
-  // with the positions and velocities of both, turning evenly; a jump stays where it was. At the time of a frame also
-  // those that were in that one alone. Throws PoseError for another time, or where there are no two frames.
+  // The vehicles at a time between the last two frames, both included: those that were in both, on the cubic through
+  // the positions and velocities of both, turning evenly; a vehicle that jumps stays at its old place. At the time of a
+  // frame also those that were only in that frame. Throws PoseError for another time, or if there are no two frames.
   std::vector<PlacedPose> between(const LiveTraffic& traffic, double time_s) const;
 
  private:
@@ -46,7 +47,7 @@ class LivePlaces {
   std::vector<LiveType> types_;
   LiveBounds bounds_;
   glm::dvec3 origin_m_;
-  uint32_t count_ = 0;  // of places
+  uint32_t count_ = 0;  // number of places
 };
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// The direct line of a link against the static scene and the vehicles of the frame, in double.
-// What transmission would bring is known from that line; of the other mechanisms only that they may bring something.
+// Compares the direct line of a link with the static scene and the vehicles of the frame, in double. That line shows
+// the effect of transmission; the other mechanisms are only known to be possible.
 #include "simulation/missing_paths.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace wavetracer {
 namespace {
 
-// A triangle in the way.
+// A triangle that blocks the line.
 struct Obstacle {
   double distance_m;
   std::string name;  // for messages
@@ -31,7 +31,7 @@ class Lines {
     for (const Scene& model : world.fleet.models) models_.emplace_back(model);
   }
 
-  // From transmitter to receiver, the nearest first; without the vehicles that carry them.
+  // Returns obstacles from transmitter to receiver, the nearest first, without the vehicles that carry them.
   std::vector<Obstacle> obstacles(const Link& link) const {
     const EndState &tx = state_.transmitters[link.tx], &rx = state_.receivers[link.rx];
     std::vector<Obstacle> out;
@@ -70,7 +70,7 @@ class Lines {
   std::vector<Surroundings> models_;
 };
 
-// What transmission would do for a line with these obstacles; empty where they are too many or let nothing through.
+// The effect of transmission on a line with these obstacles; empty if they are too many or let nothing through.
 std::string through_walls(const Config& config, const Features& features, const std::vector<Obstacle>& obstacles) {
   const auto opaque = [&](const Obstacle& o) { return is_opaque(*o.material, config.radio.frequency_hz); };
   if (const auto wall = std::ranges::find_if(obstacles, opaque); wall != obstacles.end()) return {};
@@ -84,7 +84,7 @@ std::string through_walls(const Config& config, const Features& features, const 
   return fmt::format("{} lets it through {} wall{}", more, walls, walls == 1 ? "" : "s");
 }
 
-// The mechanisms that are off and might lead around what is in the way.
+// The mechanisms that are off and might lead around the obstacles.
 std::string around_walls(const Config& config, const Features& features, const Scene& scene) {
   std::string out;
   const auto add = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
@@ -99,7 +99,7 @@ std::string around_walls(const Config& config, const Features& features, const S
   return out;
 }
 
-// Whether a body or the ground is around one of the ends alone: then nothing but what goes through it gets there.
+// Is a body or the ground around one of the ends only? Then only waves that go through it get there.
 bool parted(const Surroundings& around, const glm::dvec3& a, const glm::dvec3& b) {
   const auto place = [&](const glm::dvec3& p) {
     const auto body = around.body_at(p);
@@ -136,7 +136,7 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
       return grid_cell(grid.name, world.receivers.ends[rx].name).has_value();
     });
   };
-  size_t path = 0;  // links and paths are in one order
+  size_t path = 0;  // links and paths are in the same order
   for (const Link& link : state.links) {
     const size_t first = path;
     while (path < frame.paths.size() && Link{frame.paths.tx[path], frame.paths.rx[path]} == link) ++path;

@@ -1,5 +1,5 @@
-// Why links of a frame have no path, in words: what their direct lines meet first, and what might lead around it.
-// Assumes the states of the frame as they were solved.
+// Says in words why links of a frame have no path: what their direct lines meet first, and which mechanism might lead
+// around it. The states must be those with which the frame was solved.
 #pragma once
 #include "simulation/surroundings.hpp"
 #include "simulation/world.hpp"
@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-// config: as it was given; features: which of its features are on.
+// config: as it was given; features: the features that are on.
 MissingLinks explain_missing(const Config& config, const Features& features, const Surroundings& around,
                              const World& world, const FrameResult& frame);
 

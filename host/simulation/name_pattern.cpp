@@ -1,5 +1,5 @@
-// Matching with one point of return: only the last * has to be tried anew, since it can take up what earlier ones left.
-// Assumes few patterns; the nearest name is looked for only where there is a mistake to tell of.
+// Matching goes back to one place only: the last * has to be tried again, since it can take the characters of earlier
+// ones. There are few patterns; the nearest name is only looked for when a mistake is reported.
 #include "simulation/name_pattern.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// A sample of the frame's own rays is traced in every order, sort paid; the best of two warm runs counts.
-// Ray counts are taken by powers of two: orders do not change places between a million rays and a million and a half.
+// A sample of the frame's own rays is traced in every order, with the time of the sort; the best of two warm runs
+// counts. Ray counts are rounded to powers of two: a million rays and a million and a half have the same best order.
 #include "simulation/order_choice.hpp"
 #include "base/digits.hpp"
 
@@ -18,9 +18,10 @@ namespace wavetracer {
 
 namespace {
 
-// More would not change which is fastest, and a start should not cost more than a frame or two.
+// More rays would not change which order is fastest, and a start should not cost more than a frame or two.
 constexpr uint64_t most_sample_rays = uint64_t{1} << 24;
-// An order that needs a sort must be this much faster than none: less is noise, and the next run would choose again.
+// An order that needs a sort must be this much faster than none: a smaller gain is noise, and the next run would choose
+// differently.
 constexpr double least_gain = 1.03;
 
 struct Candidate {
@@ -39,7 +40,7 @@ std::vector<Candidate> candidates(const OrderConfig& order, const LaunchConfig& 
   return all;
 }
 
-// All stages count, so that a sort is paid.
+// All stages count, so the time of a sort counts, too.
 double measure(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample, const OrderPlan& plan,
                const glm::dvec3& transmitter) {
   return warm_seconds(context, scene, sample, plan, {transmitter}, [](const auto& stages) {
@@ -97,7 +98,7 @@ OrderChoice choose_order(gpu::Context& context, const Scene& scene, const Device
     return OrderChoice{plan_order(order, launch), reason};
   };
   if (const auto kept = context.recall(subject)) {
-    // method, each_depth, reason: a line each.
+    // The file has one line each for method, each_depth and reason.
     std::istringstream lines(*kept);
     std::string method, each_depth, reason;
     if (std::getline(lines, method) && std::getline(lines, each_depth) && std::getline(lines, reason))

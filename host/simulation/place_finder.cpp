@@ -1,5 +1,5 @@
-// Degrees and heights above the ground into file coordinates.
-// Assumes latitudes and longitudes within their ranges: the configuration was checked.
+// Converts degrees and heights above the ground into file coordinates. Latitudes and longitudes are within their
+// ranges, since the configuration was checked.
 #include "simulation/place_finder.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Places that the configuration gives by the earth or by the ground: degrees by the scene's georeference, heights above
-// its ground. What is not asked for is not made.
+// Places that the configuration gives in degrees, by the scene's georeference, or as heights above its ground. Both are
+// only made when they are needed.
 #pragma once
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,15 +19,16 @@ class PlaceFinder {
   // Both must outlive this.
   PlaceFinder(const Config& config, const Scene& scene) : config_(config), scene_(scene) {}
 
-  // Whether a georeference.json is beside the scene file; it is read when a place needs it.
+  // Is there a georeference.json beside the scene file? It is read when a place needs it.
   bool has_georeference() const;
-  // (longitude, latitude) in degrees in file coordinates. what: what is placed, for messages. Throws ConfigError where
-  // there is no georeference, InputError where it is malformed.
+  // Converts (longitude, latitude) in degrees into file coordinates. what: the thing that is placed, for messages.
+  // Throws ConfigError if there is no georeference, InputError if it is malformed.
   glm::dvec2 from_degrees(const glm::dvec2& longitude_latitude, const std::string& what);
-  // The z of the ground at a place, both in file coordinates; empty where there is none.
+  // Returns the z of the ground at a place, both in file coordinates; empty if there is none.
   std::optional<double> ground_m(const glm::dvec2& place_m) { return ground()->height_m(place_m); }
   std::shared_ptr<const Ground> ground();
-  // position_m of an end whose position is given in any way. Throws ConfigError where there is no ground below it.
+  // Returns position_m of an end whose position may be given in any way. Throws ConfigError if there is no ground below
+  // it.
   std::array<double, 3> position_m(const RadioEnd& end);
 
  private:

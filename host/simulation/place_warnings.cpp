@@ -1,5 +1,5 @@
-// Every end is looked at once, where it is in the first frame; receivers of grids are counted, not named.
-// A wall around both ends of a link is a room, which is normal; a wall between them is worth a word.
+// Every end is checked once, at its place in the first frame; receivers of grids are counted, not named. A body around
+// both ends of a link is a room, which is normal; a body around one end only gets a warning.
 #include "simulation/place_warnings.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace wavetracer {
 namespace {
 
-// So far outside of the scene's box, in its longest side, an end is no neighbour of the scene any more.
+// An end this far outside of the scene's box, in its longest sides, is no longer near the scene.
 constexpr double outside_share = 0.05, above_share = 1;
 
 enum Kind { inside, below, outside, on_surface, near, kinds };
@@ -26,12 +26,12 @@ constexpr std::array<const char*, kinds> words = {"inside closed bodies", "below
                                                   "outside of the scene's box", "on a surface",
                                                   "within a wavelength of an end that they are linked to"};
 
-// What is to be said of an end, a text a kind; empty: nothing.
+// The findings about an end, one text for each kind; empty: there is none.
 using Findings = std::array<std::string, kinds>;
 
 struct Place {
   std::optional<Surroundings::Body> body;
-  Findings findings;  // but those that take a second end
+  Findings findings;  // all except those that need a second end
 };
 
 Place look(const Surroundings& around, const glm::dvec3& p) {
@@ -61,7 +61,7 @@ std::vector<Place> look_at_all(const Surroundings& around, const std::vector<End
   return out;
 }
 
-// What links say of their ends: a body around one of them alone, ends that almost touch.
+// Findings from links: a body around only one of their ends, ends that almost touch.
 class Ends {
  public:
   Ends(const Config& config, const Surroundings& around, const World& world)
@@ -92,7 +92,7 @@ class Ends {
     const auto body = [](const Place& place) { return place.body ? std::optional(place.body->number) : std::nullopt; };
     if (body(tx) != body(rx)) parted_[link.tx] = parted_[transmitters_.size() + link.rx] = true;
     const double apart_m = glm::distance(state_.transmitters[link.tx].position_m, state_.receivers[link.rx].position_m);
-    // An end that sends and receives is at no distance from itself.
+    // An end that sends and receives has no distance from itself.
     if (apart_m > 0 && apart_m < wavelength_m_ && rx.findings[near].empty())
       rx.findings[near] = fmt::format(
           "is {:.3g} m from transmitter \"{}\", less than a wavelength ({:.3g} m): far fields "
@@ -113,7 +113,7 @@ class Ends {
   double wavelength_m_;
   WorldState state_;
   std::vector<Place> transmitters_, receivers_;
-  std::vector<bool> parted_;  // of transmitters, then receivers: a body is around this end, but not around all
+  std::vector<bool> parted_;  // for transmitters, then receivers: a body is around this end, but not around all
 };
 
 void say_named(const Config& config, const Ends& ends, const World& world, Kind kind, std::vector<std::string>& out) {

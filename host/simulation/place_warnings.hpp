@@ -1,5 +1,5 @@
-// Warnings about ends and vehicles at places that cannot be intended: inside of houses, below the ground, far
-// outside. Given before anything is traced, by name, a few of each kind and then their number.
+// Warnings about ends and vehicles at places that cannot be intended: inside of houses, below the ground, far outside.
+// They come before anything is traced, and name a few of each kind and then the number of the others.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace wavetracer {
 // Warnings about the fixed ends of a configuration, as it was loaded.
 std::vector<std::string> place_warnings(const Config& config, const Surroundings& around, const World& world);
 
-// Those about vehicles, at the frames of the drive, or evenly spread ones where they are many.
+// Warnings about vehicles, at the frames of the drive, or at evenly spread ones if there are many.
 std::vector<std::string> vehicle_warnings(const Surroundings& around, const World& world);
 
 }  // namespace wavetracer

@@ -13,7 +13,7 @@
 
 namespace wavetracer {
 
-// Where the top-level tree is built; fastest: by the device and the number of instances that are present.
+// The builder of the top-level tree; fastest: the device and the number of instances present decide.
 enum class TopLevelBuild { fastest, host, device };
 
 class InstancePlacement {

@@ -1,6 +1,5 @@
-// Stamps and eviction on the host, answers on the device.
-// Two host reads for each depth: the rays that were not answered, and (by the caller) those that hit; one or two more
-// with cache.innerframe.
+// The host keeps stamps and evicts; the device answers. The host reads two numbers at each depth: the rays that were
+// not answered, and (in the caller) those that hit; with cache.innerframe one or two more.
 #include "simulation/ray_cache.hpp"
 #include "simulation/cache_entries.hpp"
 
@@ -17,10 +16,11 @@ namespace wavetracer {
 
 namespace {
 
-// Shares of a region's entries: from the first on, look-ups note what is used; from the second on, the rest makes room.
+// Shares of a region's entries: above the first, look-ups record the use of entries; above the second, unused entries
+// are removed.
 constexpr double filling = 0.7, full = 0.8;
 
-// Quantised position of a transmitter (section 4.2.3), 21 bits a component, compared whole.
+// The quantised position of a transmitter (section 4.2.3), 21 bits for each component, compared as a whole.
 uint64_t position_key(const glm::dvec3& position_m, double step_m) {
   const auto cell = [step_m](double x) {
     return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / step_m))) & 0x1FFFFF;
@@ -29,7 +29,7 @@ uint64_t position_key(const glm::dvec3& position_m, double step_m) {
 }
 
 bool moved(const Placement& a, const Placement& b, double step_m) {
-  constexpr double turn = 1e-3;  // of a matrix element: a millimetre at a metre
+  constexpr double turn = 1e-3;  // in a matrix element: a millimetre at a metre
   if (a.present != b.present || glm::length(a.position_m - b.position_m) > step_m) return true;
   for (int column = 0; column < 3; ++column)
     if (glm::length(a.rotation[column] - b.rotation[column]) > turn) return true;
@@ -114,14 +114,14 @@ void RayCache::begin_frame(const WorldState& world) {
   note_receivers(world.receivers);
 }
 
-// Entries that no ray of the last frame used, where a region is nearly full.
+// Removes entries that no ray of the last frame used, where a region is nearly full.
 void RayCache::purge() {
   bool wanted = table_.config.kind == "chained" && counters_.exhausted > 0;
   for (size_t r = 0; r < used_.size(); ++r) wanted = wanted || used_[r] > full * table_.regions[r].entries;
   if (wanted) purge_(context_, table_, frame_ - 1);
 }
 
-// Algorithm 3: what was traced before the transmitter's position key changed is stale.
+// Algorithm 3: entries from before the transmitter's position key changed are stale.
 void RayCache::note_positions(const std::vector<EndState>& transmitters) {
   const CacheConfig& config = table_.config;
   if (config.key != "quantised" || config.purge != "position") return;
@@ -153,7 +153,7 @@ void RayCache::note_movement(std::span<const Placement> instances) {
   movement_.instance_since.write(instance_since_, 0, Stage::cache_purge);
 }
 
-// Algorithm 4: entries say which receiver they reach, and stand while they do.
+// Algorithm 4: entries say which receiver they reach, and are valid while they reach it.
 void RayCache::note_receivers(const std::vector<EndState>& receivers) {
   if (!trails_) return;
   std::vector<float> centres;
@@ -224,7 +224,7 @@ void RayCache::add_entries(uint32_t frame, CacheEntryRows& rows) const {
   add_cache_entries(table_, frame, frame_, rows);
 }
 
-// Groups of 0, 1, 2, 3 to 4, 5 to 8, ... answers, of entries that were written.
+// The groups are 0, 1, 2, 3 to 4, 5 to 8, ... answers, of entries that were written.
 std::vector<uint64_t> RayCache::entries_by_hits() const {
   const std::vector<uint32_t> hits = table_.hits.read(0, table_.hits.size(), Stage::cache_purge);
   std::vector<uint64_t> groups;

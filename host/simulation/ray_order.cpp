@@ -1,5 +1,5 @@
-// The plan of an order, and keys, sort, gather behind one call.
-// Launches are sorted before their rays exist: generate_rays then writes them in order, and nothing has to be moved.
+// Makes the plan of an order, and joins keys, sort and gather in one call. Launches are sorted before their rays exist:
+// generate_rays then writes them in order, and no ray has to be moved.
 #include "simulation/ray_order.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ RayOrder::RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const Lau
 void RayOrder::reserve(uint64_t rays) {
   order_ = context_.buffer<uint32_t>(rays + 16, "order");
   sort_.reserve(static_cast<uint32_t>(rays));
-  keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");  // last, as it says how much room there is
+  keys_ = context_.buffer<uint32_t>(rays + 16, "order keys");  // last, since its size is the room that there is
 }
 
 void RayOrder::check_room(uint64_t rays) const {

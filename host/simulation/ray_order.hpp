@@ -1,5 +1,5 @@
-// Ray orders: what the configuration asks for, and the sorting that does it, at launch and before later depths.
-// The result of a frame does not depend on them; time does.
+// Orders of rays: the plan that the configuration asks for, and the sorting that follows it, at launch and before later
+// depths. Only the time of a frame depends on them, not its result.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,16 +15,16 @@
 
 namespace wavetracer {
 
-// An order without names that need interpretation.
+// An order in which "auto" and other names are resolved.
 struct OrderPlan {
-  std::string method = "none";  // plain name
+  std::string method = "none";  // a plain name
   std::optional<OrderKey> key;  // not set: rays keep the order of their launch
   bool each_depth = false;
   uint32_t bins = 16;
   LaunchShape launch;
 };
 
-// Throws ConfigError for a method that does not go with the shape; "auto" is not a plan (see order_choice.hpp).
+// Throws ConfigError for a method that does not fit the shape; "auto" is not a plan (see order_choice.hpp).
 OrderPlan plan_order(const OrderConfig& order, const LaunchConfig& launch);
 
 class RayOrder {
@@ -32,10 +32,10 @@ class RayOrder {
   // extent_m: the largest absolute coordinate of scene and rays.
   RayOrder(gpu::Context& context, OrderKey key, uint32_t bins, const LaunchDirections& directions, float extent_m,
            std::shared_ptr<const LaunchHeights> heights);
-  // Room for launches and queues of so many rays.
+  // Makes room for launches and queues of this many rays.
   void reserve(uint64_t rays);
-  // The launch indices first .. first + count - 1 of this launcher in their order, less first. Valid until the next
-  // call.
+  // Returns the launch indices first .. first + count - 1 of this launcher in their order, minus first. Valid until the
+  // next call.
   const gpu::Buffer<uint32_t>& sort_launch(uint64_t first, uint32_t count, const Launcher& from);
   // Sorts the queue; spare has the same capacity and is overwritten.
   void sort_queue(RayQueue& rays, RayQueue& spare);

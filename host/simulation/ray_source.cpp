@@ -1,4 +1,4 @@
-// Launches are sorted before their rays exist, so that nothing has to be moved.
+// Launches are sorted before their rays exist, so that no ray has to be moved.
 #include "simulation/ray_source.hpp"
 
 #include <algorithm>
@@ -41,11 +41,11 @@ std::vector<LaunchPart> RaySource::launch(RayQueue& rays, const Launch& launch, 
   const uint32_t first_slot = rays.count;
   std::vector<LaunchPart> parts;
   for (uint64_t done = 0; done < count;) {
-    const uint64_t number = (first + done) % each;  // of this launcher's rays
+    const uint64_t number = (first + done) % each;  // number among this launcher's rays
     const Launcher& from = launch.who[(first + done) / each];
-    const auto sample = rays.count;  // in the queue
+    const auto sample = rays.count;  // place in the queue
     const auto part = static_cast<uint32_t>(std::min(count - done, each - number));
-    // Launchers of which this batch has all rays share a launch on the device.
+    // Launchers whose rays are all in this batch share a launch on the device.
     const uint64_t whole =
         sorted || label_ || number != 0 || each % generate.rays_together() ? 0 : (count - done) / each;
     if (whole > 1) {

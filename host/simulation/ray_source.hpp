@@ -1,5 +1,5 @@
-// The source of rays: the directions of a launch, in the order of the configuration, labelled if a later pass needs
-// to know their transmitters.
+// The source of rays: it gives the directions of a launch in the order of the configuration, and labels rays if a later
+// pass needs to know their transmitters.
 #pragma once
 #include <map>
 #include <memory>
@@ -18,19 +18,20 @@ class RaySource {
  public:
   // extent_m: the largest absolute coordinate of scene and rays. labels: queues have WT_RAY_LABELLED_PLANES.
   RaySource(gpu::Context& context, const TraceConfig& trace, const OrderPlan& plan, bool labels, float extent_m);
-  // Room for queues of so many rays.
+  // Makes room for queues of this many rays.
   void reserve(uint64_t rays);
-  // Of directions = "horizon": the tables that launchers name from now on, see LaunchHeights.
+  // Sets the tables for directions = "horizon" that launchers name from now on, see LaunchHeights.
   void set_heights(const std::vector<float>& tables) { heights_->set(tables); }
   const std::shared_ptr<LaunchHeights>& heights() const { return heights_; }
-  // Appends the rays first .. first + count - 1 of the launch, counted over all its launchers. Returns whose they are.
+  // Appends the rays first .. first + count - 1 of the launch, counted over all its launchers. Returns their parts by
+  // launcher.
   std::vector<LaunchPart> launch(RayQueue& rays, const Launch& launch, uint64_t first, uint64_t count);
   // Are rays neither sorted nor labelled?
   bool as_launched() const { return !order_ && !label_; }
   // Labels the rays of a queue that know their samples (a refined launch).
   void label(RayQueue& rays);
-  // Before the segments of this depth, where the configuration asks for it: sorts the queue. spare has the same
-  // capacity and is overwritten.
+  // Sorts the queue before the segments of this depth, if the configuration asks for it. spare has the same capacity
+  // and is overwritten.
   void sort(RayQueue& rays, RayQueue& spare, uint32_t depth);
 
  private:
@@ -40,9 +41,9 @@ class RaySource {
   TraceConfig trace_;
   bool sort_each_depth_;
   std::shared_ptr<LaunchHeights> heights_;
-  std::map<uint64_t, GenerateRays> generators_;  // by the number of directions; made when they are first asked for
+  std::map<uint64_t, GenerateRays> generators_;  // by the number of directions; made when they are first needed
   std::optional<LabelRays> label_;
-  std::optional<RayOrder> order_;  // if the plan has one
+  std::optional<RayOrder> order_;  // set if the plan has one
 };
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
 // Chosen samples are spread evenly over the launch indices of their transmitter. All samples of a batch leave waypoints
-// on the device, of which the host reads those of chosen and of received ones.
+// on the device; the host reads those of chosen and of received samples.
 #include "simulation/ray_trails.hpp"
 
 #include <algorithm>
@@ -10,12 +10,13 @@ namespace wavetracer {
 
 namespace {
 
-// The samples of this part that are chosen when `wanted` of all `launched` are, counted from the part's first.
+// The chosen samples of this part, when `wanted` of all `launched` samples are chosen; counted from the part's first.
 std::vector<uint32_t> chosen(const LaunchPart& part, uint64_t wanted) {
   std::vector<uint32_t> out;
   wanted = std::min(wanted, part.launched);
   if (wanted == 0) return out;
-  // Number i is the sample in the middle of its wanted-th of the launch; in 128 bits the products never overflow.
+  // Number i is the sample in the middle of the i-th of `wanted` equal parts; with 128 bits the products never
+  // overflow.
   const auto sample_of = [&](uint64_t i) {
     return static_cast<uint64_t>((static_cast<unsigned __int128>(2 * i + 1) * part.launched) / (2 * wanted));
   };
@@ -76,7 +77,7 @@ void RayTrails::end_batch() {
   if (wanted_ > 0) keep_waypoints(std::move(receptions));
 }
 
-// Distances along rays are float32, and those to large triangles are right to their size: the plane is known better.
+// Distances along rays are float32, and their error grows with large triangles: the plane is known better.
 glm::dvec3 RayTrails::on_surface(const glm::dvec3& position_m, const WorldPlace& place) const {
   const glm::dvec3 normal = surfaces_.normal(place, world_);
   double offset_m = surfaces_.surface(place).offset_m;
@@ -111,7 +112,7 @@ WaypointSource RayTrails::source_of(const wt_waypoint& end) const {
   return WaypointSource::cache;
 }
 
-// One sample: launch, then of every segment its hits and its end, up to a miss.
+// Adds one sample: its launch, then for every segment its hits and its end, up to a miss.
 void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
                     std::span<const wt_reception> hits) {
   const glm::dvec3& origin_m = surfaces_.scene(0).origin_m;
@@ -127,12 +128,12 @@ void RayTrails::add(const LaunchPart& part, uint32_t sample, std::span<const wt_
     rows_.instance.push_back(instance);
     rows_.source.push_back(source);
   };
-  glm::dvec3 start_m{0};  // of the segment that ends in k
+  glm::dvec3 start_m{0};  // start of the segment that ends in k
   for (uint32_t k = 0; k <= row.size(); ++k) {
     for (; !hits.empty() && hits.front().depth + 1 == k; hits = hits.subspan(1))
       push(k, WaypointKind::hit, origin_m + world_.receivers[hits.front().receiver].position_m, hits.front().receiver,
            no_instance, k < row.size() ? source_of(row[k]) : WaypointSource::unknown);
-    if (k == row.size()) break;  // hits of the segment after the last interaction
+    if (k == row.size()) break;  // the last ones are hits of the segment after the last interaction
     const glm::dvec3 position_m{row[k].position[0], row[k].position[1], row[k].position[2]};
     if (row[k].surface == WT_WAYPOINT_LAUNCH) {
       push(k, WaypointKind::launch, origin_m + position_m, no_surface, no_instance, WaypointSource::launch);

@@ -1,5 +1,5 @@
-// What is followed along rays besides their sequences: which receivers they pass (trace.reception = "sphere"), and the
-// waypoints of some of them (output.waypoints).
+// Records of rays besides their sequences: the receivers that they pass (trace.reception = "sphere"), and the waypoints
+// of some of them (output.waypoints).
 #pragma once
 #include <optional>
 #include <span>
@@ -16,12 +16,12 @@ namespace wavetracer {
 
 class RayTrails final : public RayFollower {
  public:
-  // depth: most interactions of a ray. The scenes that `surfaces` refers to must outlive this.
+  // depth: the most interactions of a ray. The scenes that `surfaces` refers to must outlive this.
   RayTrails(gpu::Context& context, const TraceConfig& trace, uint64_t samples_a_transmitter, uint32_t depth,
             const SurfaceTable& surfaces);
-  // True if receptions are recorded; rays then need a segment after their last interaction.
+  // Are receptions recorded? Then rays need a segment after their last interaction.
   bool receives() const { return reception_.has_value(); }
-  // The frame begins: its ends and where its vehicles are.
+  // Begins the frame, with its ends and the places of its vehicles.
   void begin_frame(uint32_t frame, const RadioEnds& ends, const WorldState& world);
 
   uint32_t extra_segments() const override { return receives(); }
@@ -32,10 +32,10 @@ class RayTrails final : public RayFollower {
   void follow(const RayQueue& rays, const HitList& hits, uint32_t depth,
               const std::optional<AnsweredRays>& answered) override;
   void end_batch() override;
-  // The first receiver that each ray passes, for a cache; needs receives().
+  // Finds the first receiver that each ray passes, for a cache; needs receives().
   void first_receivers(const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first);
 
-  // Of the launch so far.
+  // The paths of the launch so far.
   PathGeometry paths() const;
   uint64_t receptions() const { return reception_ ? reception_->count() : 0; }
   WaypointRows take_waypoints() { return std::move(rows_); }
@@ -43,7 +43,7 @@ class RayTrails final : public RayFollower {
  private:
   glm::dvec3 on_surface(const glm::dvec3& position_m, const WorldPlace& place) const;
   void keep_waypoints(std::vector<wt_reception> receptions);
-  // Of the segment that ends there.
+  // The source of the segment that ends there.
   WaypointSource source_of(const wt_waypoint& end) const;
   void add(const LaunchPart& part, uint32_t sample, std::span<const wt_waypoint> row,
            std::span<const wt_reception> hits);

@@ -1,5 +1,5 @@
-// The launch knows the share of sequences met once, the frame which quarters of the launch found its paths: what the
-// first fears, the second may take back.
+// The launch knows the share of sequences that were met once; the frame knows which quarters of the launch found its
+// paths. If the launch warns, the frame may show that nothing is lost.
 #include "simulation/recall_warning.hpp"
 
 #include <fmt/format.h>
@@ -10,14 +10,14 @@ namespace wavetracer {
 
 namespace {
 
-// What a frame found is the asked share of the paths, as far as its rays can tell: never that it is all of them.
+// Did the frame find the asked share of the paths, as far as its rays show? They never show that it found all.
 bool reached(double recall, const MissedCounts& counts) {
   const auto found = static_cast<double>(std::accumulate(counts.paths.begin(), counts.paths.end(), uint64_t{0}));
   return recall < 1 && counts.frames > 0 && found >= recall * (found + estimate_missed(counts).paths.estimate);
 }
 
-// Where fewer rays than this met anything, and fewer than this share, large parts of the scene may have been met by
-// none: a city of 87 houses, seen from 20 km, lost half of its paths where 40 of 200,000 rays met it.
+// If fewer rays than this met anything, and a smaller share than this, no ray may have met large parts of the scene: a
+// city of 87 houses, seen from 20 km, lost half of its paths where 40 of 200,000 rays met it.
 constexpr uint64_t few_hits = 1000;
 constexpr double few_share = 0.02;
 

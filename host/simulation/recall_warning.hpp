@@ -1,4 +1,5 @@
-// Warnings about launches: "auto" that ended before it reached trace.recall, and rays of which few met anything.
+// Warnings about launches: "auto" that ended before it reached trace.recall, and launches of which few rays met
+// anything.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,13 +10,13 @@
 
 namespace wavetracer {
 
-// Empty if that is no loss: most sequences that rays meet once lead to no receiver. cold: the frame knows nothing
-// of earlier ones, so that its own rays tell what is missed. missed: of the frame's paths.
+// Returns nothing if no path is lost: most sequences that rays meet once lead to no receiver. cold: the frame has
+// nothing of earlier ones, so its own rays show what is missed. missed: that of the frame's paths.
 std::optional<std::string> recall_warning(const DiscoveryCounts& found, const TraceConfig& trace, bool cold,
                                           const MissedCounts& missed);
 
-// Rays that leave the world tell nothing of what they missed. Set if so few met anything that nothing can be said of
-// it. surfaces: whether there is anything to meet.
+// Rays that leave the world do not show what they missed. The warning is set if so few met anything that the loss is
+// unknown. surfaces: is there anything to meet?
 std::optional<std::string> few_met_warning(const DiscoveryCounts& found, bool surfaces);
 
 }  // namespace wavetracer

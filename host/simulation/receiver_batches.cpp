@@ -1,5 +1,5 @@
-// Rows of a transmitter are those of the batches in their order, since batches are ranges of receivers.
-// Assumes that all batches are of one frame, with the same ends.
+// Rows of a transmitter are those of the batches in their order, since batches are ranges of receivers. All batches
+// must be of one frame, with the same ends.
 #include "simulation/receiver_batches.hpp"
 
 #include <algorithm>
@@ -35,10 +35,11 @@ void append_rows(Paths& to, const Paths& from, size_t first, size_t end) {
   append(to.vertex_instance, from.vertex_instance, vertices, last);
 }
 
-// Rows of a transmitter, batch after batch. take: adds rows first to end - 1 of a batch to what is joined.
+// Visits the rows of a transmitter, batch after batch. take: adds rows first to end - 1 of a batch to the joined
+// result.
 template <class Take>
 void take_by_transmitters(const std::vector<FrameResult>& batches, const Take& take) {
-  std::vector<size_t> next(batches.size(), 0);  // row of each batch
+  std::vector<size_t> next(batches.size(), 0);  // next row of each batch
   for (uint32_t tx = 0; tx < batches.front().world.transmitters.size(); ++tx)
     for (size_t i = 0; i < batches.size(); ++i) {
       const std::vector<uint32_t>& column = batches[i].paths.tx;

@@ -1,6 +1,6 @@
-// A frame whose receivers launch rays, a batch of receivers at a time. Each receiver keeps what its rays have found
-// until its paths are known, so memory grows with their number, as in coverage maps with diffraction. What one finds
-// leads to paths of its own links alone, so the frame is the same, bit for bit.
+// A frame whose receivers launch rays is computed in batches of receivers. The sequences that a receiver's rays have
+// found are kept until its paths are known, so memory grows with the number of receivers, as in coverage maps with
+// diffraction. The rays of a receiver only lead to paths of its own links, so the frame is the same, bit for bit.
 #pragma once
 #include <vector>
 
@@ -10,12 +10,12 @@
 
 namespace wavetracer {
 
-// One batch where the frame is not cut: receivers launch no rays or are few. Of trace.batch_receivers each, but no more
-// than `most`.
+// Gives one batch if the frame is not cut: receivers launch no rays or are few. Otherwise a batch has
+// trace.batch_receivers receivers, but at most `most`.
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint32_t most = no_end);
 
-// The frame that the batches are, one after the other. Counts and seconds are those of all work; the rays of
-// transmitters are launched for every batch. Assumes two batches at least, without a cache or waypoints.
+// Joins the batches, one after the other, to their frame. Counts and seconds are those of all work; the rays of
+// transmitters are launched for every batch. There must be at least two batches, without a cache or waypoints.
 FrameResult joined_batches(std::vector<FrameResult> batches);
 
 }  // namespace wavetracer

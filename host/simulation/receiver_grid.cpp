@@ -1,5 +1,4 @@
-// Receivers one by one, in the order of their names.
-// Assumes borders that are finite, as the configuration's fields are.
+// Makes receivers one by one, in the order of their names. Borders are finite, since the configuration's fields are.
 #include "simulation/receiver_grid.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ struct GridBorders {  // in file coordinates
   glm::dvec2 lower_m, upper_m;
 };
 
-// As they are given, in metres or by a corner in degrees; else those of the scene.
+// The borders as they are given, in metres or by a corner in degrees; else those of the scene.
 GridBorders borders_of(const ReceiverGridConfig& grid, const Scene& scene, PlaceFinder& places) {
   const glm::dvec3 lower = scene.origin_m + scene.lower, upper = scene.origin_m + scene.upper;
   const auto corner = [&](const std::optional<std::array<double, 2>>& degrees, const char* key,
@@ -37,7 +36,7 @@ GridBorders borders_of(const ReceiverGridConfig& grid, const Scene& scene, Place
 }
 
 struct Axis {
-  double count, first_m;  // a whole number, as far as it fits a double
+  double count, first_m;  // whole numbers, as far as they fit a double
 };
 
 Axis axis(const ReceiverGridConfig& grid, const char* letter, double lower_m, double upper_m) {
@@ -47,7 +46,7 @@ Axis axis(const ReceiverGridConfig& grid, const char* letter, double lower_m, do
                     "those of the scene; with corners in degrees, those of the corners): exchange the two, or give "
                     "both",
                     grid.name, letter, upper_m, lower_m));
-  constexpr double whole = 1e-9;  // so that 0.3 m are three cells of 0.1 m
+  constexpr double whole = 1e-9;  // with this margin 0.3 m are three cells of 0.1 m
   const double count = std::max(std::floor((upper_m - lower_m) / grid.step_m + whole), 1.0);
   return {count, 0.5 * (lower_m + upper_m) - 0.5 * (count - 1) * grid.step_m};
 }

@@ -1,5 +1,5 @@
-// Levels of refine, with compaction of the samples that are worth four more.
-// All samples of a level are counted before any is judged, so the launch does not depend on batches.
+// Runs the levels of refine, with compaction of the samples that are worth four more. All samples of a level are
+// counted before any is tested, so the launch does not depend on batches.
 #include "simulation/refinement.hpp"
 
 #include <algorithm>
@@ -9,17 +9,18 @@ namespace wavetracer {
 
 namespace {
 
-// 49,152 rays a launcher to begin with: a quarter as many miss whole groups of sequences, next to which nothing is rare
-// (bench_cases). Frames that know what earlier ones met begin with 3,072, and refine half as much.
+// A launch begins with 49,152 rays for each launcher: a quarter of that misses whole groups of sequences, and then
+// nothing is rare (bench_cases). Frames that have the sequences of earlier ones begin with 3,072, and refine half as
+// much.
 constexpr uint32_t first_level = 7, first_level_again = 5;
 
-// On a ground of many surfaces a launch begins finer, by one level for a recall of 0.99, which holds it then, and by
-// two for a higher one: up to 4.5% of the paths were lost, then less than 1% and 0.2% (bench_cases, hills_10 to
-// hills_100; docs/method.md).
+// On a ground of many surfaces a launch begins finer, by one level for a recall of 0.99, which it then reaches, and by
+// two levels for a higher one: up to 4.5% of the paths were lost without, then less than 1% and 0.2% (bench_cases,
+// hills_10 to hills_100; docs/method.md).
 uint32_t finer_level(bool hilly, double recall) { return !hilly ? 0 : recall <= 0.99 ? 1 : 2; }
 
-// Sequences that so few samples have met are refined. On the streets of munich 2 finds more than 0.99 of the paths, 4
-// more than 0.998, 8 all that are known (bench_discovery).
+// Sequences that at most this many samples have met are refined. On the streets of munich 2 finds more than 0.99 of the
+// paths, 4 more than 0.998, 8 all that are known (bench_discovery).
 uint32_t rare(double recall) { return recall <= 0.99 ? 2 : recall <= 0.999 ? 4 : 8; }
 
 LaunchDirections directions_of(Directions directions, uint32_t level) {
@@ -33,7 +34,8 @@ uint32_t level_of(uint64_t frame, uint32_t finer, uint64_t max_rays) {
   return level;
 }
 
-// Turns by atan(4 / 3), which is no rational part of a full turn, one per frame; + and * only, the same everywhere.
+// Turns by atan(4 / 3) in each frame, which is no rational part of a full turn; it uses + and * only, so it is the same
+// everywhere.
 DirectionTurn turn_of(uint64_t frame) {
   double cosine = 1, sine = 0;
   for (uint64_t i = 0; i < frame % 1000; ++i) {
@@ -41,7 +43,7 @@ DirectionTurn turn_of(uint64_t frame) {
     sine = 0.8 * cosine + 0.6 * sine;
     cosine = c;
   }
-  const auto turn = static_cast<uint32_t>(frame % 1000 * 633866811);  // of 2^32: the same angle
+  const auto turn = static_cast<uint32_t>(frame % 1000 * 633866811);  // in 2^32 parts of a turn: the same angle
   return {static_cast<float>(cosine), static_cast<float>(sine), turn};
 }
 
@@ -84,7 +86,7 @@ void Refinement::start(const std::vector<Launcher>& launchers, uint64_t slots, u
 void Refinement::begin_level(uint64_t launcher_count, uint32_t level) {
   current_ = 0;
   SampleList& list = lists_[0];
-  // Counts alone do not tell: four launchers have as many samples as one has a level further down.
+  // The numbers of samples do not suffice: four launchers have as many samples as one has a level further down.
   if (first_launchers_ == launcher_count && list.level == level) return;  // as in the frame before
   first_launchers_ = 0;
   list.level = level;
@@ -120,7 +122,7 @@ bool Refinement::descend() {
   if (marks_.size() < level.count) {
     list_ = context_.buffer<uint32_t>(level.count, "marked samples");
     blocks_ = context_.buffer<uint32_t>(compact_.blocks(level.count) + 1, "marks of blocks");
-    marks_ = context_.buffer<float>(level.count, "marks");  // last, as it says how much room there is
+    marks_ = context_.buffer<float>(level.count, "marks");  // last, since its size is the room that there is
   }
   refine_.mark(level, hits_, rare_, marks_);
   compact_.count_blocks(marks_, 0, level.count, blocks_);

@@ -1,4 +1,5 @@
-// What a run computes, known before any device is asked: one value, made of the configuration and the scene.
+// The plan of a run: everything that is known before any device is asked, as one value that is made of the
+// configuration and the scene.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -34,11 +35,11 @@ struct RunPlan {
 // reuse sequences if trace.reuse says so. Throws ConfigError or InputError.
 RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow);
 
-// Whether no wave of any carrier passes a surface, for each surface of the world; empty where nothing passes walls
-// anyhow.
+// Returns a flag for each surface of the world: no wave of any carrier passes it. The list is empty if waves pass no
+// walls at all.
 std::vector<bool> opaque_surfaces(const RunPlan& plan);
 
-// Where the transmitters of the first frame are, in recentred metres.
+// Returns the places of the transmitters in the first frame, in recentred metres.
 std::vector<glm::dvec3> first_transmitters(const World& world);
 
 }  // namespace wavetracer

@@ -30,7 +30,7 @@ double longest_wavelength_m(const RadioConfig& radio) {
 
 struct SceneOnDevice {
   DeviceScene scene;
-  std::optional<InstancePlacement> placement;  // where there are instances
+  std::optional<InstancePlacement> placement;  // only if there are instances
 };
 
 // The scene with its instances where they are in the first frame.

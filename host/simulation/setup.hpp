@@ -1,4 +1,4 @@
-// What a simulation is made of: the plan of the run, and what computes it on a device.
+// The parts of a simulation: the plan of the run, and the objects that compute it on a device.
 #pragma once
 #include <functional>
 #include <memory>
@@ -44,10 +44,10 @@ struct Setup {
   gpu::Context& context;
   DeviceSummary device;
   std::unique_ptr<const RunPlan> plan;
-  std::unique_ptr<const Surroundings> around;  // of places in the scene
+  std::unique_ptr<const Surroundings> around;  // surroundings of places in the scene
   std::vector<std::string> place_warnings;
   DeviceScene device_scene;
-  std::optional<InstancePlacement> placement;  // where there are instances
+  std::optional<InstancePlacement> placement;  // only if there are instances
   LaunchSides launch_sides;
   OrderChoice order;
   OrderSummary order_summary;

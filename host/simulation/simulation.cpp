@@ -1,4 +1,4 @@
-// Simulation: the public face of setup and frames.
+// Simulation: the public interface of setup and frames.
 #include "wavetracer/simulation.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ struct Simulation::State {
 
   const RunPlan& plan() const { return *setup.plan; }
 
-  // Frames of the configuration's own ends.
+  // Makes tasks for frames of the configuration's own ends.
   FrameTask task(uint32_t frame) const {
     const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
     return {.frame = frame,
@@ -29,8 +29,8 @@ struct Simulation::State {
             .receiver_name = name(plan().asked.receivers)};
   }
 
-  // A frame that reuses nothing may be solved in batches of receivers, which are halved where their lists are too long
-  // for the device.
+  // Runs a frame. If it reuses nothing, it may be solved in batches of receivers, which are halved if their lists are
+  // too long for the device.
   FrameResult run(FrameTask task) {
     const bool whole = plan().reuse || !block_obstacle(plan().asked).empty();
     const auto receivers = static_cast<uint32_t>(plan().world.receivers.ends.size());
@@ -48,7 +48,7 @@ struct Simulation::State {
     return run_batches(std::move(task), std::move(left));
   }
 
-  // The first batch becomes two, and later frames begin with none that is longer.
+  // Splits the first batch into two, and later frames begin with none that is longer.
   void halve(std::deque<ReceiverRange>& left) {
     const auto [first, end] = left.front();
     const uint32_t middle = first + (end - first + 1) / 2;
@@ -82,7 +82,7 @@ struct Simulation::State {
           plan().trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
     if (!left_out.empty())
       out.warnings.push_back(left_out_warning(left_out, task.transmitter_name, task.receiver_name));
-    if (setup.elements.on()) {  // of all links at once
+    if (setup.elements.on()) {  // for all links at once
       Stopwatch watch;
       setup.elements(out);
       out.seconds["elements"] += watch.lap();
@@ -90,7 +90,7 @@ struct Simulation::State {
     return out;
   }
 
-  // A frame of a live world. pose: the world, and the names in the frame.
+  // Runs a frame of a live world. pose: gives the world, and sets the names in the frame.
   LiveFrame live_frame(const LiveTraffic& traffic, DiscoveryMark& discovery, bool between,
                        const std::function<WorldState(LiveNames&)>& pose) {
     LiveFrame out;
@@ -105,7 +105,7 @@ struct Simulation::State {
     return out;
   }
 
-  // Whether the frame that comes next is profiled.
+  // Is the next frame profiled?
   bool timed() {
     const uint64_t run = runs++;
     return run < 3 || run % profile_every == 0;
@@ -115,7 +115,7 @@ struct Simulation::State {
   FrameLoop frames;
   uint32_t profile_every = 1;
   uint64_t runs = 0;
-  uint32_t fitting = no_end;  // receivers of a batch whose lists the device can hold, as far as is known
+  uint32_t fitting = no_end;  // the most receivers of a batch whose lists the device can hold, as far as is known
 };
 
 Simulation::Simulation(const Config& config, const std::string& device)

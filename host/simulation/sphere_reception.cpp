@@ -1,5 +1,5 @@
-// Receptions of a batch fall into groups of one node and receiver; the nearest of each meets those of other batches by
-// its surfaces, since nodes are numbered anew when the set of sequences grows.
+// Receptions of a batch are grouped by node and receiver. The nearest of each group is compared with those of other
+// batches by its surfaces, since nodes get new numbers when the set of sequences grows.
 #include "simulation/sphere_reception.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace wavetracer {
 
 namespace {
 
-// The nearest of each node and receiver; of equals the lowest sample, then the lowest depth.
+// The nearest reception of each node and receiver; of equals the one with the lowest sample, then the lowest depth.
 std::vector<wt_reception> nearest(std::vector<wt_reception> found) {
   std::ranges::sort(
       found, {}, [](const wt_reception& r) { return std::tuple(r.node, r.receiver, r.distance_m, r.sample, r.depth); });

@@ -1,7 +1,7 @@
-// The thesis' way of reception: a receiver is a sphere, and a ray that passes through it makes a path, without a solve.
-// Of the rays of one sequence the one that passes nearest stays; its path goes over its own points to the receiver's
-// centre. A ray that passes at b makes it too long by about b^2 r1 / (2 r2 (r1 + r2)), r1 and r2 the lengths before and
-// after its last point.
+// The thesis' method of reception: a receiver is a sphere, and a ray that passes through it makes a path, without a
+// solve. Among the rays of one sequence the one that passes nearest is kept; its path goes over its own points to the
+// receiver's centre. A ray that passes at distance b makes it too long by about b^2 r1 / (2 r2 (r1 + r2)), where r1 and
+// r2 are the lengths before and after its last point.
 #pragma once
 #include <map>
 #include <tuple>
@@ -16,15 +16,16 @@ namespace wavetracer {
 class SphereReception {
  public:
   SphereReception(gpu::Context& context, double radius_m) : receive_(context, radius_m) {}
-  // Forgets all paths.
+  // Removes all paths.
   void begin_launch();
-  // Forgets what the batch has received so far.
+  // Removes the receptions of the batch so far.
   void begin_batch() { receive_.begin_batch(); }
-  // All segments of the batch have been received: keeps what is nearer than before, and returns all receptions.
+  // Ends a batch of which all segments have been received: keeps receptions that are nearer than before, and returns
+  // all.
   std::vector<wt_reception> end_batch(Waypoints& waypoints);
-  // Receptions of all batches.
+  // The number of receptions of all batches.
   uint64_t count() const { return count_; }
-  // In the order of their links and surfaces.
+  // The paths in the order of their links and surfaces.
   PathGeometry paths() const;
   Receive& receive() { return receive_; }
 

@@ -1,5 +1,5 @@
-// Lines through the grid of the scene's triangles, and what follows from what they meet.
-// Lines that count crossings lean a little: what they meet is seldom an edge, where two triangles would count or none.
+// Follows lines through the grid of the scene's triangles. Lines that count crossings are a little oblique, so that
+// they seldom meet an edge, where two triangles or none would count.
 #include "simulation/surroundings.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-// Up, and to four sides, of which two climb and two fall: a sheet, however wide, is not met by all of them.
+// Lines up and to four sides, of which two climb and two fall: a flat sheet of any width is not met by all of them.
 const std::array<dvec3, 5> leaving = {dvec3{0.0137, 0.0291, 1}, dvec3{1, 0.0431, 0.0573}, dvec3{-0.0523, 1, -0.0197},
                                       dvec3{-1, -0.0337, 0.0631}, dvec3{0.0217, -1, -0.0173}};
 
@@ -47,9 +47,9 @@ double volume(const SceneBox& box) {
 
 struct Surroundings::Index {
   TriangleGrid triangles;
-  std::vector<uint32_t> body;  // of each triangle
+  std::vector<uint32_t> body;  // body of each triangle
   std::vector<SceneBox> body_box, object_box;
-  std::vector<uint32_t> wide_surfaces;  // of objects as wide as a ground is
+  std::vector<uint32_t> wide_surfaces;  // surfaces of objects that are as wide as a ground
 
   explicit Index(const Scene& scene);
   void join_bodies(const Scene& scene);
@@ -57,7 +57,7 @@ struct Surroundings::Index {
     const dvec3 size = scene.upper - scene.lower, wide = object_box[object].upper - object_box[object].lower;
     return wide.x * wide.y >= 0.5 * size.x * size.y;
   }
-  // The wide object in whose plane p is, where what covers that in its plane is cut out of it, as below a house.
+  // The wide object in whose plane p is, if that plane has a hole at p, as below a house.
   std::optional<uint32_t> wide_object_at(const Scene& scene, const dvec3& p) const;
 };
 
@@ -107,7 +107,7 @@ std::optional<Surroundings::Body> Surroundings::body_at(const dvec3& p) const {
   for (size_t k = 0; k < leaving.size(); ++k) {
     std::vector<Around> odd;
     for (const Crossing& c : crossings(p, p + far_m * glm::normalize(leaving[k]))) {
-      if (c.distance_m <= on_surface_m) continue;  // what p lies on is not around it
+      if (c.distance_m <= on_surface_m) continue;  // a surface that p is on is not around it
       const auto found = std::ranges::find(odd, index_->body[c.triangle], &Around::body);
       if (found == odd.end())
         odd.push_back({index_->body[c.triangle], c});
@@ -123,7 +123,7 @@ std::optional<Surroundings::Body> Surroundings::body_at(const dvec3& p) const {
     });
     if (around.empty()) return {};
   }
-  // Of bodies in one another the smallest.
+  // If bodies are inside of one another, this takes the smallest.
   const auto inner =
       std::ranges::min_element(around, {}, [&](const Around& a) { return volume(index_->body_box[a.body]); });
   return Body{inner->body, scene_.triangle_object[inner->nearest.triangle]};
@@ -147,7 +147,7 @@ std::optional<Surroundings::Depth> Surroundings::below_ground(const dvec3& p) co
 }
 
 bool Surroundings::has_ground() const {
-  constexpr int places = 9;  // in x and in y
+  constexpr int places = 9;  // number in x and in y
   const dvec3 size = scene_.upper - scene_.lower;
   int found = 0;
   for (int k = 0; k < places * places; ++k) {

@@ -1,4 +1,4 @@
-// How deep tracing goes, in one place: what a configuration says of the lengths of paths, sequences and rays.
+// The depth of tracing, in one place: the lengths of paths, sequences and rays that a configuration asks for.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -8,22 +8,22 @@
 namespace wavetracer {
 
 struct TracingDepth {
-  uint32_t reflections = 0;    // of a path without other interactions
+  uint32_t reflections = 0;    // most of a path without other interactions
   uint32_t sequences = 0;      // surfaces in the longest sequence
-  uint32_t interactions = 0;   // of a ray
-  uint32_t transmissions = 0;  // of a ray
-  uint32_t edges = 0;          // of a path
-  uint32_t row = 0;            // interactions of a path that a list of paths has room for
+  uint32_t interactions = 0;   // most of a ray
+  uint32_t transmissions = 0;  // most of a ray
+  uint32_t edges = 0;          // most of a path
+  uint32_t row = 0;            // interactions that a list of paths has room for in each path
 };
 
-// trace: without what the scene does not need, see with_features.
+// trace: without features that the scene does not need, see with_features.
 inline TracingDepth tracing_depth(const TraceConfig& trace) {
   TracingDepth out;
   out.reflections = trace.reflection ? trace.max_depth : 0;
-  // Wedges and tiles hang on surfaces that rays see, so these are wanted without reflection too.
+  // Wedges and tiles belong to surfaces that rays see, so these surfaces are also needed without reflection.
   const uint32_t seen = trace.diffraction || trace.scattering ? std::min(1u, trace.max_depth) : 0;
   out.sequences = trace.reflection ? out.reflections : seen;
-  // What is transmitted sees further surfaces, whether they reflect or not. The last interaction ends a ray.
+  // A transmitted ray sees further surfaces, even if they do not reflect. The last interaction ends a ray.
   out.interactions = out.sequences > 0 && trace.transmission ? trace.max_depth : out.sequences;
   if (trace.transmission && out.interactions > 0)
     out.transmissions = std::min(trace.max_transmissions, out.interactions - 1);

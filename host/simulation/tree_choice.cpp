@@ -1,5 +1,5 @@
-// Spatial splits gain up to a sixth of the tracing time in one city and lose in another, with costs by the surface area
-// heuristic that hardly differ: so both are traced.
+// Spatial splits gain up to a sixth of the tracing time in one city and lose in another, although their costs by the
+// surface area heuristic hardly differ. So both trees are traced.
 #include "simulation/tree_choice.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace wavetracer {
 
 namespace {
 
-// Seconds that the sample's rays take on the device, warm.
+// The seconds that the sample's rays take on the device, warm.
 double sample_seconds(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample,
                       const std::vector<glm::dvec3>& transmitters) {
   return warm_seconds(context, scene, sample, {}, transmitters,

@@ -1,5 +1,5 @@
-// Which acceleration tree the run gets: with spatial splits or without, by a timed sample of the run's own rays.
-// Hits do not depend on the tree (ties go to the lower primitive), so the choice changes time only.
+// Chooses the acceleration tree of the run, with or without spatial splits, by a timed sample of the run's own rays.
+// Hits do not depend on the tree (ties go to the lower primitive), so the choice changes only the time.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-// Launches a frame of at least this many rays pay for building two trees and sampling both.
+// From this number of rays in a frame on, it pays to build two trees and sample both.
 constexpr uint64_t tree_choice_rays = uint64_t{1} << 24;
 
 // transmitters: recentred metres; reach_m, opaque: see make_device_scene.

@@ -1,5 +1,5 @@
-// Vehicles against the static scene, at a number of places that does not grow with the drive.
-// Assumes recentred trajectories, positions on the ground.
+// Compares vehicles with the static scene, at a number of places that does not grow with the drive. Trajectories are
+// recentred, with positions on the ground.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t most_places = 20000;  // in all: below 0.2 s
-constexpr double step_m = 1;             // vehicles may stand so much above the ground,
-constexpr double sunk_m = 0.5;           // or below it: kerbs, ramps and rounding of maps are less
+constexpr uint64_t most_places = 20000;  // for all vehicles: below 0.2 s
+constexpr double step_m = 1;             // vehicles may be this much above the ground
+constexpr double sunk_m = 0.5;           // or this much below it: kerbs, ramps and rounding of maps are less
 
 enum VehicleFault { through, sunk, floating, beside, vehicle_faults };
 constexpr std::array<const char*, vehicle_faults> fault_words = {"drive through closed bodies", "are below the ground",
@@ -30,10 +30,10 @@ constexpr std::array<const char*, vehicle_faults> advice = {
 struct Finding {
   VehicleFault kind;
   std::string text;   // `through "house"`, "by 1.5 m"
-  bool room = false;  // the body is so large that all may be meant to be inside of it
+  bool room = false;  // the body is so large that all vehicles may be meant to be inside of it
 };
 
-// grounded: most of the scene has a ground, so that it is missed where there is none.
+// grounded: most of the scene has a ground, so a place without ground is reported.
 std::optional<Finding> look(const Surroundings& around, bool grounded, const Pose& pose, double height_m) {
   const glm::dvec3& p = pose.position_m;
   const auto by = [](VehicleFault kind, double metres) { return Finding{kind, fmt::format("by {:.3g} m", metres)}; };
@@ -50,7 +50,7 @@ std::optional<Finding> look(const Surroundings& around, bool grounded, const Pos
   return {};
 }
 
-// The frames in which a vehicle may be there, or evenly spread ones of them.
+// Visits the frames in which a vehicle may be present, or evenly spread ones of them.
 template <class Visit>
 void visit_frames(const World& world, const Track& track, uint64_t most, const Visit& visit) {
   const uint64_t frames = world.clock.frame_count();
@@ -64,7 +64,7 @@ void visit_frames(const World& world, const Track& track, uint64_t most, const V
     if (const auto pose = pose_at(track, world.clock.time_s(frame))) visit(world.clock.time_s(frame), *pose);
 }
 
-// How many vehicles do so, and the first of them.
+// The number of vehicles with a finding, and the first of them.
 struct Count {
   uint64_t vehicles = 0;
   double time_s = 0;
@@ -89,7 +89,7 @@ class Drive {
     }
   }
 
-  // Where all are in a room it is the scene, as a garage is.
+  // If all are in a room, the room is the scene, for instance a garage.
   std::vector<std::string> warnings(size_t vehicles) const {
     std::vector<std::string> out;
     const auto say = [&](const Count& c, VehicleFault kind) {
@@ -106,7 +106,7 @@ class Drive {
  private:
   std::array<Count, vehicle_faults> counts_;
   Count in_rooms_;
-  bool free_ = false;  // a vehicle was where nothing is to be said of
+  bool free_ = false;  // a vehicle was at a place without a finding
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Rows have room for the deepest path, of which the shorter ones use the beginning.
+// Rows have room for the deepest path; shorter ones use the beginning.
 #include "simulation/visible_paths.hpp"
 
 #include <algorithm>

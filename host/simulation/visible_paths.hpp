@@ -5,7 +5,7 @@
 
 namespace wavetracer {
 
-// As `fields` takes them: numbered through the world, equal paths included.
+// Reads the paths in the form that `fields` takes: numbers are those of the world, and equal paths are included.
 PathGeometry read_visible(Setup& setup);
 
 }  // namespace wavetracer

@@ -1,5 +1,5 @@
-// What choices by measurement share: the time that discovery takes once it is warm.
-// Assumes that nobody else uses the context's profile meanwhile.
+// A function that choices by measurement share: the time that discovery takes once it is warm. No other code may use
+// the context's profile meanwhile.
 #pragma once
 #include <glm/vec3.hpp>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace wavetracer {
 
-// The better of two warm runs over a sample of rays; seconds_of makes one number of a run's stages.
+// The better of two warm runs over a sample of rays; seconds_of turns a run's stages into one number.
 template <class SecondsOf>
 double warm_seconds(gpu::Context& context, const DeviceScene& scene, const TraceConfig& sample, const OrderPlan& plan,
                     const std::vector<glm::dvec3>& transmitters, const SecondsOf& seconds_of) {

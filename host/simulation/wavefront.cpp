@@ -1,4 +1,4 @@
-// The loop reads as the table of docs/architecture.md, from the sort of a queue to interact.
+// The loop follows the table of docs/architecture.md, from the sort of a queue to interact.
 #include "simulation/wavefront.hpp"
 
 #include <utility>
@@ -7,7 +7,7 @@ namespace wavetracer {
 
 namespace {
 
-// Rays forget their sample once they were transmitted, and where nobody refines.
+// Rays lose their sample when they are transmitted, and where no launch is refined.
 InteractOptions without_samples(InteractOptions options) {
   options.samples = false;
   return options;

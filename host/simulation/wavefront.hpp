@@ -1,7 +1,7 @@
-// The rays of a batch to their ends: all of them at once where nothing happens to them on their way (bounces), else
-// the wavefront loop, in which all rays take a step together, until none is left.
-// Sort, find hits, scan, interact; one host read for each depth, the number of rays that go on. With transmission rays
-// split where they hit: queues of transmitted rays are traced depth first, so that at most one waits at each depth.
+// Follows the rays of a batch to their ends: all of them at once where only reflection happens on their way (bounces),
+// else by the wavefront loop, in which all rays take a step together, until none is left. A step is sort, find hits,
+// scan, interact; the host reads one number at each depth, that of the rays that go on. With transmission rays split
+// where they hit: queues of transmitted rays are traced depth first, so that at most one waits at each depth.
 #pragma once
 #include <optional>
 #include <vector>
@@ -19,23 +19,23 @@ namespace wavetracer {
 
 class Wavefront {
  public:
-  // options: of interact, but for samples: whether rays may carry them (a refined launch). at_once: no pass needs the
+  // options: those of interact; samples says whether rays may carry them (a refined launch). at_once: no pass needs the
   // queues of later depths. source, finder and sequences outlive this.
   Wavefront(gpu::Context& context, const DeviceScene& scene, const TracingDepth& depth, InteractOptions options,
             bool at_once, RaySource& source, HitFinder& finder, Sequences& sequences);
-  // Room for batches of so many rays, queues alone.
+  // Makes room for batches of this many rays, in queues only.
   void reserve(uint64_t rays);
-  // The launch rays of a batch, to be filled before it is traced.
+  // The launch rays of a batch, which are filled in before it is traced.
   RayQueue& rays() { return rays_; }
-  // Segments of a ray, at most.
+  // The most segments of a ray.
   uint32_t segments(const RayFollower& follower) const { return depth_.interactions + follower.extra_segments(); }
-  // Traces the rays to their ends. ends: of a refined launch, where each sample ended. False if the set of sequences
-  // was too small: the batch must be traced again with a larger one.
+  // Traces the rays to their ends. ends: for a refined launch, where each sample ended. Returns false if the set of
+  // sequences was too small: the batch must be traced again with a larger one.
   bool trace(const DeviceScene& scene, RayFollower& follower, DiscoveryCounts& counts,
              const gpu::Buffer<uint32_t>* ends = nullptr);
 
  private:
-  // What the rays of a queue have in common: the number of their segment, from 1, and how many surfaces they may pass.
+  // The common data of the rays of a queue: the number of their segment, from 1, and how many surfaces they may pass.
   struct Waiting {
     uint32_t depth, transmissions;
   };

@@ -21,7 +21,7 @@ Trajectories recentred(Trajectories trajectories, const glm::dvec3& origin_m) {
   return trajectories;
 }
 
-// Whether frames follow from tracks; else there is one, at 0 s.
+// Tells whether frames follow from tracks; otherwise there is one frame, at 0 s.
 bool drives(const Fleet& fleet, const std::optional<LivePlaces>& live) {
   return !live && !fleet.trajectories.tracks.empty();
 }

@@ -1,6 +1,6 @@
-// What moves: vehicles, radio ends and links of every frame, from configuration and trajectories.
-// A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, with nobody
-// there, and those of poses that come at run time.
+// The moving world: vehicles, radio ends and links of every frame, from configuration and trajectories.
+// A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, without
+// vehicles, and frames of poses that come at run time.
 #pragma once
 #include <optional>
 #include <string>
@@ -36,7 +36,7 @@ struct World {
   WorldState state(uint64_t frame) const;
   // The live world with these vehicles in their places.
   WorldState state(double time_s, const std::vector<PlacedPose>& placed) const;
-  // What ends and instances are called then.
+  // Returns the names of ends and instances for these poses.
   LiveNames names(const std::vector<PlacedPose>& placed) const;
   // Throws ConfigError where the world is not live.
   const LivePlaces& live_places() const;

@@ -17,7 +17,7 @@
 namespace wavetracer {
 namespace {
 
-// Where a mount is on this vehicle, from the centre of the footprint.
+// Returns the place of a mount on this vehicle, from the centre of the footprint.
 glm::dvec3 offset_of(const MountConfig& mount, const Fleet& fleet, uint32_t track) {
   if (mount.node.empty()) return vector_of(mount.offset_m);
   const Track& vehicle = fleet.trajectories.tracks[track];

@@ -39,7 +39,7 @@ struct WorldEnds {
 // The ground below antennas whose height is measured from it, in recentred coordinates.
 struct GroundBelow {
   std::shared_ptr<const Ground> ground;  // null where no [[mount]] asks for it
-  glm::dvec3 origin_m{0};                // of the scene
+  glm::dvec3 origin_m{0};                // origin of the scene
 
   // The z of the ground at a place; empty where there is none. Needs `ground`.
   std::optional<double> height_m(const glm::dvec3& place_m) const;

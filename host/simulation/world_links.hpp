@@ -1,4 +1,4 @@
-// Which transmitter and receiver belong together: by name, kind, vehicle and distance.
+// The rules that say which transmitter and receiver belong together: by name, kind, vehicle and distance.
 // Assumes that names and carriers of ends never change, only where ends are and whether they are present.
 #pragma once
 #include <cstdint>
@@ -29,7 +29,7 @@ class LinkRules {
   // Throws RuntimeError where more pairs are present than a frame can have.
   std::vector<Link> operator()(const std::vector<EndState>& transmitters, const std::vector<EndState>& receivers) const;
 
-  // Whether any pair is allowed, wherever the ends are.
+  // Tells whether any pair is allowed for some places of the ends.
   bool any_allowed() const;
 
  private:

@@ -107,7 +107,7 @@ const VehicleTypeConfig* VehicleModels::row_of(std::string_view name) const {
   return found == config_.vehicle_types.end() ? nullptr : &*found;
 }
 
-// Of the scene's keys those that say what a material's name means.
+// Returns those keys of the scene that say what a material's name means.
 SceneConfig VehicleModels::material_rules() const {
   SceneConfig rules;
   rules.material_alias = config_.scene.material_alias;
@@ -142,7 +142,7 @@ VehicleType VehicleModels::sized(const VehicleTypeConfig& row) {
     const glm::dvec3 extent_m = mesh.upper - mesh.lower;
     known = {row.name, extent_m.x, extent_m.y, extent_m.z};
   }
-  // What has no body needs no size: its place is where its file puts it.
+  // A vehicle without a body needs no size: its place is where its file puts it.
   if (row.model == "none" && !known) known = VehicleType{row.name, 0, 0, 0};
   for (double VehicleType::*size : {&VehicleType::length_m, &VehicleType::width_m, &VehicleType::height_m}) {
     if (out.*size > 0) continue;

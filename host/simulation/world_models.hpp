@@ -1,4 +1,4 @@
-// What vehicle types look like: sizes for the readers of trajectories, bodies for the scene.
+// The shapes of vehicle types: sizes for the readers of trajectories, bodies for the scene.
 // A type of a trajectory is a [[vehicle_type]], else a class of SUMO, else trajectories.default_type.
 #pragma once
 #include <map>

@@ -83,7 +83,7 @@ void Reach::add_box(const glm::dvec3& lower_m, const glm::dvec3& upper_m, double
   reach_m_ = std::max({reach_m_, farthest(lower_m) + radius_m, farthest(upper_m) + radius_m});
 }
 
-// How far the ground below an antenna may be from its vehicle.
+// Returns the largest distance of the ground below an antenna from its vehicle.
 double from_ground_m(const MountedEnd& end, const Trajectories& trajectories, const Scene& scene) {
   if (!end.above_ground) return 0;
   double out = 0;
@@ -92,7 +92,7 @@ double from_ground_m(const MountedEnd& end, const Trajectories& trajectories, co
   return out;
 }
 
-// How far antennas and corners of the body are from each vehicle, by track.
+// Returns the largest distance of antennas and corners of the body from each vehicle, by track.
 std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Scene& scene) {
   std::vector<double> out(fleet.trajectories.tracks.size(), 0);
   for (const auto* role : {&ends.transmitters, &ends.receivers})

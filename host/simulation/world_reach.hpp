@@ -1,4 +1,4 @@
-// How far from the middle of the scene anything gets in a drive, and how far it may.
+// The largest distance of anything from the middle of the scene in a drive, and its limit.
 // Assumes recentred coordinates; messages give those of the files.
 #pragma once
 #include <optional>
@@ -16,9 +16,9 @@ namespace wavetracer {
 // is far away widens the boxes of the trees, and so slows down the rays of all.
 constexpr double farthest_m = 1e6;
 
-// How far anything of a world gets: no recentred coordinate of an end or of a corner of an instance is larger, in any
+// Returns the reach of a world: no recentred coordinate of an end or of a corner of an instance is larger, in any
 // frame. live: the places of a live world, whose vehicles may be anywhere in their bounds; empty for tracks. Throws
-// ConfigError or InputError for what is beyond farthest_m, and for NaN.
+// ConfigError or InputError for a place beyond farthest_m, and for NaN.
 double reach_of(const Fleet& fleet, const WorldEnds& ends, const std::optional<LivePlaces>& live, const Scene& scene);
 
 }  // namespace wavetracer

@@ -196,11 +196,9 @@ def unlicensed(root):
 # Words that begin a relative clause or a genitive without a main clause.
 BARE = r"(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Which|Where|How|Likewise)\b"
 BARE_SENTENCE = r"(?<=[.?!] )(?:Of|What|Whatever|Who|Whoever|Whose|Whether|Likewise)\b"
-ENGLISH_FOLDERS = (*FOLDERS, "cmake", "python")
+ENGLISH_FOLDERS = (*FOLDERS, "cmake", "docs", "python")
 ENGLISH_FILES = ("CMakeLists.txt", "dev", ".ci/run")
 ENGLISH_SUFFIXES = SUFFIXES | {".py", ".cmake", ".sh", ".js", ".txt", ".map", ".supp"}
-# Folders whose comments are not rewritten yet; the list is to become empty.
-NOT_YET_ENGLISH = ("host/simulation/", "host/radio/", "host/passes/", "kernels/", "include/wavetracer/device/")
 
 
 def comments(lines, mark):
@@ -233,7 +231,7 @@ def bare_comments(root):
     faults = []
     for path in [*paths, *(root / name for name in ENGLISH_FILES)]:
         name = str(path.relative_to(root))
-        if name.startswith(NOT_YET_ENGLISH) or "/corpus/" in name:
+        if "/corpus/" in name:
             continue
         mark = "//" if path.suffix in SUFFIXES | {".js"} else "#"
         text = path.read_text(errors="replace")

@@ -30,7 +30,7 @@ int trace(const char* folder) {
   config.receivers = {{.name = "car", .position_m = {60, -3, 1.5}}};
   config.trace.rays = 100000;
   config.trace.max_depth = 2;
-  config.text = wavetracer::resolved_config(config);  // what the outputs say of their origin
+  config.text = wavetracer::resolved_config(config);  // outputs contain it as their origin
 
   wavetracer::Simulation simulation(config);
   const wavetracer::FrameResult frame = simulation.run_frame(0);

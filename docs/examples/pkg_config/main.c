@@ -24,7 +24,7 @@ static char* read_text(const char* path) {
   return text;
 }
 
-/* Where the relative paths of a configuration start: its own folder, as for `wavetracer run -c`. The caller frees it.
+/* The folder where relative paths of a configuration start: its own, as for `wavetracer run -c`. The caller frees it.
  */
 static char* folder_of(const char* path) {
   const char* slash = strrchr(path, '/');

@@ -1,5 +1,5 @@
 // Antennas at the ends of paths: element patterns and the ports of an antenna, turned into the global frame.
-// host/radio/pattern.hpp and antenna.hpp say what they are. Directions are of unit length, away from the antenna.
+// host/radio/pattern.hpp and antenna.hpp describe both. Directions have unit length and point away from the antenna.
 #ifndef WAVETRACER_DEVICE_ANTENNA_H
 #define WAVETRACER_DEVICE_ANTENNA_H
 #include "wavetracer/device/field_records.h"
@@ -10,7 +10,7 @@ namespace wavetracer::device {
 #endif
 
 typedef struct {
-  double theta, phi;  // radians: from +z, 0 to pi; from +x towards +y, -pi to pi
+  double theta, phi;  // radians: theta from +z, 0 to pi; phi from +x towards +y, -pi to pi
 } wt_angles;
 
 // Components along theta-hat and phi-hat.
@@ -19,11 +19,11 @@ typedef struct {
 } wt_field_pair;
 
 typedef struct {
-  wt_field_pair port[2];  // 0 for one that the antenna does not have
+  wt_field_pair port[2];  // zeros for a port that the antenna does not have
 } wt_port_fields;
 
 inline wt_angles wt_angles_of(wt_double3 direction) {
-  // + 0.0 turns a y of -0 into +0, so that phi on the negative x axis is pi and never -pi.
+  // Adding 0.0 turns a y of -0 into +0, so phi on the negative x axis is pi and never -pi.
   const double rho = sqrt(direction.x * direction.x + direction.y * direction.y);
   wt_angles out;
   out.theta = wt_atan2(rho, direction.z);
@@ -31,8 +31,9 @@ inline wt_angles wt_angles_of(wt_double3 direction) {
   return out;
 }
 
-// cos(pi/2 cos theta) / sin theta, written with the angle from the nearer end of the axis to keep its digits there;
-// times the root of the directivity 4 / Cin(2 pi) (Balanis, Antenna Theory, 4th edition, eq. 4-91).
+// The field of a half-wave dipole, cos(pi/2 cos theta) / sin theta, times the root of the directivity 4 / Cin(2 pi)
+// (Balanis, Antenna Theory, 4th edition, eq. 4-91). It is computed from the angle to the nearer end of the axis, which
+// keeps its digits there.
 inline double wt_half_wave_dipole(double theta) {
   const double from_axis = fmin(theta, WT_PI - theta);
   if (from_axis <= 0.0) return 0.0;
@@ -40,7 +41,7 @@ inline double wt_half_wave_dipole(double theta) {
   return sqrt(1.6409223769845852) * wt_cos_sin(WT_PI * half_sine * half_sine).y / wt_cos_sin(from_axis).y;
 }
 
-// 3GPP TR 38.901, Table 7.3-1.
+// The element pattern of 3GPP TR 38.901, Table 7.3-1.
 inline double wt_tr38901(wt_angles angles) {
   const double degrees = 180.0 / WT_PI, down = (angles.theta * degrees - 90.0) / 65.0,
                across = angles.phi * degrees / 65.0;
@@ -63,7 +64,7 @@ inline wt_field_pair wt_mix(wt_field_pair a, wt_field_pair b, double t) {
   return out;
 }
 
-// Bilinear between the four samples around a direction.
+// Interpolates bilinearly between the four samples around a direction.
 inline wt_field_pair wt_grid_pattern(const WT_GLOBAL wt_antenna* antenna, const WT_GLOBAL double* samples,
                                      wt_angles angles) {
   const double micro_degrees = 180e6 / WT_PI, count = (double)antenna->columns;
@@ -78,7 +79,7 @@ inline wt_field_pair wt_grid_pattern(const WT_GLOBAL wt_antenna* antenna, const 
                 wt_mix(wt_sample(samples, lower + j), wt_sample(samples, lower + next), across), down);
 }
 
-// The pattern in the antenna's own frame.
+// The pattern for a direction in the antenna's own frame.
 inline wt_field_pair wt_pattern(const WT_GLOBAL wt_antenna* antenna, const WT_GLOBAL double* samples,
                                 wt_double3 direction) {
   wt_field_pair out;
@@ -94,8 +95,8 @@ inline wt_field_pair wt_pattern(const WT_GLOBAL wt_antenna* antenna, const WT_GL
   return out;
 }
 
-// The field of each port along the vectors of basis, which is wt_spherical_basis(direction). Squared length: gain over
-// isotropic. By reciprocity it serves sending and receiving alike. rotation: as wt_field_end has it.
+// The field of each port along the vectors of basis, which is wt_spherical_basis(direction). Its squared length is the
+// gain over isotropic. By reciprocity it serves sending and receiving alike. r: the rotation, as in wt_field_end.
 inline wt_port_fields wt_antenna_fields(const WT_GLOBAL wt_antenna* antenna, const WT_GLOBAL double* samples,
                                         const WT_GLOBAL double* r, wt_double3 direction, wt_basis basis) {
   const wt_double3 own_direction = WT_DOUBLE3(r[0] * direction.x + r[3] * direction.y + r[6] * direction.z,

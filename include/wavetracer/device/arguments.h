@@ -1,5 +1,6 @@
-// What kernels take by value: the numbers of one launch of a pass, as one record for each kernel (or for kernels that
-// take the same), so that an argument list is its buffers and this record. Capacities are those of the lists written.
+// Arguments that kernels take by value: the numbers of one launch of a pass, as one record for each kernel (or for
+// kernels that take the same), so that an argument list is its buffers and this record. A capacity is that of a list
+// that is written.
 #ifndef WAVETRACER_DEVICE_ARGUMENTS_H
 #define WAVETRACER_DEVICE_ARGUMENTS_H
 #include "wavetracer/device/cache.h"
@@ -10,16 +11,17 @@ using wavetracer::device::wt_air;
 using wavetracer::device::wt_cache_widths;
 #endif
 
-// Of a map from launch indices to directions (directions.h): its step or seed, and the Hilbert curve's level and faces.
+// The constants of a map from launch indices to directions (directions.h): step or seed, and the Hilbert curve's level
+// and faces.
 typedef struct {
   wt_ulong parameter;
   wt_uint level;
   wt_uint faces;
 } wt_map_arguments;
 
-// Who launches: from where, the root of its sequences, what its rays leave (WT_OWN and the instance that carries the
-// antenna, or WT_NONE), where its heights begin in their table, and whether that table is a window (directions.h); then
-// the origin is the point from which the starts of its rays differ.
+// The transmitter that launches: its place, the root of its sequences, what its rays leave (WT_OWN and the instance
+// that carries the antenna, or WT_NONE), where its heights begin in their table, and whether that table is a window
+// (directions.h). With a window the origin is the point that the starts of its rays are measured from.
 typedef struct {
   float origin[3];
   wt_uint root;
@@ -28,7 +30,8 @@ typedef struct {
   wt_uint window;
 } wt_launcher_arguments;
 
-// Launch indices first_index + stride * k, of which the first has this number in the launch, into slots first_slot + k.
+// Launch indices first_index + stride * k. The first of them has this number in the launch, and they fill slots
+// first_slot + k.
 typedef struct {
   wt_ulong first_index;
   wt_ulong stride;
@@ -38,8 +41,8 @@ typedef struct {
   wt_uint count;
 } wt_launch_arguments;
 
-// Samples first .. first + count - 1; directions are turned about z by the angle of this cosine and sine, those of
-// windows by `turn` in units of 2^-32 turns, within the width of the window.
+// Samples first to first + count - 1. Directions are turned about z by the angle of this cosine and sine; in a window
+// they are turned by `turn`, in units of 2^-32 turns, and stay within its width.
 typedef struct {
   wt_uint capacity;
   wt_uint first;
@@ -54,8 +57,8 @@ typedef struct {
   wt_uint capacity;
   wt_uint ray_count;
   wt_uint trie_mask;
-  wt_uint last;  // not 0: nothing is reflected
-  wt_uint now;   // of ages
+  wt_uint last;  // not 0: this is the last depth, and nothing is reflected
+  wt_uint now;   // the current age
 } wt_interact_arguments;
 
 typedef struct {
@@ -75,14 +78,15 @@ typedef struct {
   wt_uint capacity;
 } wt_candidates_arguments;
 
-// Of solve and wedge_solve. Here and below lengths of lists are bounds, where a counter says how long they are.
+// Numbers for solve and wedge_solve. Here and below a length of a list is a bound where a counter holds the true
+// length.
 typedef struct {
   wt_uint candidate_count;
   wt_uint max_depth;
   wt_uint capacity;
   wt_uint triangle_slots;
   wt_uint blocker_mask;
-  float wavelength_m;  // the longest; infinite: no wave is too faint (lib/wedge.clh)
+  float wavelength_m;  // the longest wavelength; infinite: no wave is too faint (lib/wedge.clh)
 } wt_solve_arguments;
 
 typedef struct {
@@ -90,29 +94,29 @@ typedef struct {
   float extent_m;
   wt_uint capacity;
   wt_uint ray_count;
-  wt_uint interactions;  // of a ray, at most
+  wt_uint interactions;  // the most interactions of a ray
   wt_uint trie_mask;
-  wt_uint now;  // of ages
+  wt_uint now;  // the current age
 } wt_bounces_arguments;
 
-// Of occlusion and transmissions.
+// Numbers for occlusion and transmissions.
 typedef struct {
   wt_uint triangle_slots;
   float extent_m;
   wt_uint solved_count;
-  wt_uint solved_counter;  // its word of wt_counters, or WT_NONE
-  wt_uint max_depth;       // of a row
-  wt_uint most;            // transmissions of a path
-  wt_uint deepest;         // interactions of a path with transmissions
-  wt_uint blocker_mask;    // of the table of what hid paths before
-  wt_uint tile_count;      // of surfaces; further tiles are cells of vegetation
+  wt_uint solved_counter;  // its word in wt_counters, or WT_NONE
+  wt_uint max_depth;       // vertices that a row has room for
+  wt_uint most;            // the most transmissions of a path
+  wt_uint deepest;         // the most interactions of a path with transmissions
+  wt_uint blocker_mask;    // mask of places in the table of what hid paths before
+  wt_uint tile_count;      // tiles of surfaces; further tiles are cells of vegetation
   wt_uint first_leg;       // occlusion begins with this leg of each path
 } wt_legs_arguments;
 
 typedef struct {
   wt_uint node_count;
   wt_uint transmitter_count;
-  wt_uint groups;  // of 16 receivers
+  wt_uint groups;  // groups of 16 receivers
   wt_uint capacity;
 } wt_lit_arguments;
 
@@ -137,30 +141,30 @@ typedef struct {
   wt_uint capacity;
 } wt_wedge_prefixes_arguments;
 
-// For wedge_join and wedge_pairs: `lanes` work-items take one of the prefixes first to end - 1, in their order, as that
-// of the transmitter.
+// Numbers for wedge_join and wedge_pairs: `lanes` work-items take each of the prefixes first to end - 1, in their
+// order, as the transmitter's prefix of a pair.
 typedef struct {
-  wt_uint count;  // of all prefixes
+  wt_uint count;  // the number of all prefixes
   wt_uint first;
   wt_uint end;
   wt_uint lanes;
   wt_uint transmitter_count;
-  wt_uint groups;  // of 16 receivers
+  wt_uint groups;  // groups of 16 receivers
   wt_uint max_depth;
   wt_uint capacity;
 } wt_wedge_join_arguments;
 
-// Of wedge_sight and wedge_pairs: what stands in the way (lib/sight.clh).
+// Things that may block a leg, for wedge_sight and wedge_pairs (lib/sight.clh).
 typedef struct {
-  wt_uint count;  // of prefixes
+  wt_uint count;  // the number of prefixes
   wt_uint triangle_slots;
   float extent_m;
   wt_uint static_surfaces;
-  wt_uint only_opaque;  // not 0: waves pass the other surfaces
-  wt_uint kept_wedges;  // what is found of pairs of the first so many wedges is kept
+  wt_uint only_opaque;  // not 0: only opaque surfaces block, waves pass the others
+  wt_uint kept_wedges;  // results about pairs of the first so many wedges are kept
 } wt_sight_arguments;
 
-// A grid over the edges of the static scene, in plan, and the number of instances, which have edges besides
+// A grid over the edges of the static scene, in plan, and the number of instances, which have edges too
 // (lib/curtain.clh).
 typedef struct {
   double origin[2];
@@ -188,19 +192,20 @@ typedef struct {
   wt_uint padding;
 } wt_wedge_chains_arguments;
 
-// Of row_keys, mark_rows and order_rows. twins: not 0 where rows of the other way are counted, each after its own.
+// Numbers for row_keys, mark_rows and order_rows. twins: not 0 where each row is followed by that of the link the other
+// way.
 typedef struct {
   wt_uint row_count;
-  wt_uint visible_counter;  // the word of wt_counters of the visible paths, or WT_NONE
+  wt_uint visible_counter;  // the word in wt_counters that counts visible paths, or WT_NONE
   wt_uint max_depth;
   wt_uint receiver_count;
-  wt_uint groups;  // of 16 receivers
+  wt_uint groups;  // groups of 16 receivers
   wt_uint twins;
-  wt_uint length_bits;  // of a key
+  wt_uint length_bits;  // bits of a key that hold the length
 } wt_distinct_arguments;
 
 typedef struct {
-  double origin[3];  // of recentred coordinates in those of the file
+  double origin[3];  // the origin of recentred coordinates in those of the file
   double wavelength_m;
   wt_ulong seed;
   wt_uint row_count;
@@ -211,7 +216,7 @@ typedef struct {
   wt_uint scatters;
   wt_air air;
   wt_uint foliage_count;  // kinds of vegetation
-  wt_uint reflections;    // the most of a path
+  wt_uint reflections;    // the most reflections of a path
 } wt_fields_arguments;
 
 typedef struct {
@@ -224,12 +229,12 @@ typedef struct {
 
 typedef struct {
   wt_uint visible_count;
-  wt_uint visible_counter;  // its word of wt_counters, or WT_NONE
+  wt_uint visible_counter;  // its word in wt_counters, or WT_NONE
   wt_uint max_depth;
-  wt_uint kinds;  // of vegetation
+  wt_uint kinds;  // kinds of vegetation
 } wt_vegetation_arguments;
 
-// Of cache_lookup and cache_share. touch: not 0 where the use of an entry is noted.
+// Numbers for cache_lookup and cache_share. touch: not 0 where the use of an entry is recorded.
 typedef struct {
   wt_uint capacity;
   wt_uint count;

@@ -1,5 +1,5 @@
 // Keys and buckets of the thesis' tables as it prints them (A. Zhdanov, TU Munich, 2014, listings C.1 and C.3 and
-// section 5.2.2), for host and device alike. With their faults: this is what cache.h puts right.
+// section 5.2.2), for host and device alike. They keep the faults that cache.h corrects.
 #ifndef WAVETRACER_DEVICE_CACHE_THESIS_H
 #define WAVETRACER_DEVICE_CACHE_THESIS_H
 #include "wavetracer/device/types.h"
@@ -8,7 +8,7 @@
 namespace wavetracer::device {
 #endif
 
-// separateBy4: the lowest seven bits, which tell nothing about where something is.
+// separateBy4 of the thesis: it takes the lowest seven bits, which say nothing about where something is.
 inline wt_uint wt_thesis_separate_by_4(wt_uint x) {
   x &= 0x0000007Fu;
   x = (x ^ (x << 16)) & 0x0070000Fu;
@@ -23,7 +23,7 @@ inline wt_ulong wt_thesis_remainder(wt_ulong x) {
   return x >> 63 ? 0ul - (0ul - x) % p : x % p;
 }
 
-// calc_hash1. Signed products and sums wrap.
+// calc_hash1 of the thesis. Signed products and sums wrap.
 inline wt_uint wt_thesis_hash1(wt_uint primitive, wt_uint instance, wt_uint x, wt_uint y, wt_uint z) {
   const wt_uint numbers[5] = {primitive, instance, x, y, z};
   wt_ulong s = 0, zi = 1;
@@ -36,13 +36,13 @@ inline wt_uint wt_thesis_hash1(wt_uint primitive, wt_uint instance, wt_uint x, w
   return (wt_uint)wt_thesis_remainder(s + zi * 0xFFFFFFFAul);
 }
 
-// calc_hash2, mortonCode5.
+// calc_hash2 and mortonCode5 of the thesis.
 inline wt_uint wt_thesis_hash2(wt_uint primitive, wt_uint instance, wt_uint x, wt_uint y, wt_uint z) {
   return wt_thesis_separate_by_4(x) | wt_thesis_separate_by_4(y) << 1 | wt_thesis_separate_by_4(z) << 2 |
          wt_thesis_separate_by_4(instance) << 3 | wt_thesis_separate_by_4(primitive) << 4;
 }
 
-// setIndices with a hash_method. Cells as wt_cache_cells packs them.
+// setIndices of the thesis, with a hash_method. Cells are packed as by wt_cache_cells.
 inline wt_uint wt_thesis_hash(wt_uint method, wt_ulong cells, wt_uint primitive, wt_uint instance) {
   const wt_uint x = (wt_uint)cells & 0x1FFFFFu, y = (wt_uint)(cells >> 21) & 0x1FFFFFu, z = (wt_uint)(cells >> 42);
   wt_uint hash = 0;
@@ -51,16 +51,16 @@ inline wt_uint wt_thesis_hash(wt_uint method, wt_ulong cells, wt_uint primitive,
   return hash;
 }
 
-// getBucketIndex of listing C.3: no hash reaches the upper half of the table, nor more than 2^24 places of it.
+// getBucketIndex of listing C.3: no hash reaches the upper half of the table, or more than 2^24 places of it.
 inline wt_uint wt_thesis_slot(wt_uint hash, wt_uint entries) {
   return (wt_uint)(((float)hash / 4294967295.0f) * (float)(entries - 1) / 2.0f);
 }
 
-// The same of the chained table, of a signed hash: section 5.2.2 adds one before it halves.
+// The same for the chained table and a signed hash: section 5.2.2 adds one before it halves.
 inline wt_uint wt_thesis_bucket(wt_uint hash, wt_uint buckets) {
   const float part = (float)(wt_int)hash / 2147483647.0f + 1.0f;
   const float bucket = part * (float)(buckets - 1) / 2.0f;
-  return bucket < (float)(buckets - 1) ? (wt_uint)bucket : buckets - 1;  // never beyond, whatever float rounds to
+  return bucket < (float)(buckets - 1) ? (wt_uint)bucket : buckets - 1;  // never beyond the end, if float rounds up
 }
 
 #ifndef __OPENCL_VERSION__

@@ -1,5 +1,5 @@
 // Complex numbers as pairs of doubles (x: real, y: imaginary): the same bits on host and devices.
-// Sums, differences and products with a real number are those of vectors.
+// Vector operations serve for sums, differences and products with a real number.
 #ifndef WAVETRACER_DEVICE_COMPLEX_H
 #define WAVETRACER_DEVICE_COMPLEX_H
 #include "wavetracer/device/elementary.h"
@@ -9,8 +9,9 @@ namespace wavetracer::device {
 #endif
 
 inline wt_double2 wt_real(double x) { return WT_DOUBLE2(x, 0.0); }
-// The product, rounded. Intel's compiler for CPUs makes one operation of the difference and the sum of two pairs of
-// products (vfmaddsub), which rounds once, whatever FP_CONTRACT says; fma with -0 is a product that it leaves alone.
+// The rounded product a * b. Intel's compiler for CPUs turns the difference and the sum of two pairs of products into
+// one operation (vfmaddsub), which rounds once even where FP_CONTRACT forbids it. It does not touch a product that is
+// written as fma with -0.
 #ifdef __OPENCL_VERSION__
 inline double wt_product(double a, double b) { return fma(a, b, -0.0); }
 #else
@@ -21,7 +22,7 @@ inline wt_double2 wt_times(wt_double2 a, wt_double2 b) {
   return WT_DOUBLE2(wt_product(a.x, b.x) - wt_product(a.y, b.y), wt_product(a.x, b.y) + wt_product(a.y, b.x));
 }
 inline double wt_norm(wt_double2 a) { return a.x * a.x + a.y * a.y; }  // |a|^2
-// a / b. Where |b|^2 may overflow, as of a metal's permittivity, or vanish, b is scaled first.
+// a / b. Where |b|^2 may overflow (the permittivity of a metal) or vanish, b is scaled first.
 inline wt_double2 wt_over(wt_double2 a, wt_double2 b) {
   const double plain = wt_norm(b);
   double x = b.x, y = b.y, norm = plain;
@@ -41,7 +42,7 @@ inline double wt_size(wt_double2 a) {
   const double ratio = smaller / larger;
   return larger * sqrt(1.0 + ratio * ratio);
 }
-// The root whose real part is not negative.
+// The square root whose real part is not negative.
 inline wt_double2 wt_root(wt_double2 a) {
   const double size = wt_size(a);
   if (size == 0.0) return WT_DOUBLE2(0.0, a.y);
@@ -49,7 +50,7 @@ inline wt_double2 wt_root(wt_double2 a) {
   return a.x >= 0.0 ? WT_DOUBLE2(part, copysign(other, a.y)) : WT_DOUBLE2(other, copysign(part, a.y));
 }
 
-// 2 x 2 matrices, row by row.
+// A 2 x 2 matrix, row by row.
 typedef struct {
   wt_double2 m[4];
 } wt_matrix;

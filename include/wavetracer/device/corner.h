@@ -1,5 +1,5 @@
-// The two faces of an edge as mirrors: the waves that they reflect, or let through, before they meet the edge.
-// Local axes: x along face 0, y its normal, z along the edge.
+// The two faces of an edge as mirrors: the waves that they reflect, or transmit, before these meet the edge.
+// Local axes are x along face 0, y along its normal, and z along the edge.
 #ifndef WAVETRACER_DEVICE_CORNER_H
 #define WAVETRACER_DEVICE_CORNER_H
 #include "wavetracer/device/transfer.h"
@@ -10,7 +10,7 @@ namespace wavetracer::device {
 
 #define WT_GRAZING_RAD 1e-9
 
-// permittivity.x is infinite: a perfect conductor.
+// The material of a face. An infinite permittivity.x means a perfect conductor.
 typedef struct {
   wt_double2 permittivity;
   double thickness_m;
@@ -30,7 +30,8 @@ typedef struct {
   wt_basis coming;
 } wt_corner_wave;
 
-// Edge-fixed bases of a wave that leaves the edge and of one that comes to it; (beta, phi, k) is right-handed.
+// The edge-fixed basis of a wave that leaves the edge, and that of one that comes to it; (beta, phi, k) is
+// right-handed.
 inline wt_basis wt_leaving(wt_double3 along, wt_double3 k) {
   wt_basis out;
   out.second = wt_normalized(wt_cross3(along, k));
@@ -39,7 +40,7 @@ inline wt_basis wt_leaving(wt_double3 along, wt_double3 k) {
 }
 inline wt_basis wt_coming(wt_double3 along, wt_double3 k) { return wt_leaving(-along, k); }
 
-// The matrix of the wave the other way, between the edge-fixed bases that belong to that way: beta changes its sign.
+// The matrix of the wave in the other direction, between the edge-fixed bases of that direction: beta changes its sign.
 inline wt_matrix wt_other_way(wt_matrix m) {
   const wt_double2 other = m.m[1];
   m.m[1] = -m.m[2];
@@ -59,7 +60,7 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
                               face->thickness_m, wavelength_m);
 }
 
-// cosine: of the angle between the wave and the edge; sine: of the same, not negative.
+// cosine: that of the angle between the wave and the edge; sine: that of the same angle, not negative.
 inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
   const wt_double2 turn = wt_cos_sin(azimuth);
   wt_corner_wave wave;
@@ -68,16 +69,16 @@ inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
   return wave;
 }
 
-// The coefficient of a plane near grazing, (cosine - z) / (cosine + z), at a complex cosine of incidence; z is what it
-// is at the real cosine `size`, where the coefficient is known.
+// The coefficient of a plane near grazing, (cosine - z) / (cosine + z), at a complex cosine of incidence. z follows
+// from the known coefficient at the real cosine `size`.
 inline wt_double2 wt_at_complex_cosine(wt_double2 coefficient, wt_double2 cosine, double size) {
   const wt_double2 up = wt_times(cosine, wt_real(1.0) + coefficient);
   const wt_double2 down = (wt_real(1.0) - coefficient) * size;
   return wt_over(up - down, up + down);
 }
 
-// Reflection at a complex cosine. Waves that graze a face at some mean angle come with a Gaussian in which it is
-// complex.
+// Reflection at a complex cosine. Waves that graze a face at some mean angle come with a Gaussian in which the cosine
+// is complex.
 inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, double wavelength_m) {
   const double whole = wt_size(cosine), size = fmin(fmax(whole, 1e-12), 1.0);
   const wt_double2 turned = whole > 0.0 ? cosine * (size / whole) : wt_real(size);
@@ -87,8 +88,8 @@ inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, dou
   return slab;
 }
 
-// Of waves beside a ray of the cosine `lit` that are hidden, at `there`: as much more or less than the ray as those on
-// the other side of it are less or more.
+// Coefficients of hidden waves beside a ray of the cosine `lit`, at `there`: they differ from those of the ray by as
+// much as the waves on its other side do, with the other sign.
 inline wt_slab wt_face_slab_mirrored(const wt_wedge_face* face, double lit, wt_double2 there, double wavelength_m) {
   const wt_slab ray = wt_face_slab(face, lit, wavelength_m);
   wt_slab slab = wt_face_slab_at(face, wt_real(2.0 * lit) - there, wavelength_m);
@@ -121,10 +122,10 @@ inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave
   return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), out));
 }
 
-// The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or straight through as many faces;
-// at face `first`, then at the other one, and so on.
+// The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or let through by as many faces; it
+// meets face `first`, then the other one, and so on in turn.
 inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
-  // Leaving, both vectors of the basis are turned round.
+  // In a wave that leaves, both vectors of the basis are reversed.
   if (count == 0) return wt_diagonal(wt_real(-1.0), wt_real(-1.0));
   wt_double3 k = wave->k;
   wt_transfer transfer = wt_transfer_from(wave->coming);
@@ -142,7 +143,7 @@ inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int
   return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), k));
 }
 
-// Reflected |image| times: at face 0, 1, 0, ... if image < 0, at 1, 0, 1, ... if > 0.
+// The wave after |image| reflections: at faces 0, 1, 0, ... if image < 0, at 1, 0, 1, ... if image > 0.
 inline wt_matrix wt_image_wave(const wt_corner* corner, const wt_corner_wave* wave, int image) {
   return wt_met(corner, wave, image > 0, image < 0 ? -image : image, 0);
 }

@@ -1,5 +1,5 @@
 // Morton and Hilbert curves: cells to codes and back, without tables or branches, for any number of lanes.
-// Assumes components and codes within the bits stated; Morton curves ignore the bits above, Hilbert curves do not.
+// Components and codes must fit into the bits stated; Morton curves ignore higher bits, Hilbert curves do not.
 #ifndef WAVETRACER_DEVICE_CURVES_H
 #define WAVETRACER_DEVICE_CURVES_H
 #include "wavetracer/device/lanes.h"
@@ -9,8 +9,8 @@ namespace wavetracer::device {
 #endif
 
 // Morton curves (G. Morton, 1966). Each group of bits holds one bit of every component; x is the least significant of
-// its group. Components: 32 bits in 2D, 21 in 3D, 12 in 5D. Spreading moves halves of halves apart, gathering undoes it
-// (H. Warren, "Hacker's Delight", 7-2).
+// its group. Components have 32 bits in 2D, 21 in 3D, 12 in 5D. Spreading moves halves of halves apart, and gathering
+// undoes it (H. Warren, "Hacker's Delight", 7-2).
 
 inline WT_U64 wt_spread2(WT_U32 word) {
   WT_U64 x = WT_TO_U64(word);
@@ -64,7 +64,7 @@ inline WT_U32 wt_gather5(WT_U64 x) {
   return WT_TO_U32((x | (x >> 32)) & 0x0000000000000FFFul);
 }
 
-// The same in 32-bit words: 16 bits in 2D, 10 in 3D.
+// The same in 32-bit words: components have 16 bits in 2D, 10 in 3D.
 
 inline WT_U32 wt_spread2_short(WT_U32 x) {
   x &= 0x0000FFFFu;
@@ -119,17 +119,17 @@ inline void wt_morton5_decode(WT_U64 code, WT_U32* x, WT_U32* y, WT_U32* z, WT_U
   *v = wt_gather5(code >> 4);
 }
 
-// 16 bits a component.
+// Components have 16 bits.
 inline WT_U32 wt_morton2_encode32(WT_U32 x, WT_U32 y) { return wt_spread2_short(x) | (wt_spread2_short(y) << 1); }
 
-// 10 bits a component.
+// Components have 10 bits.
 inline WT_U32 wt_morton3_encode32(WT_U32 x, WT_U32 y, WT_U32 z) {
   return wt_spread3_short(x) | (wt_spread3_short(y) << 1) | (wt_spread3_short(z) << 2);
 }
 
-// Hilbert curves of `level` bits a component. They start at the origin; the first step of the coarsest level goes along
-// the last component; x leads every digit. Levels nest: a code without its last digit is the code of the cell that
-// holds the cell, one level up.
+// Hilbert curves with `level` bits for each component. They start at the origin; the first step of the coarsest level
+// goes along the last component; x is the leading bit of every digit. Levels nest: a code without its last digit is the
+// code of the enclosing cell, one level up.
 
 // Bit i of the result is the parity of the bits i and above.
 inline WT_U32 wt_parity_prefix(WT_U32 x) {
@@ -175,7 +175,7 @@ inline WT_U32 wt_hilbert2_high_bits(WT_U32 x, WT_U32 y) {
   return x ^ (low & (swaps ^ exchanged)) ^ (~low & (flips ^ exchanged));
 }
 
-// level <= 32.
+// level is at most 32.
 inline WT_U64 wt_hilbert2_encode(WT_U32 x, WT_U32 y, unsigned level) {
   const unsigned odd = level & 1u;
   x = x << odd;
@@ -191,7 +191,7 @@ inline void wt_hilbert2_decode(WT_U64 code, unsigned level, WT_U32* x, WT_U32* y
   *y = *y >> odd;
 }
 
-// level <= 16.
+// level is at most 16.
 inline WT_U32 wt_hilbert2_encode32(WT_U32 x, WT_U32 y, unsigned level) {
   const unsigned odd = level & 1u;
   x = x << odd;
@@ -199,24 +199,25 @@ inline WT_U32 wt_hilbert2_encode32(WT_U32 x, WT_U32 y, unsigned level) {
   return wt_morton2_encode32(x ^ y, wt_hilbert2_high_bits(x, y)) >> (2u * odd);
 }
 
-// Index along the curve of 2^16 x 2^16 cells to its cell.
+// Turns an index along the curve of 2^16 x 2^16 cells into its cell.
 inline void wt_hilbert_cell(WT_U32 index, WT_U32* x, WT_U32* y) {
   wt_hilbert2_cell(wt_gather2_short(index), wt_gather2_short(index >> 1), x, y);
 }
 
-// The 3D curve is that of J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc. 707, 381 (2004): what a digit
-// does to the levels below it, here by masks. Where the bits of *other that `set` marks are one, the leading component
-// is inverted, else the two are exchanged, below a level: `set` is 0 or `below`, the mask of the lower bits.
+// The 3D curve is that of J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc. 707, 381 (2004). This function
+// does with masks what a digit does to the levels below it: where the bits of *other that `set` marks are one, the
+// leading component is inverted, else the two are exchanged. `set` is 0 or `below`, the mask of the lower bits.
 inline void wt_hilbert3_turn(WT_U32* leading, WT_U32* other, WT_U32 set, unsigned below) {
   const WT_U32 exchanged = (*leading ^ *other) & (set ^ below);
   *leading ^= exchanged ^ set;
   *other ^= exchanged;
 }
 
-// A bit of every lane's word as a mask: 0 or all of `below`.
+// Turns one bit of every lane's word into a mask: 0 or all of `below`.
 inline WT_U32 wt_bit_mask(WT_U32 word, unsigned bit, unsigned below) { return (0u - ((word >> bit) & 1u)) & below; }
 
-// Cells to codes and back in Skilling's transposed form: each word holds its bit of every digit, x the leading one.
+// Turns cells into codes and back in Skilling's transposed form: each word holds its bit of every digit, x the leading
+// one.
 inline void wt_hilbert3_transpose(WT_U32* x, WT_U32* y, WT_U32* z, unsigned level) {
   for (unsigned bit = level; bit-- > 1u;) {
     const unsigned below = (1u << bit) - 1u;
@@ -246,7 +247,7 @@ inline void wt_hilbert3_untranspose(WT_U32* x, WT_U32* y, WT_U32* z, unsigned le
   }
 }
 
-// level <= 21.
+// level is at most 21.
 inline WT_U64 wt_hilbert3_encode(WT_U32 x, WT_U32 y, WT_U32 z, unsigned level) {
   wt_hilbert3_transpose(&x, &y, &z, level);
   return wt_morton3_encode(z, y, x);
@@ -257,7 +258,7 @@ inline void wt_hilbert3_decode(WT_U64 code, unsigned level, WT_U32* x, WT_U32* y
   wt_hilbert3_untranspose(x, y, z, level);
 }
 
-// level <= 10.
+// level is at most 10.
 inline WT_U32 wt_hilbert3_encode32(WT_U32 x, WT_U32 y, WT_U32 z, unsigned level) {
   wt_hilbert3_transpose(&x, &y, &z, level);
   return wt_morton3_encode32(z, y, x);

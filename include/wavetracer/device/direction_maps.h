@@ -1,5 +1,5 @@
 // Maps between unit directions and the plane, for any number of lanes: equal-area cylinder, octahedron, cube cells.
-// + - * / sqrt fma and integers only, so that host, CPUs and GPUs agree bit for bit. Assumes no contraction.
+// They use + - * / sqrt fma and integers only, so host, CPUs and GPUs agree bit for bit. They assume no contraction.
 #ifndef WAVETRACER_DEVICE_DIRECTION_MAPS_H
 #define WAVETRACER_DEVICE_DIRECTION_MAPS_H
 #include "wavetracer/device/lanes.h"
@@ -12,7 +12,7 @@ typedef struct {
   WT_F32 x, y, z;
 } wt_direction;
 
-// sine and cosine of angle + pi/4 for |angle| <= pi/4; Taylor polynomials, error below 1e-7.
+// Sine and cosine of angle + pi/4 for |angle| <= pi/4, by Taylor polynomials with an error below 1e-7.
 inline void wt_sincos_eighth(WT_F32 angle, WT_F32* sine, WT_F32* cosine) {
   const WT_F32 q = angle * angle;
   WT_F32 s = fma(q, (WT_F32)(2.7557319e-6f), (WT_F32)(-1.9841270e-4f));
@@ -27,7 +27,7 @@ inline void wt_sincos_eighth(WT_F32 angle, WT_F32* sine, WT_F32* cosine) {
   *cosine = (c - s) * 0.70710678f;
 }
 
-// The direction of this z and of an azimuth that is a fraction of a turn, in units of 2^-32.
+// The direction with this z; its azimuth is a fraction of a turn, in units of 2^-32.
 inline wt_direction wt_at_height(WT_F32 z, WT_U32 turn) {
   WT_F32 sine, cosine;
   wt_sincos_eighth(fma(WT_TO_F32(turn & 0x3FFFFFFFu), (WT_F32)(1.4629180e-9f), (WT_F32)(-0.78539816f)), &sine, &cosine);
@@ -42,13 +42,13 @@ inline wt_direction wt_at_height(WT_F32 z, WT_U32 turn) {
   return out;
 }
 
-// Cylindrical equal-area map: z from the height fraction, azimuth as a fraction of a turn, both in units of 2^-32.
+// The cylindrical equal-area map: z from the height, azimuth from the turn, both fractions in units of 2^-32.
 inline wt_direction wt_cylinder_to_sphere(WT_U32 height, WT_U32 turn) {
   return wt_at_height(1.0f - (WT_TO_F32(height) + 0.5f) * 4.6566129e-10f, turn);
 }
 
-// The same with another spread of heights: heights[table + k] is the z below which lies the share 1 - k /
-// WT_HEIGHT_CELLS of all directions, k = 0 (z = 1) to WT_HEIGHT_CELLS (z = -1); straight between.
+// The same with another distribution of heights: heights[table + k] is the z below which the share 1 - k /
+// WT_HEIGHT_CELLS of all directions lies, for k = 0 (z = 1) to WT_HEIGHT_CELLS (z = -1); z is linear between these.
 #define WT_HEIGHT_BITS 9u
 #define WT_HEIGHT_CELLS (1u << WT_HEIGHT_BITS)
 inline wt_direction wt_cylinder_to_heights(WT_U32 height, WT_U32 turn, WT_TABLE heights, WT_U32 table) {
@@ -58,7 +58,7 @@ inline wt_direction wt_cylinder_to_heights(WT_U32 height, WT_U32 turn, WT_TABLE 
   return wt_at_height(fma(part, wt_gather(heights, cell + 1u) - above, above), turn);
 }
 
-// (2 / pi) arctan(t) for |t| <= 1; an odd polynomial, minimax under the condition that 1 gives 1/2, error below 2e-7.
+// (2 / pi) arctan(t) for |t| <= 1: an odd minimax polynomial that gives exactly 1/2 at 1, with an error below 2e-7.
 inline WT_F32 wt_arctan_quadrants(WT_F32 t) {
   const WT_F32 q = t * t;
   WT_F32 a = fma(q, (WT_F32)(4.2414977e-3f), (WT_F32)(-2.1109981e-2f));
@@ -70,18 +70,18 @@ inline WT_F32 wt_arctan_quadrants(WT_F32 t) {
   return a * t;
 }
 
-// The inverse of the cylindrical map: height and turn of a direction of about unit length, in units of 2^-32; turns to
-// within 1e-7 of one, heights to within the rounding of z. The poles have turn 0; NaN gives some height and turn.
+// The inverse of the cylindrical map: height and turn of a direction of about unit length, in units of 2^-32. Turns are
+// right to 1e-7 of a turn, heights to the rounding of z. The poles have turn 0; NaN gives some height and turn.
 inline void wt_sphere_to_cylinder(wt_direction d, WT_U32* height, WT_U32* turn) {
   WT_F32 scaled = (1.0f - d.z) * 2147483648.0f;
   scaled = scaled > 0.0f ? scaled : (WT_F32)(0.0f);
   *height = WT_TO_U32(scaled < 4294967040.0f ? scaled : (WT_F32)(4294967040.0f));
-  // Half a turn, then a quarter, brings the direction to a >= 0, b >= 0. At 0 a quarter is the end of the one before.
+  // Turning by a half and then a quarter turn makes a >= 0 and b >= 0. A quarter ends where the next one has its 0.
   const WT_F32 x = d.y < 0.0f ? -d.x : d.x;
   const WT_F32 y = d.y < 0.0f ? -d.y : d.y;
   const WT_F32 b = x < 0.0f ? -x : y;
   WT_F32 a = x < 0.0f ? y : x;
-  a = a > 1e-30f ? a : (WT_F32)(1e-30f);  // so that the poles have a quotient
+  a = a > 1e-30f ? a : (WT_F32)(1e-30f);  // the poles need a quotient, too
   const WT_U32 halves = d.y < 0.0f ? (WT_U32)(2u) : (WT_U32)(0u);
   const WT_U32 quarters = x < 0.0f ? (WT_U32)(1u) : (WT_U32)(0u);
   WT_F32 fraction = wt_arctan_quadrants((b - a) / (b + a)) + 0.5f;
@@ -90,7 +90,7 @@ inline void wt_sphere_to_cylinder(wt_direction d, WT_U32* height, WT_U32* turn) 
   *turn = ((halves + quarters) << 30) + WT_TO_U32(fraction * 1073741824.0f);
 }
 
-// The bin of a component in [-1, 1] among 1 to 2^23 equal bins; 1 is in the last one. What lies outside goes to the
+// The bin of a component in [-1, 1] among 1 to 2^23 equal bins; 1 is in the last one. A value outside goes to the
 // nearest bin, NaN to the first.
 inline WT_U32 wt_cube_cell(WT_F32 component, unsigned bins) {
   const float scale = 0.5f * (float)bins, last = (float)(bins - 1u);
@@ -99,9 +99,10 @@ inline WT_U32 wt_cube_cell(WT_F32 component, unsigned bins) {
   return WT_TO_U32(place < last ? place : (WT_F32)(last));
 }
 
-// Octahedral map: the sphere projected on |x| + |y| + |z| = 1, whose lower half is folded outwards over the square's
+// The octahedral map projects the sphere on |x| + |y| + |z| = 1 and folds the lower half outwards over the square's
 // corners (Z. Cigolle et al., "A survey of efficient representations for independent unit vectors", JCGT 3(2), 2014).
-// The cell of a direction among 2^level x 2^level, level <= 16; any length but zero, which gives cell (0, 0).
+// It gives the cell of a direction among 2^level x 2^level, level <= 16, for any length but zero, which gives cell (0,
+// 0).
 inline void wt_octahedron_encode(wt_direction d, unsigned level, WT_U32* x, WT_U32* y) {
   const WT_F32 length = fabs(d.x) + fabs(d.y) + fabs(d.z);
   const WT_F32 inverse = 1.0f / length;

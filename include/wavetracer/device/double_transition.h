@@ -1,9 +1,9 @@
-// The transition function of two edges, and where waves pass over them: what transition.h is for one edge.
+// The transition function of two edges, and the places where waves pass over them: as transition.h for one edge.
 //   g2(x, y, r) = (2j)^2 times the integral over u, v > 0 of exp(-j (u^2 + v^2 - 2 r u v + 2 x u + 2 y v)),
-// so g2(x, y, 0) = g(x) g(y), and with r = 1 the two edges are one: the double integral of L. Vogler (Radio Science
-// 17(6), 1982), without the phase of the diffracted ray. It is like Owen's T function: with u and v turned by -45
-// degrees, where the integrand decays, the integral along each ray from u = v = 0 is h(s) = 1 - s g(s), and an integral
-// of h over the directions of these rays is left, between that of s = x and that of s = y.
+// so g2(x, y, 0) = g(x) g(y), and with r = 1 the two edges are one. It is the double integral of L. Vogler (Radio
+// Science 17(6), 1982), without the phase of the diffracted ray. It resembles Owen's T function: u and v are turned by
+// -45 degrees, where the integrand decays, and the integral along each ray from u = v = 0 is h(s) = 1 - s g(s). The
+// integral of h over the directions of these rays remains, from that of s = x to that of s = y.
 #ifndef WAVETRACER_DEVICE_DOUBLE_TRANSITION_H
 #define WAVETRACER_DEVICE_DOUBLE_TRANSITION_H
 #include "wavetracer/device/transition.h"
@@ -12,21 +12,22 @@
 namespace wavetracer::device {
 #endif
 
-// Smaller arguments are taken for this, so that s = x and s = y have a direction.
+// Smaller arguments are replaced by this one, so that s = x and s = y have a direction.
 #define WT_LEAST_ARGUMENT 1e-9
 
-// Where the product of its arguments is larger, two terms of its series in r give g2 to 2e-4 of itself.
+// If the product of the arguments is larger than this, two terms of the series in r give g2 with a relative error of
+// 2e-4.
 #define WT_FAR_EDGES 40.0
 
-// From this argument on, the mean of u is that of one edge.
+// From this argument on, the mean of u is that of a single edge.
 #define WT_FAR_EDGE 20.0
 
-// h(s) is to the slope of a wave across the edge what g(s) is to the wave.
+// h(s) belongs to the slope of a wave across the edge as g(s) belongs to the wave.
 inline wt_double2 wt_slope_transition(double s) { return wt_real(1.0) - wt_transition_over_root(s) * s; }
 
-// The integral of h over directions, from that of s = x by an angle whose tangent is reach: s = (x + e t) /
-// sqrt(1 + t^2) at the tangent t. e is positive. By Gauss and Legendre, in a variable in which h is nearly a polynomial
-// both where e is small and where it is large; g2 is found to 3e-5 of itself.
+// The integral of h over directions, from that of s = x by an angle whose tangent is reach: s = (x + e t) / sqrt(1 +
+// t^2) at the tangent t. e is positive. Gauss-Legendre integration uses a variable in which h is nearly a polynomial
+// for small and for large e; g2 has a relative error of 3e-5.
 inline wt_double2 wt_sum_of_slopes(double x, double e, double reach) {
   const double nodes[4] = {0.019855071751231911925, 0.10166676129318663602, 0.23723379504183550459,
                            0.40828267875217510996};
@@ -43,7 +44,7 @@ inline wt_double2 wt_sum_of_slopes(double x, double e, double reach) {
   return sum;
 }
 
-// x, y: 0 or more; r: between -1 and 1, which are excluded.
+// x, y: 0 or more; r: between -1 and 1, both excluded.
 inline wt_double2 wt_double_transition(double x, double y, double r) {
   const double a = fmax(x, WT_LEAST_ARGUMENT), b = fmax(y, WT_LEAST_ARGUMENT);
   if (a * b > WT_FAR_EDGES) {
@@ -61,7 +62,7 @@ inline wt_double2 wt_double_transition(double x, double y, double r) {
   return WT_DOUBLE2(-sum.y, sum.x) * (2.0 / c);
 }
 
-// The means of u and v, weighted by the integrand of g2, which has the value `whole`: complex numbers.
+// The means of u and v, weighted by the integrand of g2, whose integral is `whole`: complex numbers.
 typedef struct {
   wt_double2 u, v;
 } wt_double_means;

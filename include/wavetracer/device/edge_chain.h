@@ -1,8 +1,8 @@
-// Three edges and more in a row: the integral of edge_pair.h over as many heights, one edge after the other.
+// Three edges and more in a row: the integral of edge_pair.h over as many heights as there are edges.
 //   the integral over u_1, u_2, ... > 0 of exp(-j (sum of u_i^2 + 2 x_i u_i - 2 r_i u_i u_(i+1)))
-// With all heights turned by -45 degrees the coupling of two neighbours is a real exponential and everything decays, so
-// a Gaussian rule for the half line finds it with a dozen heights an edge: L. Vogler's multiple integral (Radio Science
-// 17(6), 1982), to half a per cent for eight screens of one height (tests/radio/edge_chain_test.cpp).
+// If all heights are turned by -45 degrees, the coupling of two neighbours is a real exponential and everything decays.
+// So a Gaussian rule for the half line computes it with a dozen heights for each edge: L. Vogler's multiple integral
+// (Radio Science 17(6), 1982), to half a per cent for eight screens of one height (tests/radio/edge_chain_test.cpp).
 #ifndef WAVETRACER_DEVICE_EDGE_CHAIN_H
 #define WAVETRACER_DEVICE_EDGE_CHAIN_H
 #include "wavetracer/device/edge_pair.h"
@@ -13,24 +13,26 @@ namespace wavetracer::device {
 
 #define WT_CHAIN_NODES 12
 
-// The waves above an edge, at its heights, times the weights of the rule. side: see wt_pair_terms; 0 is -1, 1 is 1.
+// The waves above an edge, at its heights, times the weights of the rule. side: see wt_pair_terms; index 0 is -1, 1 is
+// 1.
 typedef struct {
   double heights[WT_CHAIN_NODES];
   wt_matrix at[2][WT_CHAIN_NODES];
 } wt_chain_waves;
 
-// A chain so far. from: of its first edge; to: of its last one, between which `sum` is, once that has been added.
+// The part of a chain that was computed so far. from: that of its first edge; to: that of its last edge. `sum` is the
+// wave between them, once the last edge has been added.
 typedef struct {
   wt_chain_waves waves;
-  wt_pair_terms terms;    // of the last edge
-  wt_shared_plane plane;  // to the next edge
-  wt_pair_form form;      // of the leg to it
+  wt_pair_terms terms;    // those of the last edge
+  wt_shared_plane plane;  // that of the leg to the next edge
+  wt_pair_form form;      // that of the same leg
   wt_basis from, to;
   wt_matrix sum;
 } wt_chain;
 
-// The heights of an edge and the weights: Gauss' rule for exp(-t^2) on t > 0, scaled to where the integrand is: it
-// decays faster for a larger least argument of the edge's terms, and slower for edges that are close (r near 1).
+// The heights of an edge and their weights: Gauss' rule for exp(-t^2) on t > 0, scaled to the range of the integrand,
+// which decays faster for a larger least argument of the edge's terms, and slower for edges that are close (r near 1).
 inline void wt_chain_rule(double least_argument, double coupling, double* heights, double* weights) {
   const double nodes[WT_CHAIN_NODES] = {0.0298897007698256528, 0.15420487826598317, 0.366143962974457171,
                                         0.650881015845339972,  0.99436686988091405, 1.38589120364967533,
@@ -48,7 +50,7 @@ inline void wt_chain_rule(double least_argument, double coupling, double* height
   }
 }
 
-// The term of an edge with the least argument, of those of the incident wave alone or of all.
+// The term of an edge with the least argument, among the two of the incident wave or among all, as count says.
 inline int wt_nearest_term(const wt_pair_terms* terms, int count) {
   int nearest = 0;
   for (int i = 1; i < count; ++i)
@@ -56,8 +58,8 @@ inline int wt_nearest_term(const wt_pair_terms* terms, int count) {
   return nearest;
 }
 
-// The leg to the next edge: the coupling of heights, and over a plane what the plane reflects. come, go: from the edge
-// before to polarizations at the plane and on to the next edge; without a plane, go is the whole way.
+// The leg to the next edge: the coupling of heights and, over a plane, what the plane reflects. come: from the edge
+// before to the polarizations at the plane; go: from there to the next edge; without a plane, go is the whole way.
 typedef struct {
   double coupling;
   int over_plane;
@@ -115,8 +117,9 @@ inline wt_chain_leg wt_chain_leg_of(const wt_chain* chain, const wt_pair_terms* 
   return leg;
 }
 
-// Adds an edge. terms: as of a second edge; along: a face of it is grazed, and its terms of reflection do not count;
-// leg: to it, null at the first edge; coupling: the larger of those to its neighbours, by size; amplitude: of the edge.
+// Adds an edge. terms: those of a second edge; along: not 0 where a face of it is grazed, so its terms of reflection do
+// not count; leg: the leg to it, null at the first edge; coupling: the larger one of those to its neighbours, by size;
+// amplitude: that of the edge.
 inline void wt_add_edge(wt_chain* chain, const wt_bend* bend, const wt_pair_terms* terms, int along,
                         const wt_chain_leg* leg, double coupling, wt_double2 amplitude) {
   const int count = along ? 2 : WT_BOUNDARIES;
@@ -124,7 +127,7 @@ inline void wt_add_edge(wt_chain* chain, const wt_bend* bend, const wt_pair_term
   double weights[WT_CHAIN_NODES];
   wt_chain_rule(terms->argument[wt_nearest_term(terms, count)], coupling, chain->waves.heights, weights);
   chain->sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  // 2j exp(-j pi / 4) of the turned integral.
+  // This is the factor 2j exp(-j pi / 4) of the turned integral.
   const wt_double2 front = wt_times(amplitude, WT_DOUBLE2(1.41421356237309504880, 1.41421356237309504880));
   for (int k = 0; k < WT_CHAIN_NODES; ++k) {
     const double height = chain->waves.heights[k];
@@ -137,7 +140,7 @@ inline void wt_add_edge(wt_chain* chain, const wt_bend* bend, const wt_pair_term
       wt_matrix out = terms->jump[term];
       if (leg) out = wt_matrix_product(out, arrived[terms->side[term] > 0]);
       out = wt_scaled(out, wt_times(wave, front));
-      // Terms of the incident wave are lit more on the other side of the leg that leaves.
+      // The terms of the incident wave are lit more on the opposite side of the leg that leaves.
       const int leaves = term / 2 == 1 ? terms->side[term] > 0 : terms->side[term] < 0;
       chain->waves.at[leaves][k] = wt_matrix_sum(chain->waves.at[leaves][k], 1.0, out);
       chain->sum = wt_matrix_sum(chain->sum, 1.0, out);

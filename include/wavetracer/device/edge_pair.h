@@ -1,11 +1,11 @@
-// Two edges, straight from one to the other: each term of the one with each of the other, times the transition function
-// of two edges. So slopes, grazing rays and boundaries that overlap need no cases of their own. Screens are exact in
-// the paraxial sense (Vogler's double integral), and total fields are continuous: at a boundary of one edge the jump is
-// the wave that the other edge diffracts alone. Heights over a plane that both edges bound mirror each other: what the
-// plane reflects between the edges has the other sign of r, and the plane's reflection coefficient at the mean angle of
-// the waves that graze it. A soft plane leaves the difference g2(r) - g2(-r), the slope wave, a hard one the sum. A
-// good conductor is a hard plane for vertical waves, since these are much farther from grazing than its Brewster angle.
-// A thin wall tends to a screen, r to 1.
+// Two edges with a straight leg between them: each term of the one with each term of the other, times the transition
+// function of two edges. So slopes, grazing rays and boundaries that overlap need no special cases. Screens are exact
+// in the paraxial sense (Vogler's double integral), and total fields are continuous: the jump at a boundary of one edge
+// is the wave that the other edge alone diffracts. Heights over a plane that both edges bound mirror each other: the
+// wave that the plane reflects between the edges has the opposite sign of r, and the reflection coefficient of the
+// plane at the mean angle of the waves that graze it. A soft plane leaves the difference g2(r) - g2(-r), the slope
+// wave, a hard one the sum. A good conductor is a hard plane for vertical waves, since these are much farther from
+// grazing than its Brewster angle. A thin wall tends to a screen: r tends to 1.
 #ifndef WAVETRACER_DEVICE_EDGE_PAIR_H
 #define WAVETRACER_DEVICE_EDGE_PAIR_H
 #include "wavetracer/device/grazed_plane.h"
@@ -15,17 +15,17 @@
 namespace wavetracer::device {
 #endif
 
-// The quadratic form of a ray's length over two edges, once the points along the edges are at their place.
+// The quadratic form of a ray's length over two edges, after the points along the edges are eliminated.
 typedef struct {
   double between_m;
   double spreads_m[2];    // L of each edge
-  double distances_m[2];  // of wt_edge_amplitude: L sin^2 beta0
+  double distances_m[2];  // for wt_edge_amplitude: L sin^2 beta0
   double coupling;        // r of two terms but for the signs of their sides
 } wt_pair_form;
 
 // before_m, between_m, after_m: the legs; along: unit vectors of the edges; k: the direction from one to the other;
-// sine2: sin^2 beta0. Displacements across the edges form a quadratic form, and those along the edges the same; edges
-// at an angle couple the two, and eliminating those along the edges scales the one across.
+// sine2: sin^2 beta0. The length is a quadratic form of displacements across the edges, and the same of those along
+// them. Edges at an angle couple the two; eliminating those along the edges scales the form of those across.
 inline wt_pair_form wt_pair_form_of(const wt_double3* along, wt_double3 k, double before_m, double between_m,
                                     double after_m, const double* sine2) {
   const double a = 1.0 / before_m + 1.0 / between_m, b = 1.0 / between_m + 1.0 / after_m;
@@ -43,12 +43,12 @@ inline wt_pair_form wt_pair_form_of(const wt_double3* along, wt_double3 k, doubl
 
 // The terms of one edge of a pair.
 typedef struct {
-  double argument[WT_BOUNDARIES];  // of g
+  double argument[WT_BOUNDARIES];  // argument of g
   double ratio[WT_BOUNDARIES];     // see wt_term_factors
-  int side[WT_BOUNDARIES];  // 1: the wave of the boundary is lit more, where the leg between the edges turns to a
-                            // larger azimuth; -1: less; where it is there already, its shadow counts instead
+  int side[WT_BOUNDARIES];         // 1: the wave of the boundary is lit more where the leg between the edges turns to a
+                            // larger azimuth; -1: it is lit less; where it is lit already, its shadow counts instead
   wt_matrix jump[WT_BOUNDARIES];
-  double bent;  // wt_bent: 0 where the edge is none, and terms must cancel
+  double bent;  // wt_bent: 0 where both faces are one plane, and terms must cancel
 } wt_pair_terms;
 
 inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves* known, double distance_m, int second,
@@ -113,8 +113,8 @@ inline void wt_terms_over_plane(const wt_pair_terms* first, const wt_pair_terms*
   *tm = (direct + wt_times(image, *tm)) * ratio;
 }
 
-// Over a plane that both edges bound. Waves along it come with their reflections, so the terms of reflection at either
-// edge are those of incidence over again and do not count. between: from bends[0].to on.
+// The pair over a plane that both edges bound. Waves along it come with their reflections, so the terms of reflection
+// at either edge repeat those of incidence and do not count. between: the transfer from bends[0].to on.
 inline wt_matrix wt_pair_over_plane(const wt_bend* bends, const wt_pair_terms* first, const wt_pair_terms* second,
                                     const wt_pair_form* form, const wt_transfer* between,
                                     const wt_shared_plane* plane) {
@@ -133,7 +133,7 @@ inline wt_matrix wt_pair_over_plane(const wt_bend* bends, const wt_pair_terms* f
   return sum;
 }
 
-// In the open.
+// The pair without a plane between its edges.
 inline wt_matrix wt_pair_in_open(const wt_bend* bends, const wt_pair_terms* first, const wt_pair_terms* second,
                                  const wt_pair_form* form, const wt_transfer* between) {
   const wt_matrix across = wt_seen_in(between, bends[1].from);
@@ -151,8 +151,9 @@ inline wt_matrix wt_pair_in_open(const wt_bend* bends, const wt_pair_terms* firs
   return sum;
 }
 
-// From bends[0].from to bends[1].to. known: of each edge; between: what happens to the wave from bends[0].to on, until
-// it comes to the second edge. A wave along a face to the first edge, or from the second, counts half as at one edge.
+// The map from bends[0].from to bends[1].to. known: what is known at each edge; between: what happens to the wave from
+// bends[0].to on, until it comes to the second edge. A wave along a face to the first edge, or from the second, counts
+// half, as at one edge.
 inline wt_wave_map wt_diffract_at_pair(const wt_bend* bends, const wt_known_waves* known, const wt_pair_form* form,
                                        const wt_transfer* between, const wt_shared_plane* plane) {
   const wt_pair_terms first = wt_pair_terms_of(bends, known, form->distances_m[0], 0, plane->sides);

@@ -1,6 +1,7 @@
-// Sine, cosine, exponential, logarithm and arc tangent in double, the same bits on every device: OpenCL allows each its
-// own. Polynomials and breakpoints of FDLIBM (Sun Microsystems, 1993; netlib.org/fdlibm), which bounds their errors.
-// + - * / sqrt, fma and ldexp alone. Errors: tests/radio/elementary_test.cpp.
+// Sine, cosine, exponential, logarithm and arc tangent in double with the same bits on every device, since OpenCL lets
+// each device have its own. Polynomials and breakpoints are those of FDLIBM (Sun Microsystems, 1993;
+// netlib.org/fdlibm), which bounds their errors. Only + - * / sqrt, fma and ldexp are used.
+// tests/radio/elementary_test.cpp has the errors.
 #ifndef WAVETRACER_DEVICE_ELEMENTARY_H
 #define WAVETRACER_DEVICE_ELEMENTARY_H
 #include "wavetracer/device/vector.h"
@@ -9,13 +10,13 @@
 namespace wavetracer::device {
 #endif
 
-// The whole number nearest to x, |x| <= 2^51; of two the even one. Above 2^52 doubles have no digits behind the point,
+// The whole number nearest to x, |x| <= 2^51; the even one of two. Above 2^52 doubles have no digits after the point,
 // so the sum rounds. Some devices compute rint in many steps.
 inline double wt_nearest_whole(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
-// x: cosine, y: sine. |angle| <= 2^44 rad; beyond 2^30 the quarter turn may not be the nearest by a thousandth. The
-// angle's distance from it is taken in three parts: the first product is exact in fma, because the difference is a
-// multiple of the last place of both.
+// Returns x: cosine, y: sine, for |angle| <= 2^44 rad. Beyond 2^30 the quarter turn may not be the nearest by a
+// thousandth. The angle's distance from it is computed in three parts: the first product is exact in fma, because the
+// difference is a multiple of the last place of both.
 inline wt_double2 wt_cos_sin(double angle) {
   const double quarters = wt_nearest_whole(angle * 0.63661977236758134);
   const double first = fma(-quarters, 1.5707963267948966, angle);
@@ -24,14 +25,14 @@ inline wt_double2 wt_cos_sin(double angle) {
   const double lost = fma(quarters, 6.123233995736766e-17, -correction) + quarters * -1.4973849048591833e-33;
   const double tail = ((first - r) - correction) - lost;
   const double z = r * r;
-  // Sine on [-pi/4, pi/4].
+  // This is the sine on [-pi/4, pi/4].
   const double s =
       8.33333333332248946124e-03 +
       z * (-1.98412698298579493134e-04 +
            z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
   const double v = z * r;
   const double sine = r - ((z * (0.5 * tail - v * s) - tail) - v * -1.66666666666666324348e-01);
-  // Cosine, with the part of 1 - z / 2 that rounding loses.
+  // This is the cosine, with the part of 1 - z / 2 that rounding loses.
   const double c = z * (4.16666666666666019037e-02 +
                         z * (-1.38888888888741095749e-03 +
                              z * (2.48015872894767294178e-05 +
@@ -39,13 +40,13 @@ inline wt_double2 wt_cos_sin(double angle) {
                                        z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
   const double halved = 0.5 * z, most = 1.0 - halved;
   const double cosine = most + (((1.0 - most) - halved) + (z * c - r * tail));
-  // Chosen and not branched to: no CPU foresees which quarter an angle lies in.
+  // The quarter is selected without a branch: no CPU predicts in which quarter an angle lies.
   const int turn = (int)(quarters - 4.0 * wt_nearest_whole(0.25 * quarters)) & 3;
   const double x = turn & 1 ? sine : cosine, y = turn & 1 ? cosine : sine;
   return WT_DOUBLE2(turn == 1 || turn == 2 ? -x : x, turn >= 2 ? -y : y);
 }
 
-// exp(r) - 1 for |r| <= 0.35 or so.
+// exp(r) - 1 for |r| up to about 0.35.
 inline double wt_small_expm1(double r, double tail) {
   const double x = r - tail, z = x * x;
   const double c =
@@ -76,7 +77,7 @@ inline wt_double2 wt_exp_and_expm1(double x) {
 }
 inline double wt_expm1(double x) { return wt_exp_and_expm1(x).y; }
 
-// The decimal logarithm of x >= 0; -infinity of 0. x is split into 2^k (1 + f) with 1 + f around 1.
+// The decimal logarithm of x >= 0; 0 gives -infinity. x is split into 2^k (1 + f) with 1 + f around 1.
 inline double wt_log10(double x) {
   if (!(x > 0.0)) return x == 0.0 ? -WT_INFINITY : x - x;
   if (x == WT_INFINITY) return x;
@@ -105,7 +106,7 @@ inline double wt_log10(double x) {
          ((f - (halved - small)) * 4.34294481903251816668e-01 + k * 3.69423907715893078616e-13);
 }
 
-// Of x >= 0, up to infinity.
+// The arc tangent of x >= 0, up to infinity.
 inline double wt_positive_atan(double x) {
   double reference = 0.0, rest = 0.0, t = x;
   if (x >= 2.4375) {
@@ -139,7 +140,7 @@ inline double wt_positive_atan(double x) {
   return reference - ((t * (odd + even) - rest) - t);
 }
 
-// The angle of (x, y), -pi to pi. As the library's, of zeros with signs too: those of x = 0 and y = 0 count.
+// The angle of (x, y), -pi to pi. As in the library's atan2 the signs of zeros count, those of x and of y.
 inline double wt_atan2(double y, double x) {
   const double ax = fabs(x), ay = fabs(y);
   double angle;

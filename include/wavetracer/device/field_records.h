@@ -1,5 +1,5 @@
-// Records of the fields of paths that host and device share: what fields know of a world and its ends, and what they
-// make of each path. No float3, bool, size_t or pointers; padding is explicit.
+// Records of the fields of paths that host and device share: what fields need of a world and its ends, and what they
+// compute of each path. There is no float3, bool, size_t or pointer; padding is explicit.
 #ifndef WAVETRACER_DEVICE_FIELD_RECORDS_H
 #define WAVETRACER_DEVICE_FIELD_RECORDS_H
 #include "wavetracer/device/types.h"
@@ -17,59 +17,59 @@ typedef struct {
   wt_uint padding;
 } wt_material;
 
-// What the air takes of a wave at the carrier (host/radio/air.hpp).
+// Losses of a wave in the air at the carrier (host/radio/air.hpp).
 typedef struct {
-  double loss_np_m;  // of any wave: gases and fog
+  double loss_np_m;  // amplitude loss of any wave by gases and fog
   double log_rain;   // natural logarithm of the rain rate in mm/h
-  // Of ITU-R P.838-3, for horizontal and vertical waves: k in Np/m for amplitudes, and k alpha.
+  // The constants of ITU-R P.838-3 for horizontal and vertical waves: k in Np/m for amplitudes, and k alpha.
   double rain_k[2];
   double rain_k_alpha[2];
-  wt_uint rains;  // not 0: it does
+  wt_uint rains;  // not 0: there is rain
   wt_uint padding;
 } wt_air;
 
-// What vegetation takes of a wave at the carrier: most (1 - exp(-loss d / most)) on d metres; most < 0: loss d.
+// Loss of a wave in vegetation at the carrier: most (1 - exp(-loss d / most)) on d metres; with most < 0: loss d.
 typedef struct {
   double loss_np_m, most_np;
-  double scattering, cross_polar;  // S and K: the share S^2 of what it takes is scattered
+  double scattering, cross_polar;  // S and K: the share S^2 of the lost power is scattered
 } wt_foliage;
 
-// Tiles of the world that are cells of vegetation: in the place of their surface this bit, the kind in three bits from
+// Tiles that are cells of vegetation have this bit in place of their surface, the kind in three bits from
 // WT_CELL_KIND_SHIFT on, and below them the number of the volume, counted on from the surfaces of the static scene.
 #define WT_CELL 0x80000000u
 #define WT_CELL_KIND_SHIFT 28u
 #define WT_CELL_NUMBER 0x0FFFFFFFu
 
-// As VolumeShape (wavetracer/scene.hpp) has them.
+// Shapes of volumes, with the numbers of VolumeShape (wavetracer/scene.hpp).
 #define WT_VOLUME_BOX 0u
 #define WT_VOLUME_CYLINDER 1u
 #define WT_VOLUME_SPHEROID 2u
 #define WT_VOLUME_MESH 3u
 
-#define WT_MOST_KINDS 8  // of vegetation in a scene
+#define WT_MOST_KINDS 8  // the most kinds of vegetation in a scene
 
 // A volume of vegetation (device/volumes.h), recentred.
 typedef struct {
   double centre[3];
-  double half_size[3];  // of its box, turned about z
-  double cosine, sine;  // of the turn
+  double half_size[3];  // half the size of its box, which is turned about z
+  double cosine, sine;  // cosine and sine of that turn
   wt_uint shape;
-  wt_uint kind;  // of vegetation
+  wt_uint kind;  // kind of vegetation
   wt_uint first_triangle, triangle_count;
 } wt_volume;
 
-// Patterns of antennas; the first four as NamedAntenna (wavetracer/config.hpp) has them.
+// Patterns of antennas; the first four have the numbers of NamedAntenna (wavetracer/config.hpp).
 #define WT_PATTERN_ISOTROPIC 0u
 #define WT_PATTERN_SHORT_DIPOLE 1u
 #define WT_PATTERN_HALF_WAVE_DIPOLE 2u
 #define WT_PATTERN_TR38901 3u
-#define WT_PATTERN_GRID 4u  // of a file
+#define WT_PATTERN_GRID 4u  // a pattern from a file
 
 typedef struct {
   wt_uint pattern;
   wt_uint ports;  // 1 or 2
-  // Of a grid: where its samples begin, four doubles each (theta, phi; real, imaginary), row by row; one row for each
-  // theta, one column for each phi.
+  // For a grid: where its samples begin. A sample is four doubles (theta, phi; real, imaginary); each theta has a row
+  // and each phi a column.
   wt_uint first_sample;
   wt_uint rows, columns;
   wt_uint padding;
@@ -86,8 +86,8 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
-// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp). A bit beside those of the
-// quarters says that the path is closer to an edge than the theory of diffraction goes (path_edges.h).
+// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp). One bit beside those of the
+// quarters says that the path is closer to an edge than the theory of diffraction holds (path_edges.h).
 #define WT_ROW_NEAR_EDGE 256u
 typedef struct {
   double delay_s, gain_db, doppler_hz;
@@ -96,7 +96,7 @@ typedef struct {
   wt_uint tx, rx, first_vertex, quarters;         // vertices of a row follow those of the row before
 } wt_path_row;
 
-// The waves that a path is one with (path_groups.h): the first `count` of these, by weight.
+// The waves that a path belongs to (path_groups.h): the first `count` of these, by weight.
 #define WT_MOST_GROUPS 4u
 typedef struct {
   wt_ulong keys[4];  // hashes of the steps of a wave

@@ -1,9 +1,9 @@
-// What a plane reflects between two edges that bound it. A term of a pair of edges (edge_pair.h) counts the waves whose
-// heights over the edges, u and v, are on one side of each: above, or below an edge where the wave is there already.
-// The plane reflects waves above both edges at their mean cosine of incidence, a complex number. Waves below an edge
-// would meet it from below; they are what is missing of the wave that the other edge diffracts alone, or of the ray,
-// which are paths of their own. So their sum is that of those paths less the waves above, and where a path comes to be
-// seen the pair has lost just what the path has.
+// The reflection of a plane between two edges that bound it. A term of a pair of edges (edge_pair.h) counts the waves
+// whose heights over the edges, u and v, are on one side of each: above, or below an edge where the wave is there
+// already. The plane reflects waves above both edges at their mean cosine of incidence, a complex number. Waves below
+// an edge would meet it from below; they are the missing part of the wave that the other edge diffracts alone, or of
+// the ray, which are paths of their own. So their sum is that of those paths less the waves above, and where a path
+// comes to be seen the pair has lost just what the path has.
 #ifndef WAVETRACER_DEVICE_GRAZED_PLANE_H
 #define WAVETRACER_DEVICE_GRAZED_PLANE_H
 #include "wavetracer/device/corner.h"
@@ -28,7 +28,7 @@ typedef struct {
 // Describes the waves of a term: the integral over u, v > 0 of double_transition.h with the arguments x, y and r.
 typedef struct {
   double x, y, r;
-  double cosines[2];  // of incidence, for each unit of u and of v; negative below the edge
+  double cosines[2];  // cosines of incidence, for each unit of u and of v; negative below the edge
   int below[2];       // is the term one of the waves below the edge?
   wt_grazing_waves waves;
 } wt_grazing_term;
@@ -107,7 +107,7 @@ inline wt_plane_sum wt_sum_below_one(const wt_wedge_face* face, wt_grazing_waves
   return wt_sum_between(wt_sum_less(whole, above), alone, wt_far_from(x));
 }
 
-// What is left of the wave that an edge diffracts alone, `one` below it, without the waves above the other edge. rest:
+// The rest of the wave that an edge diffracts alone, `one` below it, without the waves above the other edge. rest:
 // all waves above that; s: see wt_waves_over_one; x: the argument of the edge.
 inline wt_plane_sum wt_sum_of_one(const wt_grazing_term* term, const wt_wedge_face* face, wt_grazing_waves ray,
                                   wt_grazing_waves one, wt_grazing_waves rest, double s, double x,

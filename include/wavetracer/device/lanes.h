@@ -1,7 +1,7 @@
-// Types for device headers that are written once and compiled for any number of lanes: C++ and OpenCL C with one, or
-// OpenCL C with 16 where the kernel defines WT_LANES as 16 before its first include (CPU devices). Such code has no
-// branches on lane values and selects only by `comparison ? a : b`, which works lane by lane too; wt_gather reads a
-// WT_TABLE of floats at a place of each lane's own. No contraction.
+// Types for device headers that are written once and compiled for any number of lanes: C++ and OpenCL C with one lane,
+// or OpenCL C with 16 where the kernel defines WT_LANES as 16 before its first include (CPU devices). Such code has no
+// branches on lane values and selects only by `comparison ? a : b`, which works lane by lane, too; wt_gather reads a
+// WT_TABLE of floats, each lane at a place of its own. It assumes no contraction.
 #ifndef WAVETRACER_DEVICE_LANES_H
 #define WAVETRACER_DEVICE_LANES_H
 

@@ -1,5 +1,5 @@
-// Three edges and more of a path, one after the other (edge_chain.h). Edges at an angle to each other are taken for
-// parallel ones whose coupling is that of their projections.
+// Three edges and more of a path, one after the other (edge_chain.h). Edges at an angle to each other are treated as
+// parallel edges whose coupling is that of their projections.
 #ifndef WAVETRACER_DEVICE_PATH_CHAIN_H
 #define WAVETRACER_DEVICE_PATH_CHAIN_H
 #include "wavetracer/device/edge_chain.h"
@@ -9,7 +9,8 @@
 namespace wavetracer::device {
 #endif
 
-// Adds edge i, in their order. plane: to the next edge, which its legs run along; between: see wt_diffract_at_pair.
+// Adds edge i; edges are added in their order. plane: the plane along which its leg to the next edge runs; between: see
+// wt_diffract_at_pair.
 // An edge whose legs both run along planes has the images in both, which are the same waves twice.
 inline void wt_add_to_chain(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                             const wt_path* path, const wt_edge* edges, wt_uint count, wt_uint i,

@@ -1,8 +1,8 @@
 // The edges of a diffracted path: where they are, how the wave spreads from them, and what each does to it.
-// Spreading: edges are lines of sources, so by stationary phase over the points on them: 1 / (product of the legs
-// between ends and edges) / sqrt(det H), H the second derivatives of the length. It is that of K-P for one edge
-// (sqrt(s' / (s (s + s'))) / s'), and symmetric for more. Assumes up to WT_MOST_EDGES diffractions, of which none that
-// follow each other are at one wedge.
+// Spreading: edges are lines of sources, so stationary phase over the points on them gives 1 / (product of the legs
+// between ends and edges) / sqrt(det H), where H has the second derivatives of the length. For one edge it is that of
+// K-P (sqrt(s' / (s (s + s'))) / s'), and for more it is symmetric. It assumes up to WT_MOST_EDGES diffractions; no two
+// that follow each other are at one wedge.
 #ifndef WAVETRACER_DEVICE_PATH_EDGES_H
 #define WAVETRACER_DEVICE_PATH_EDGES_H
 #include "wavetracer/device/edge_pair.h"
@@ -14,7 +14,7 @@ namespace wavetracer::device {
 
 // A diffraction of the path.
 typedef struct {
-  wt_uint at;  // its vertex
+  wt_uint at;  // the number of its vertex
   wt_uint number;
   wt_wedge_frame frame;
   wt_double3 k_in, k_out;
@@ -25,24 +25,24 @@ typedef struct {
 // Rays this close to the edge may be on either side of it, see wt_waves_at.
 #define WT_UNDECIDED_M 2e-4
 
-// What runs along a face is this far inside of free space: both faces of a half plane lie in one direction.
+// A leg along a face counts as this far inside of free space: both faces of a half plane lie in one direction.
 #define WT_INSIDE_RAD 1e-12
 
-inline double wt_sine2(const wt_edge* edge) {  // of the angle between edge and path
+inline double wt_sine2(const wt_edge* edge) {  // sin^2 of the angle between edge and path
   const double cosine = wt_dot3(edge->k_in, edge->frame.along);
   return (1.0 - cosine) * (1.0 + cosine);
 }
 
 inline int wt_is_half_plane(const wt_edge* edge) { return edge->frame.exterior > 2.0 * WT_PI - 1e-9; }
 
-// Of face 0 or 1, into free space.
+// The normal of face 0 or 1, which points into free space.
 inline wt_double3 wt_face_normal(const wt_wedge_frame* frame, int face) {
   if (face == 0) return frame->normal;
   const wt_double2 turn = wt_cos_sin(frame->exterior);
   return frame->face * turn.y - frame->normal * turn.x;
 }
 
-// The edges of the path, WT_MOST_EDGES at most. Returns their number.
+// Finds the edges of the path, at most WT_MOST_EDGES. Returns their number.
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
   wt_uint count = 0;
   wt_walk_leg leg = wt_first_leg(path);
@@ -74,8 +74,9 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
   return count;
 }
 
-// Is the theory, which is one of short waves, beyond its end? It holds from about a wavelength on between an edge and
-// the ends of its rays, and for edges as long as that. At a tenth of it a screen raises the field behind it by 3 dB.
+// Is the path outside of the theory, which holds for short waves? It holds if edges are about a wavelength long and
+// about a wavelength away from the ends of their rays. At a tenth of this distance a screen raises the field behind it
+// by 3 dB.
 inline int wt_is_near_edge(const wt_field_world* world, const wt_edge* edges, wt_uint count) {
   double least_m = WT_INFINITY;
   for (wt_uint i = 0; i < count; ++i)
@@ -83,8 +84,8 @@ inline int wt_is_near_edge(const wt_field_world* world, const wt_edge* edges, wt
   return least_m < world->wavelength_m;
 }
 
-// H has three diagonals, so its determinant is the product of the pivots of its rows.
-// edges: all turn, see wt_turns.
+// H has three diagonals, so its determinant is the product of the pivots of its rows. edges: the path turns at all of
+// them, see wt_turns.
 inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
   double legs = edges->before_m, determinant = 1.0, before = 1.0;
   for (wt_uint i = 0; i < count; ++i) {
@@ -103,7 +104,7 @@ inline double wt_edge_spreading(const wt_edge* edges, wt_uint count) {
   return 1.0 / (legs * sqrt(determinant));
 }
 
-// Points from the edge into face 0 or 1.
+// A vector that points from the edge into face 0 or 1.
 inline wt_double3 wt_into_face(const wt_wedge_frame* frame, int face) {
   if (face == 0) return frame->face;
   const wt_double2 turn = wt_cos_sin(frame->exterior);
@@ -121,9 +122,9 @@ inline wt_wedge_face wt_face_of(const wt_field_world* world, const wt_edge* edge
   return out;
 }
 
-// The leg between two edges of one plane runs along it, whatever rounding says. Along a sheet of two free edges one
-// wave runs on each side; their signs differ at either end, so both arrive as the same. A leg that leaves one of the
-// edges, or comes to it, from where the plane is not, as across a courtyard, runs in the open.
+// If two edges bound one plane, the leg between them runs along it, even if rounding says otherwise. Along a sheet with
+// two free edges one wave runs on each side; their signs differ at either end, so both arrive as the same. A leg runs
+// in the open if it leaves one of the edges, or comes to it, on the side without the plane, as across a courtyard.
 inline wt_shared_plane wt_snap_to_shared_plane(const wt_field_world* world, wt_edge* edges) {
   const wt_double3 away = edges[0].k_out, come = edges[1].k_in;
   wt_shared_plane plane;
@@ -147,7 +148,7 @@ inline wt_shared_plane wt_snap_to_shared_plane(const wt_field_world* world, wt_e
 }
 
 // A wave that passes the edge of a corner as a ray: reflected `count` times at the wedge's surfaces, in turn, from
-// surfaces[first] on. 0 times: straight past it.
+// surfaces[first] on. With 0 it goes straight past it.
 typedef struct {
   wt_uint surfaces[2];
   wt_uint count;
@@ -164,7 +165,7 @@ inline int wt_same_mirror(const wt_field_world* world, wt_uint step, wt_uint sur
   return wt_length3(wt_cross3(n, m)) <= 1e-9 && fabs(a->offset - (cosine < 0.0 ? -b->offset : b->offset)) <= 1e-4;
 }
 
-// Has the sibling the steps of the path, but for its step `at`, in whose place it is reflected like this?
+// Has the sibling the steps of the path, except that it is reflected as `image` says in place of step `at`?
 inline int wt_differs_at(const wt_field_world* world, const wt_path* path, const wt_path* sibling, wt_uint at,
                          const wt_image_steps* image) {
   if (sibling->depth + 1u != path->depth + image->count) return 0;
@@ -179,7 +180,7 @@ inline int wt_differs_at(const wt_field_world* world, const wt_path* path, const
   return 1;
 }
 
-// Is there such a path of the same link, as long as this row's to a picosecond?
+// Is there such a path of the same link whose delay is that of this row to a picosecond?
 inline int wt_has_sibling(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                           wt_uint at, const wt_image_steps* image) {
   for (int way = -1; way <= 1; way += 2)
@@ -226,7 +227,7 @@ inline int wt_edge_transmits(const wt_field_world* world, const wt_edge* edge) {
   return world->transmissions >= (wt_is_half_plane(edge) ? 1u : 2u);
 }
 
-// One edge on the path.
+// Applies the diffraction at one edge of the path.
 inline void wt_diffract_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                            const wt_path* path, const wt_edge* edge, wt_transfer* transfer) {
   wt_turn turn;
@@ -258,7 +259,7 @@ inline wt_pair_form wt_form_between(const wt_edge* edges) {
   return wt_pair_form_of(along, a->k_out, a->before_m, a->after_m, b->after_m, sine2);
 }
 
-// Two edges that follow each other. between: what the leg from the one to the other does to a wave.
+// Applies two diffractions that follow each other. between: what the leg between the edges does to a wave.
 inline void wt_diffract_at_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
                                const wt_path* path, const wt_edge* edges, const wt_shared_plane* plane,
                                const wt_transfer* between, wt_transfer* transfer) {

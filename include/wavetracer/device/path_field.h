@@ -1,6 +1,6 @@
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
-// Spreading: 1 / L of a path of length L without edges, else that of path_edges.h. Assumes geometry of the exact solve:
-// specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.
+// Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
+// solve: specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
@@ -8,7 +8,7 @@
 #include "wavetracer/device/path_chain.h"
 #include "wavetracer/device/scattering.h"
 
-// What a scene has not need not be compiled for a device.
+// A device need not compile code for things that the scene does not have.
 #ifndef WT_DIFFRACTS  // the most diffractions of a path
 #define WT_DIFFRACTS 8
 #endif
@@ -74,11 +74,11 @@ inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 
 }
 #endif
 
-// dL/dt = sum over legs of k . (x'(i+1) - x'(i)): what vertex p, on a body that moves, adds to the speed at which the
-// path gets shorter. A vertex moves with the material point v there and slides along its surface or edge besides. Where
-// a path is reflected, k_in - k_out is along the normal, and where it is diffracted, normal to the edge: L is
-// stationary under sliding (Fermat's principle), and x' = v serves exactly, v of a turning body included. What is
-// scattered is a point of the body. What is transmitted goes straight on, k_in = k_out, and adds nothing.
+// dL/dt = sum over legs of k . (x'(i+1) - x'(i)): returns how much vertex p, on a body that moves, adds to the speed at
+// which the path gets shorter. A vertex moves with the velocity v of the body there, and slides along its surface or
+// edge besides. k_in - k_out is normal to a mirror or to an edge, so sliding does not change L (Fermat's principle) and
+// x' = v is exact, also on a turning body. A scattering point is fixed to the body. A transmission goes straight on,
+// k_in = k_out, and adds nothing.
 inline double wt_closing_speed_at(const wt_field_world* world, wt_uint step, wt_double3 p, wt_double3 k_in,
                                   wt_double3 k_out) {
   const wt_uint instance = wt_step_instance(world, step);
@@ -89,7 +89,7 @@ inline double wt_closing_speed_at(const wt_field_world* world, wt_uint step, wt_
   return wt_dot3(velocity, k_out - k_in);
 }
 
-// What both ends' antennas make of the matrix of the path, without the amplitude at 1 m.
+// Applies both ends' antennas to the matrix of the path, without the amplitude at 1 m.
 inline void wt_port_coefficients(const wt_matrix* m, const wt_port_fields* sent, const wt_port_fields* heard,
                                  double at_1_m, wt_path_field* out) {
   double power = 0.0;
@@ -106,7 +106,7 @@ inline void wt_port_coefficients(const wt_matrix* m, const wt_port_fields* sent,
   out->gain_db = 10.0 * wt_log10(power);
 }
 
-// A wave on its way along a path: the leg that it is on, what was done to it, and the path so far.
+// A wave on its way along a path: the leg that it is on, what has happened to it, and the path so far.
 typedef struct {
   wt_walk_leg leg;
   wt_transfer transfer;
@@ -114,7 +114,7 @@ typedef struct {
   wt_uint solved;  // the number of the path in the list of solved ones
 } wt_wave;
 
-// Past vertex k, whatever the vertex does to the wave. Returns the leg before it.
+// Goes past vertex k, without the vertex's effect on the wave. Returns the leg before it.
 inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_uint k, wt_wave* wave) {
   const wt_walk_leg leg = wave->leg;
 #if WT_LOSSES
@@ -126,7 +126,7 @@ inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_
   return leg;
 }
 
-// From vertex k over reflections, transmissions and scattering to the next edge, which is returned, or the end.
+// Goes from vertex k over reflections, transmissions and scattering to the next edge or the end, and returns it.
 inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path, double length_m, wt_uint k,
                                 wt_wave* wave) {
   for (; k < path->depth && wt_kind(path, k) != WT_STEP_DIFFRACTION; ++k) {
@@ -155,7 +155,7 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
 }
 
 #if WT_DIFFRACTS > 1
-// Past two edges, from the leg between them on, which ends at vertex k.
+// Goes past two edges, from the leg between them on, which ends at vertex k.
 inline void wt_pass_two(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                         wt_uint k, wt_edge* edges, wt_wave* wave) {
   const wt_shared_plane plane = wt_snap_to_shared_plane(world, edges);
@@ -168,7 +168,7 @@ inline void wt_pass_two(const wt_field_world* world, const wt_ordered_rows* orde
 #endif
 
 #if WT_DIFFRACTS > 2
-// Past three edges or more, at vertices k, k + 1, ..., from the leg after the first one on.
+// Goes past three edges or more, at vertices k, k + 1, ..., from the leg after the first one on.
 inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                           wt_uint k, wt_edge* edges, wt_uint count, wt_wave* wave) {
   wt_transfer before = wave->transfer;
@@ -187,7 +187,7 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 #endif
 
 #if WT_DIFFRACTS
-// Over all vertices. A wave along an edge is lost: no single point diffracts it. Returns wt_is_near_edge.
+// Goes over all vertices. A wave along an edge is lost: no single point diffracts it. Returns wt_is_near_edge.
 inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                        double length_m, wt_wave* wave) {
   wt_edge edges[WT_MOST_EDGES];
@@ -213,7 +213,7 @@ inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* order
 }
 #endif
 
-// Row `row` of the ordered rows. Rows side by side meet their surfaces together and then their edges.
+// The field of row `row` of the ordered rows. Neighbouring rows meet their surfaces together and then their edges.
 inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
   const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
   const WT_GLOBAL wt_field_end* tx = world->transmitters + path.transmitter;
@@ -250,7 +250,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
 
   out.departure = wt_angles_of(departure);
   out.arrival = wt_angles_of(arrival);
-  out.doppler_hz = wave.speed / world->wavelength_m + 0.0;  // plus zero: where all stands still the shift is 0, not -0
+  out.doppler_hz = wave.speed / world->wavelength_m + 0.0;  // adding zero gives 0, not -0, where all stands still
   const wt_port_fields sent =
       wt_antenna_fields(world->antennas + tx->antenna, world->samples, tx->rotation, departure, departure_basis);
   const wt_port_fields heard =

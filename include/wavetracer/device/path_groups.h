@@ -1,9 +1,9 @@
-// The geometrical waves that a path is one with, and how much of it is each of them (groups in wavetracer/paths.hpp).
-// A path belongs to the wave of its own steps, and with shares to those of the same steps with nothing in the place of
-// an edge, or with a reflection at one of its faces. Such a wave need not reach the receiver to be the group of those
-// that are diffracted at its boundaries: so nothing jumps where it begins to. With several edges the shares of all of
-// them are multiplied. Steps are compared by planes, since neighbours in one plane reflect alike, and without
-// transmissions: what is passed does not change the way of a wave. A path that is scattered is one with no other.
+// The geometrical waves that a path belongs to, and its share in each of them (groups in wavetracer/paths.hpp). A path
+// belongs to the wave of its own steps, and in part to the waves of the same steps that have nothing in place of an
+// edge, or a reflection at one of its faces. Such a wave groups the paths that are diffracted at its boundaries even if
+// it does not reach the receiver itself; so nothing jumps where it begins to. With several edges their shares are
+// multiplied. Steps are compared by planes, since neighbours in one plane reflect alike, and without transmissions,
+// which do not change the way of a wave. A scattered path shares its wave with no other path.
 #ifndef WAVETRACER_DEVICE_PATH_GROUPS_H
 #define WAVETRACER_DEVICE_PATH_GROUPS_H
 #include "wavetracer/device/path_rows.h"
@@ -16,11 +16,11 @@
 namespace wavetracer::device {
 #endif
 
-// The waves with the largest weights that are kept on the way from edge to edge.
+// The number of waves that are kept from edge to edge, those with the largest weights.
 #define WT_WAVES_KEPT (WT_DIFFRACTS > 1 ? 16 : 4)
-// The detour, in wavelengths, from which on a diffracted wave is one with no other.
+// The detour, in wavelengths, from which on a diffracted wave shares a wave with no other.
 #define WT_MOST_DETOUR 2.0
-// What may stand in the place of an edge in another wave: the edge itself, nothing, a reflection at face 0 or at
+// The things that may be in place of an edge in another wave: the edge itself, nothing, a reflection at face 0 or at
 // face 1.
 #define WT_IN_PLACES 4
 
@@ -38,8 +38,8 @@ inline wt_ulong wt_mixed(wt_ulong hash, wt_ulong value) {  // the finisher of Sp
   return hash ^ (hash >> 31);
 }
 
-// Adds a wave. A wave that is there already gets the larger weight of both together, and the smallest one of too many
-// is lost.
+// Adds a wave. If it is there already, the larger weight of both together replaces both. If there are too many, the one
+// with the smallest weight is lost.
 inline void wt_add_wave(wt_waves* waves, wt_ulong key, double weight) {
   wt_uint at = 0;
   while (at < waves->count && waves->keys[at] != key) ++at;
@@ -60,12 +60,12 @@ inline double wt_share_at(double detour) {
   return (1.0 - part * part) * (1.0 - part * part);
 }
 
-// How much of a diffracted wave is one with a wave that passes the edge straight or is reflected at one of its faces:
-// amplitudes by what stands in the place of the edge, whose squares add up to 1. At a shadow boundary both leave the
-// edge in one direction, and they are one wave; the farther from it, the longer is the detour over the edge, and from
-// two wavelengths on they are two waves, whose powers add up. Boundaries are told by directions alone: the difference
-// of two unit vectors, squared, is 4 sin^2(epsilon / 2), with epsilon as in utd.h, and the detour is that times half of
-// the distance parameter. Shares are continuous in all of these, except where two boundaries meet.
+// The share of a diffracted wave in each wave that passes the edge straight or is reflected at one of its faces: an
+// amplitude for each thing in place of the edge; their squares add up to 1. At a shadow boundary both leave the edge in
+// one direction, and they are one wave. Away from it the detour over the edge grows, and from two wavelengths on they
+// are two waves, whose powers add up. Directions alone define boundaries: the difference of two unit vectors, squared,
+// is 4 sin^2(epsilon / 2), with epsilon as in utd.h, and the detour is that times half of the distance parameter.
+// Shares are continuous in all of these, except where two boundaries meet.
 // k_in, k_out: unit vectors before and after the edge. before_m, after_m: unfolded lengths from the edge to the ends.
 inline void wt_edge_shares(const WT_GLOBAL wt_wedge* wedge, wt_double3 k_in, wt_double3 k_out, double before_m,
                            double after_m, double wavelength_m, double* shares) {
@@ -98,7 +98,7 @@ inline void wt_edge_shares(const WT_GLOBAL wt_wedge* wedge, wt_double3 k_in, wt_
     for (int i = 1; i < WT_IN_PLACES; ++i) shares[i] = largest * part[i] / sqrt(sum);
 }
 
-// Puts each wave of *waves past an edge, as each of the waves that it may be one with there.
+// Moves each wave of *waves past an edge: it becomes each of the waves that it may belong to there.
 inline void wt_waves_past_edge(const WT_GLOBAL wt_wedge* wedge, wt_uint step, const double* shares, wt_waves* waves) {
   wt_waves next;
   next.count = 0;
@@ -111,8 +111,8 @@ inline void wt_waves_past_edge(const WT_GLOBAL wt_wedge* wedge, wt_uint step, co
   *waves = next;
 }
 
-// The waves that a path belongs to. wedges: in the coordinates of the path. planes_of: the surface that stands for the
-// plane of each surface. row: a number that no other path has. Returns whether the path is diffracted.
+// Finds the waves that a path belongs to. wedges: in the coordinates of the path. planes_of: for each surface, the
+// surface that stands for its plane. row: a number that no other path has. Returns whether the path is diffracted.
 inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges, const WT_GLOBAL wt_uint* planes_of,
                            double wavelength_m, wt_uint row, wt_waves* waves) {
   wt_uint bends = 0;
@@ -145,7 +145,8 @@ inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges
   return bends;
 }
 
-// Writes those with the largest weights, whose squares add up to 1 then. bends: as wt_waves_of returned it.
+// Writes the waves with the largest weights, scaled so that their squares add up to 1. bends: as wt_waves_of returned
+// it.
 inline void wt_write_waves(const wt_waves* waves, wt_uint bends, WT_GLOBAL wt_path_waves* out) {
   const wt_uint count = waves->count < WT_MOST_GROUPS ? waves->count : WT_MOST_GROUPS;
   double sum = 0.0;

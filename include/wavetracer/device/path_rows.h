@@ -1,5 +1,5 @@
-// Rows of paths: a solved path as it is, or the other way round, with what orders rows and tells equal ones.
-// Layout of solved paths: wt_solved in records.h. Assumes that vertices lie in their surfaces to rounding error.
+// Rows of paths: a solved path as it is, or reversed, and the functions that order rows and find equal ones.
+// wt_solved in records.h describes solved paths. Vertices must lie in their surfaces to rounding error.
 #ifndef WAVETRACER_DEVICE_PATH_ROWS_H
 #define WAVETRACER_DEVICE_PATH_ROWS_H
 #include "wavetracer/device/records.h"
@@ -13,10 +13,10 @@ namespace wavetracer::device {
 // on the border of two coplanar surfaces, or on two walls that touch, belongs to both.
 #define WT_MERGE_M 1e-4
 
-// A row is a number: twice that of a solved path, one more where it is the path of the link the other way.
+// The number of a row is twice that of a solved path, plus one where it is the path of the link the other way.
 #define WT_NO_ROW 0xFFFFFFFFu
 
-// What becomes of a row (distinct.cl).
+// States of a row (distinct.cl).
 #define WT_ROW_STAYS 1u
 #define WT_ROW_IS_NEAR 2u
 
@@ -26,10 +26,10 @@ typedef struct {
   const WT_GLOBAL wt_solved* solved;
   const WT_GLOBAL double* vertices;
   const WT_GLOBAL wt_uint* steps;
-  const WT_GLOBAL double* transmitters;  // four doubles each: where, and what this file does not need
+  const WT_GLOBAL double* transmitters;  // four doubles each: the position, and one that this file does not need
   const WT_GLOBAL double* receivers;
-  const WT_GLOBAL wt_uint* receiver_of;     // of each transmitter: the receiver in its place, or WT_NONE
-  const WT_GLOBAL wt_uint* transmitter_of;  // of each receiver
+  const WT_GLOBAL wt_uint* receiver_of;     // for each transmitter the receiver in its place, or WT_NONE
+  const WT_GLOBAL wt_uint* transmitter_of;  // for each receiver the transmitter in its place
   wt_uint max_depth;
 } wt_path_list;
 
@@ -57,14 +57,14 @@ inline wt_path wt_path_of(const wt_path_list* list, wt_uint row) {
   return out;
 }
 
-// Vertex and step k, from the transmitter on.
+// The place in memory of vertex and step k, counted from the transmitter.
 inline wt_uint wt_entry(const wt_path* path, wt_uint k) { return path->reversed ? path->depth - 1 - k : k; }
 inline wt_double3 wt_vertex(const wt_path* path, wt_uint k) {
   return wt_vector(path->vertices + 3 * (wt_ulong)wt_entry(path, k));
 }
 inline wt_uint wt_step(const wt_path* path, wt_uint k) { return path->steps[wt_entry(path, k)]; }
 
-// What files call the kind of a step, see Interaction in wavetracer/paths.hpp.
+// The kind of a step in files, see Interaction in wavetracer/paths.hpp.
 inline wt_uint wt_interaction(wt_uint step) {
   const wt_uint kind = step & WT_STEP_KIND;
   return kind == WT_STEP_REFLECTION     ? 1u
@@ -88,7 +88,7 @@ inline double wt_path_length(const wt_path* path) {
 inline int wt_three_way(double a, double b) { return a < b ? -1 : a > b ? 1 : 0; }
 inline int wt_three_way_of_numbers(wt_uint a, wt_uint b) { return a < b ? -1 : a > b ? 1 : 0; }
 
-// By surfaces, then by interactions, of paths of one depth; negative where a comes first.
+// Compares paths of one depth by surfaces, then by interactions; negative where a comes first.
 inline int wt_compare_steps(const wt_path* a, const wt_path* b) {
   for (wt_uint k = 0; k < a->depth; ++k) {
     const int order = wt_three_way_of_numbers(wt_step(a, k) & ~WT_STEP_KIND, wt_step(b, k) & ~WT_STEP_KIND);
@@ -112,9 +112,9 @@ inline int wt_compare_vertices(const wt_path* a, const wt_path* b) {
   return 0;
 }
 
-// Are paths of one link and one depth one path? Where a point of reflection comes near an edge, the diffraction there
-// is another one. Of those that are, the one with the lowest surfaces stays, and of equal ones the one that was solved
-// before its twin: *first is not 0 where that is a. Rows that differ in nothing but their number are told by that.
+// Are two paths of one link and one depth the same? Where a point of reflection comes near an edge, the diffraction
+// there is another path. The path with the lowest surfaces stays, and of equal ones the one that was solved before its
+// twin: *first is not 0 where that is a. Rows that differ only in their number are ordered by it.
 inline int wt_one_path(const wt_path* a, const wt_path* b, wt_uint row_a, wt_uint row_b, int* first) {
   int order = wt_compare_steps(a, b);
   if (order != 0)
@@ -131,7 +131,7 @@ inline int wt_one_path(const wt_path* a, const wt_path* b, wt_uint row_a, wt_uin
   return 1;
 }
 
-// The order of rows of one link: by delay, then surfaces, interactions and vertices; negative where a comes first.
+// Orders rows of one link: by delay, then surfaces, interactions and vertices; negative where a comes first.
 inline int wt_compare_rows(const wt_path* a, const wt_path* b, double delay_a, double delay_b) {
   int order = wt_three_way(delay_a, delay_b);
   const wt_uint shared = a->depth < b->depth ? a->depth : b->depth;

@@ -1,11 +1,11 @@
-// A path in the world of a frame: the tables that say what it meets, its legs, and the rows beside it.
-// Assumes that vertices lie in their surfaces to rounding error and that surface normals have unit length.
+// A path in the world of a frame: the tables that describe what it meets, its legs, and the neighbouring rows. Vertices
+// must lie in their surfaces to rounding error, and surface normals must have unit length.
 #ifndef WAVETRACER_DEVICE_PATH_WORLD_H
 #define WAVETRACER_DEVICE_PATH_WORLD_H
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/path_rows.h"
 
-// Vegetation that scatters need not be compiled for a scene without it.
+// A device need not compile scattering vegetation for a scene without it.
 #ifndef WT_CELLS
 #define WT_CELLS 1
 #endif
@@ -14,32 +14,32 @@
 namespace wavetracer::device {
 #endif
 
-// The world as fields see it; surfaces, wedges, tiles and instances by their numbers in the world, as they are placed
-// in the frame.
+// The world as fields see it; surfaces, wedges, tiles and instances have their numbers in the world and their places in
+// the frame.
 typedef struct {
   const WT_GLOBAL wt_exact_surface* surfaces;
-  const WT_GLOBAL wt_uint* materials_of;  // of surfaces
+  const WT_GLOBAL wt_uint* materials_of;  // material of each surface
   const WT_GLOBAL wt_material* materials;
   const WT_GLOBAL wt_wedge* wedges;
-  const WT_GLOBAL wt_uint* surface_of_tile;  // of a cell of vegetation: see WT_CELL
-  const WT_GLOBAL double* area_of_tile;      // m2; of a cell the side of a cube of its volume, m
+  const WT_GLOBAL wt_uint* surface_of_tile;  // for a cell of vegetation: see WT_CELL
+  const WT_GLOBAL double* area_of_tile;      // m2; for a cell the side of a cube of its volume, m
   const WT_GLOBAL wt_exact_instance* instances;
   const WT_GLOBAL wt_field_end* transmitters;
   const WT_GLOBAL wt_field_end* receivers;
   const WT_GLOBAL wt_antenna* antennas;
-  const WT_GLOBAL double* samples;  // of antennas' grids
+  const WT_GLOBAL double* samples;  // samples of antennas' grids
   double wavelength_m;
   wt_ulong seed;
-  wt_uint transmissions;                   // the most of a path
-  wt_uint reflections;                     // likewise
-  wt_uint scatters;                        // not 0: mirrored waves lose what is scattered
+  wt_uint transmissions;                   // the most transmissions of a path
+  wt_uint reflections;                     // the most reflections of a path
+  wt_uint scatters;                        // not 0: mirrored waves lose the power that is scattered
   wt_uint foliage_count;                   // kinds of vegetation
-  const WT_GLOBAL wt_foliage* foliages;    // of each kind
-  const WT_GLOBAL double* lengths_inside;  // of solved paths, kind by kind (kernels/vegetation.cl)
+  const WT_GLOBAL wt_foliage* foliages;    // one record for each kind
+  const WT_GLOBAL double* lengths_inside;  // for solved paths, kind by kind (kernels/vegetation.cl)
   wt_air air;
 } wt_field_world;
 
-// The rows of a frame in their order, for questions about the neighbours of one; places may have none (WT_NO_ROW).
+// The rows of a frame in their order, so that a row can look at its neighbours; a place may have no row (WT_NO_ROW).
 typedef struct {
   const wt_path_list* list;
   const WT_GLOBAL wt_uint* rows;
@@ -47,7 +47,7 @@ typedef struct {
   wt_uint count;
 } wt_ordered_rows;
 
-// Below this the direction of a leg is rounding error of its ends, and the law of reflection says it better.
+// In a shorter leg the direction is rounding error of its ends, and the law of reflection gives a better one.
 #define WT_SHORTEST_LEG_M 1e-6
 
 inline wt_uint wt_number(const wt_path* path, wt_uint k) { return wt_step(path, k) & ~WT_STEP_KIND; }
@@ -68,7 +68,7 @@ inline wt_walk_leg wt_first_leg(const wt_path* path) {
   return leg;
 }
 
-// The leg after vertex k. A leg of no length goes on as the law of reflection says.
+// The leg after vertex k. The direction of a leg without length follows from the law of reflection.
 inline wt_walk_leg wt_next_leg(const wt_field_world* world, const wt_path* path, wt_uint k, const wt_walk_leg* before) {
   wt_walk_leg leg;
   leg.from = wt_vertex(path, k);
@@ -84,7 +84,7 @@ inline wt_walk_leg wt_next_leg(const wt_field_world* world, const wt_path* path,
   return leg;
 }
 
-// Antennas that touch a surface or each other have no such path: see host/radio/fields.hpp.
+// Antennas that touch a surface or each other have no such path, see host/radio/fields.hpp.
 inline int wt_degenerates(const wt_field_world* world, const wt_path* path, wt_double3 end, wt_uint k) {
   if (wt_length3(end - wt_vertex(path, k)) <= WT_ON_SURFACE_M) return 1;
   if (wt_kind(path, k) != WT_STEP_REFLECTION) return 0;
@@ -113,8 +113,8 @@ inline wt_uint wt_step_instance(const wt_field_world* world, wt_uint step) {
   return world->surfaces[kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number].instance;
 }
 
-// The number of a step's surface or wedge in its scene or model; of a tile, that of its surface; of a cell, that of its
-// volume.
+// The number of a step's surface or wedge in its scene or model; for a tile, that of its surface; for a cell, that of
+// its volume.
 inline wt_uint wt_local_number(const wt_field_world* world, wt_uint step) {
   const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
   if (wt_is_cell(world, step)) return world->surface_of_tile[number] & WT_CELL_NUMBER;

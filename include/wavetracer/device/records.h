@@ -1,5 +1,5 @@
-// Records and constants compiled by both C++ (host/passes) and OpenCL C (kernels): nothing else is shared.
-// No float3, bool, size_t or pointers; padding is explicit; tests/gpu compares sizes and offsets on the device.
+// Records and constants that both C++ (host/passes) and OpenCL C (kernels) compile: nothing else is shared. There is no
+// float3, bool, size_t or pointer; padding is explicit; tests/gpu compares sizes and offsets on the device.
 #ifndef WAVETRACER_DEVICE_RECORDS_H
 #define WAVETRACER_DEVICE_RECORDS_H
 
@@ -8,13 +8,13 @@
 // The longest chain of interactions; private arrays of the exact solve have this size.
 #define WT_MAX_DEPTH 32u
 
-// A point closer than this to a surface's plane is on that surface: an antenna there is not hidden by it, nor does it
-// reflect or scatter to it. Ten times the float32 rounding of coordinates of a kilometre, and less than any wall is
-// thick.
+// A point closer than this to a surface's plane is on that surface: the surface does not hide an antenna there, and
+// does not reflect or scatter to it. This is ten times the float32 rounding of coordinates of a kilometre, and less
+// than the thickness of any wall.
 #define WT_ON_SURFACE_M 1e-4
 
-// A way from one edge to another runs along a plane that bounds both if it rises above it or sinks below it by no more
-// than this: each edge, and the surfaces between them, may be off it by WT_ON_SURFACE_M.
+// A leg from one edge to another runs along a plane that bounds both if it rises above it or sinks below it by no more
+// than this: each edge, and the surfaces between them, may be off the plane by WT_ON_SURFACE_M.
 #define WT_ALONG_PLANE_M (3.0 * WT_ON_SURFACE_M)
 
 // The most diffractions of one path; private arrays of its solve and of its field have this size.
@@ -23,12 +23,13 @@
 // Structure of arrays: a ray queue of capacity n is WT_RAY_PLANES * n words; plane p of ray i is word p * n + i.
 #define WT_RAY_ORIGIN 0     // three planes, float
 #define WT_RAY_DIRECTION 3  // three planes, float, unit length
-#define WT_RAY_NODE 6       // trie node of the prefix that the ray has lived through, or a root; and its quarter
+#define WT_RAY_NODE 6       // trie node of the prefix that the ray has passed so far, or a root; and its quarter
 #define WT_RAY_SURFACE 7    // surface that the ray left, WT_NONE at a transmitter
 #define WT_RAY_PLANES 8
-// More planes where samples are followed (WT_SAMPLES, WT_LABELS): the number of the sample, counted in its launch.
+// This plane is added where samples are followed (WT_SAMPLES, WT_LABELS): the number of the sample, counted in its
+// launch.
 #define WT_RAY_SAMPLE 8
-// And with a ray cache or waypoints (WT_LABELS, written by label_rays and interact):
+// These are added with a ray cache or waypoints (WT_LABELS, written by label_rays and interact):
 #define WT_RAY_LEFT 9     // primitive that the ray left, WT_NONE at a transmitter
 #define WT_RAY_REGION 10  // transmitter that launched it
 #define WT_RAY_ENTRY 11   // cache entry of the segment before, or WT_NONE
@@ -46,16 +47,16 @@
 // A trie node is its slot; its key is (parent << 32) | surface. The parent of a first surface is the root of a
 // transmitter.
 #define WT_ROOT 0x80000000u
-// The rays of a launch are counted, and their number modulo 4 is their quarter of it: it rides in two bits of
+// The rays of a launch are numbered, and the number modulo 4 is the ray's quarter. It is held in two bits of
 // WT_RAY_NODE that no slot and no transmitter needs. A ray whose prefix found no slot has WT_NONE there.
 #define WT_QUARTER_SHIFT 29u
 #define WT_QUARTER_BITS 0x60000000u
 inline wt_uint wt_with_quarter(wt_uint node, wt_uint number) { return node | (number & 3u) << WT_QUARTER_SHIFT; }
 inline wt_uint wt_quarter_bit(wt_uint word) { return 1u << (word >> WT_QUARTER_SHIFT & 3u); }
-// What is known of a sequence or path: a bit for each quarter that found it.
+// A sequence or path has a bit for each quarter that found it.
 #define WT_ALL_QUARTERS 15u
 
-// What discovery needs of a surface (float32, recentred).
+// A surface as discovery needs it (float32, recentred).
 typedef struct {
   float normal[3];
   float offset;
@@ -63,13 +64,13 @@ typedef struct {
   float upper[4];
 } wt_surface;
 
-// What the exact solve needs of a surface (double, recentred).
+// A surface as the exact solve needs it (double, recentred).
 typedef struct {
   double normal[3];
   double offset;
-  wt_uint first_triangle;  // into the list of surface triangles (nine doubles each)
+  wt_uint first_triangle;  // place in the list of surface triangles (nine doubles each)
   wt_uint triangle_count;
-  wt_uint instance;  // whose model coordinates the triangles are in; WT_NONE: those of the scene
+  wt_uint instance;  // instance in whose model coordinates the triangles are; WT_NONE: in those of the scene
   wt_uint opaque;    // not 0: no wave passes it
 } wt_exact_surface;
 
@@ -97,8 +98,8 @@ typedef struct {
   wt_uint present;
 } wt_exact_instance;
 
-// What a vertex of a solved path is: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of a
-// surface (reflection, transmission), wedge or tile.
+// The step of a vertex of a solved path: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of
+// a surface (reflection, transmission), wedge or tile.
 #define WT_STEP_SHIFT 29u
 #define WT_STEP_KIND (7u << WT_STEP_SHIFT)
 #define WT_STEP_REFLECTION (0u << WT_STEP_SHIFT)
@@ -114,8 +115,8 @@ typedef struct {
   double normal[3];
   double length;
   double exterior;      // radians
-  double cosine, sine;  // of exterior
-  wt_uint surfaces[2];  // numbered through the world
+  double cosine, sine;  // those of exterior
+  wt_uint surfaces[2];  // numbers in the world
   wt_uint planes[2];    // surfaces that stand for the planes of the faces
   wt_uint instance;     // WT_NONE: static
   wt_uint padding;
@@ -127,24 +128,24 @@ typedef struct {
   wt_uint receiver;
 } wt_candidate;
 
-// An edge is cut into so many pieces of one length, and what may see them is a mask of bits.
+// An edge is cut into this many pieces of equal length; a mask of bits says which of them something may see.
 #define WT_WEDGE_PIECES 4u
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
 typedef struct {
-  wt_uint node;      // of the prefix, or a root
+  wt_uint node;      // trie node of the prefix, or a root
   wt_uint origin;    // the end
-  wt_uint depth;     // reflections
-  wt_uint last;      // surface of the last of them
-  float image[3];    // of the end in all of them
-  float along;       // of the image: where its foot on the edge's line is, from the start of the edge
-  float away;        // and how far from that line
-  float length;      // of the edge
-  wt_uint quarters;  // that found it
-  wt_uint pieces;    // of the edge that it may see
+  wt_uint depth;     // number of reflections
+  wt_uint last;      // surface of the last reflection
+  float image[3];    // image of the end in all reflections
+  float along;       // foot of the image on the edge's line, from the start of the edge
+  float away;        // distance of the image from that line
+  float length;      // length of the edge
+  wt_uint quarters;  // quarters that found it
+  wt_uint pieces;    // pieces of the edge that it may see
 } wt_wedge_prefix;
 
-// What such prefixes are sorted by: the wedge, then the depth, so that those that are short enough stand together.
+// The key that sorts such prefixes: the wedge, then the depth, so that those that are short enough stand together.
 #define WT_WEDGE_DEPTH_BITS 5u
 inline wt_uint wt_wedge_key(wt_uint wedge, wt_uint depth) { return wedge << WT_WEDGE_DEPTH_BITS | depth; }
 inline wt_uint wt_wedge_of(wt_uint key) { return key >> WT_WEDGE_DEPTH_BITS; }
@@ -156,40 +157,40 @@ typedef struct {
   wt_uint back;
   wt_uint wedges[2];
   wt_uint receiver;
-  wt_uint quarters;  // that found both prefixes
+  wt_uint quarters;  // quarters that found both prefixes
 } wt_wedge_candidate;
 
-// A solved candidate. Its vertex j is three doubles at (index * max_depth + j) * 3, its surface, with WT_STEP_KIND, at
-// index * max_depth + j.
+// A solved candidate. Its vertex j is the three doubles at (index * max_depth + j) * 3, and its surface, with
+// WT_STEP_KIND, is at index * max_depth + j.
 typedef struct {
   wt_uint transmitter;
   wt_uint receiver;
   wt_uint depth;
   wt_uint blocked;   // 0 until a leg is found obstructed
-  wt_uint node;      // of its sequence; WT_NONE if it is diffracted
-  wt_uint quarters;  // of the launch that found it
+  wt_uint node;      // node of its sequence; WT_NONE if it is diffracted
+  wt_uint quarters;  // quarters of the launch that found it
 } wt_solved;
 
-// Counters that the passes share; one small buffer, cleared a frame. Each has a line of memory for itself: a kernel
-// that reads one for every element and adds to another would else wait for the line, which each core takes from the
-// others.
+// Counters that the passes share: one small buffer, cleared in each frame. Each has a line of memory for itself.
+// Otherwise a kernel that reads one counter for every element and adds to another would wait for the line, which each
+// core takes from the others.
 #define WT_REST_OF_LINE 15u
 typedef struct {
   wt_uint nodes;                                                 // used slots of the trie, as they are listed
-  wt_uint exchanged, exchanged_rest[WT_REST_OF_LINE - 1u];       // listed after them, which exchanges have added
+  wt_uint exchanged, exchanged_rest[WT_REST_OF_LINE - 1u];       // those that exchanges added, listed after them
   wt_uint trie_overflow, trie_overflow_rest[WT_REST_OF_LINE];    // no slot was found: grow, and trace the batch again
   wt_uint candidates, candidates_rest[WT_REST_OF_LINE];          // may exceed the capacity: grow and run again
-  wt_uint solved, solved_rest[WT_REST_OF_LINE];                  // likewise
-  wt_uint hidden, hidden_rest[WT_REST_OF_LINE];                  // solved, and hidden by what hid the path before
+  wt_uint solved, solved_rest[WT_REST_OF_LINE];                  // as candidates
+  wt_uint hidden, hidden_rest[WT_REST_OF_LINE];                  // hidden by what hid the path before
   wt_uint visible, visible_rest[WT_REST_OF_LINE];                // may exceed the capacity, as candidates
-  wt_uint wedge_prefixes, wedge_prefixes_rest[WT_REST_OF_LINE];  // likewise
-  wt_uint wedge_candidates, wedge_candidates_rest[WT_REST_OF_LINE];  // likewise
-  wt_uint wedge_solved, wedge_solved_rest[WT_REST_OF_LINE];          // likewise
-  wt_uint chains, chains_rest[WT_REST_OF_LINE];                      // likewise
-  wt_uint rows, rows_rest[WT_REST_OF_LINE];                          // of paths
+  wt_uint wedge_prefixes, wedge_prefixes_rest[WT_REST_OF_LINE];  // as candidates
+  wt_uint wedge_candidates, wedge_candidates_rest[WT_REST_OF_LINE];  // as candidates
+  wt_uint wedge_solved, wedge_solved_rest[WT_REST_OF_LINE];          // as candidates
+  wt_uint chains, chains_rest[WT_REST_OF_LINE];                      // as candidates
+  wt_uint rows, rows_rest[WT_REST_OF_LINE];                          // rows of paths
   wt_uint row_vertices, row_vertices_rest[WT_REST_OF_LINE];          // their interactions
-  wt_uint near_rows, near_rows_rest[WT_REST_OF_LINE];                // left out: an antenna touches what reflects there
-  wt_uint ended[WT_MAX_DEPTH + 1u];                                  // rays of bounces by the number of their hits
+  wt_uint near_rows, near_rows_rest[WT_REST_OF_LINE];                // left out: an antenna touches what reflects
+  wt_uint ended[WT_MAX_DEPTH + 1u];                                  // rays of bounces by their number of hits
   wt_uint ended_rest[WT_REST_OF_LINE];
 } wt_counters;
 

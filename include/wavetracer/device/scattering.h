@@ -16,7 +16,7 @@ inline wt_ulong wt_mixed(wt_ulong x) {
   return x ^ (x >> 31);
 }
 
-// pair: 0 TE to TE, 1 TM to TM, 2 TE to TM and TM to TE.
+// pair: 0 is TE to TE, 1 is TM to TM, 2 is TE to TM and TM to TE.
 inline wt_double2 wt_random_phase(wt_ulong seed, wt_uint tile, wt_ulong pair) {
   const wt_ulong bits = wt_mixed(wt_mixed(seed + 0x9E3779B97F4A7C15ul) + 3ul * tile + pair);
   return wt_cos_sin(2.0 * WT_PI * (double)(bits >> 11) * 0x1p-53);
@@ -25,7 +25,7 @@ inline wt_double2 wt_random_phase(wt_ulong seed, wt_uint tile, wt_ulong pair) {
 // The integral of ((1 + cos psi) / 2)^alpha over the hemisphere, where psi is the angle from the mirrored direction.
 inline double wt_lobe_integral(wt_uint alpha, double cos_theta) {
   const double quarter_sine2 = (1.0 - cos_theta * cos_theta) / 4.0;
-  double sum = 0.0, binomial = ldexp(1.0, -(int)alpha);  // of (alpha, j), over 2^alpha
+  double sum = 0.0, binomial = ldexp(1.0, -(int)alpha);  // binomial (alpha, j) over 2^alpha
   double series = 0.0, term = 1.0;  // sum over w of (2w, w) (sin^2 theta / 4)^w, up to w = (j - 1) / 2
   for (wt_uint j = 0; j <= alpha; ++j) {
     if (j % 2 == 1) {
@@ -46,16 +46,16 @@ inline double wt_power(double x, wt_uint exponent) {
   return out;
 }
 
-// cos(theta_i) f in 1/sr; scattering_pattern of host/radio/scattering.hpp.
+// cos(theta_i) f in 1/sr: scattering_pattern of host/radio/scattering.hpp.
 inline double wt_scattering_pattern(wt_uint alpha, double cos_in, double cos_out, double cos_psi) {
   if (alpha == 0) return cos_in * cos_out / WT_PI;
   const double lobe = wt_power(fmin(fmax((1.0 + cos_psi) / 2.0, 0.0), 1.0), alpha);
-  // cos(theta) / F grows with cos(theta): the smaller of both directions is that of the more grazing one.
+  // cos(theta) / F grows with cos(theta), so the more grazing of the two directions has the smaller one.
   const double grazing = fmin(cos_in, cos_out);
   return lobe * grazing / wt_lobe_integral(alpha, grazing);
 }
 
-// Square roots of |R|, x of TE and y of TM.
+// Square roots of |R|: x for TE, y for TM.
 inline wt_double2 wt_roots_of_reflection(const wt_material* material, double cos_theta, double wavelength_m) {
   const wt_slab slab = wt_slab_coefficients(WT_DOUBLE2(material->permittivity[0], material->permittivity[1]), cos_theta,
                                             material->thickness_m, wavelength_m);
@@ -76,7 +76,7 @@ inline wt_wave_map wt_scatter(const wt_material* material, double wavelength_m, 
   wt_wave_map wave;
   wave.from = wt_polarizations(k_in, normal);
   wave.to = wt_polarizations(k_out, normal);
-  // On the way back both TE vectors are reversed and the TM vectors are not: the transposed dyad has a minus here.
+  // On the way back both TE vectors are reversed and the TM vectors are not, so the transposed dyad has a minus here.
   wave.matrix.m[0] = wt_random_phase(seed, tile, 0) * (same * out.x * in.x);
   wave.matrix.m[1] = other * (out.x * in.y);
   wave.matrix.m[2] = -other * (out.y * in.x);
@@ -84,10 +84,10 @@ inline wt_wave_map wt_scatter(const wt_material* material, double wavelength_m, 
   return wave;
 }
 
-// What a cell of vegetation sends, in metres as wt_scatter has it: the share S^2 of what it takes, evenly over all
-// directions (docs/outdoors.md). extinction: the share of the power that a metre takes there. Amplitudes are between
-// the vertical and horizontal waves of both directions; on the way back both horizontal vectors are reversed and the
-// vertical ones are not, hence the minus.
+// The wave that a cell of vegetation scatters, in metres as in wt_scatter: the share S^2 of the power that it takes,
+// evenly over all directions (docs/outdoors.md). extinction: the share of the power that a metre takes there.
+// Amplitudes are between the vertical and horizontal waves of both directions; on the way back both horizontal vectors
+// are reversed and the vertical ones are not, hence the minus.
 inline wt_wave_map wt_scatter_in_leaves(const WT_GLOBAL wt_foliage* foliage, double extinction, wt_double3 k_in,
                                         wt_double3 k_out, double volume_m3, wt_ulong seed, wt_uint tile) {
   const double amplitude_m = foliage->scattering * sqrt(extinction * volume_m3 / (4.0 * WT_PI));
@@ -103,11 +103,11 @@ inline wt_wave_map wt_scatter_in_leaves(const WT_GLOBAL wt_foliage* foliage, dou
   return wave;
 }
 
-// The distance that spreading counts from a cell, a cube of that side as a ball: near its middle 1 / r^2 is no more
-// than its mean over the ball, 3 / radius^2.
+// The distance from a cell with which spreading is computed. The cell is a cube with that side, treated as a ball: near
+// its middle 1 / r^2 is limited to its mean over the ball, 3 / radius^2.
 inline double wt_distance_from_cell(double distance_m, double side_m) { return fmax(distance_m, 0.35816 * side_m); }
 
-// What is left of the amplitude of the mirrored wave.
+// The share of the amplitude that the mirrored wave keeps.
 inline double wt_specular_share(const wt_material* material) {
   return sqrt(1.0 - material->scattering * material->scattering);
 }

@@ -1,5 +1,5 @@
 // Reflection and transmission of a plane wave at a single-layer slab in free space (ITU-R P.2040-3, section 2.2.2),
-// arranged so that no quotient loses its digits. host/radio/slab.hpp says what signs mean.
+// written so that no quotient loses its digits. host/radio/slab.hpp explains the signs.
 // Time convention exp(+j 2 pi f t): a wave that decays goes as exp(-j q) with Im q <= 0.
 #ifndef WAVETRACER_DEVICE_SLAB_H
 #define WAVETRACER_DEVICE_SLAB_H
@@ -13,12 +13,12 @@ typedef struct {
   wt_double2 reflection_te, reflection_tm, transmission_te, transmission_tm;
 } wt_slab;
 
-// From so many radians of thickness on, a slab is a half space: what comes back from its far side has no phase left
-// that thickness and frequency tell, and comes much later than all that a simulation looks at. wt_cos_sin goes as far.
+// A slab that is thicker than this many radians is a half space: thickness and frequency are not known well enough to
+// give a phase to what comes back from its far side, and it comes back much too late to matter. wt_cos_sin goes as far.
 #define WT_ENDLESS_RAD 0x1p44
 
-// The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space. One sine and one
-// exponential, those of one pass, give all three powers of exp(-j q).
+// The wave inside: s = sqrt(eta - sin^2 theta) is its normal wave number over that of free space. All three powers of
+// exp(-j q) are made of the sine and the exponential of one pass.
 typedef struct {
   wt_double2 s;
   int half_space;         // nothing comes back from the far side
@@ -44,7 +44,8 @@ inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double 
     in.missing = WT_DOUBLE2(0.0, 2.0 * kd);
     return in;
   }
-  // 1 - E without the cancellation at a small q: exp(2 x) - 1 = (exp(x) - 1) (exp(x) + 1), cos(2 y) = 1 - 2 sin(y)^2.
+  // This is 1 - E without the cancellation at a small q: exp(2 x) - 1 = (exp(x) - 1) (exp(x) + 1), cos(2 y) = 1 - 2
+  // sin(y)^2.
   const double twice_sine2 = 2.0 * turn.y * turn.y;
   const wt_double2 rest = WT_DOUBLE2(twice_sine2 - lost * (lost + 2.0) * (1.0 - twice_sine2), -in.round_trip.y);
   in.missing = wt_over(rest, in.s);
@@ -53,7 +54,7 @@ inline wt_inside wt_inside_of(wt_double2 permittivity, double cos_theta, double 
 
 // With r = (u - s) / (u + s), where u = cos theta (TE) or eta cos theta (TM), P.2040's
 //   R = r (1 - E) / (1 - r^2 E),  T = (1 - r^2) exp(-j q) / (1 - r^2 E)
-// multiplied out by (u + s)^2 / s. difference is u^2 - s^2, given in a form free of cancellation. u is not zero.
+// multiplied out by (u + s)^2 / s. difference is u^2 - s^2, in a form without cancellation. u is not zero.
 inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference, wt_double2* reflection,
                        wt_double2* transmission) {
   if (in->half_space) {
@@ -68,14 +69,14 @@ inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference,
   *transmission = wt_times(wt_times(u, in->one_pass) * 4.0, share);
 }
 
-// permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more, infinity is the half space,
-// and so is what is thicker than WT_ENDLESS_RAD.
+// permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more; infinity is the half space, and so is a
+// thickness above WT_ENDLESS_RAD.
 inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, double thickness_m,
                                     double wavelength_m) {
   wt_slab out;
   const double c = cos_theta;
   const wt_double2 contrast = permittivity - wt_real(1.0);
-  if (c == 0.0) {  // the limit of grazing incidence, whatever the slab; an empty slab lets the wave pass
+  if (c == 0.0) {  // the limit of grazing incidence for every slab; an empty slab lets the wave pass
     const int empty = (contrast.x == 0.0 && contrast.y == 0.0) || thickness_m == 0.0;
     out.reflection_te = out.reflection_tm = wt_real(empty ? 0.0 : -1.0);
     out.transmission_te = out.transmission_tm = wt_real(empty ? 1.0 : 0.0);
@@ -91,9 +92,9 @@ inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, d
 // A permittivity so large, of 1e7 S/m up to 180 GHz, is that of a good conductor.
 #define WT_CONDUCTS 1e6
 
-// The cosine of incidence of the waves that fill the zone about a path of this length where it grazes a plane. What a
-// plane whose surface impedance is that much smaller reflects in all is what it reflects there: with F the attenuation
-// of Norton (Proc. IRE 25, 1937), R + (1 - R) F is 1 - sqrt(2 pi k L) / sqrt(permittivity) at grazing.
+// The cosine of incidence of the waves that fill the zone about a path of this length where it grazes a plane. A
+// plane whose surface impedance is that much smaller reflects in all as it reflects at this angle: with F the
+// attenuation of Norton (Proc. IRE 25, 1937), R + (1 - R) F is 1 - sqrt(2 pi k L) / sqrt(permittivity) at grazing.
 inline double wt_zone_cosine(double length_m, double wavelength_m) { return sqrt(wavelength_m / length_m) / WT_PI; }
 
 // The cosine at which a material reflects a wave of a path. A good conductor reflects plane waves below its Brewster

@@ -13,13 +13,13 @@ typedef struct {
   wt_double3 first, second;
 } wt_basis;
 
-// Columns of the matrix belong to the basis at the start, its rows to `rows`.
+// Columns of the matrix belong to the basis at the start, rows to the basis `rows`.
 typedef struct {
   wt_matrix matrix;
   wt_basis rows;
 } wt_transfer;
 
-// theta-hat and phi-hat; at the poles, where phi is free, it is 0.
+// The basis theta-hat and phi-hat; at the poles, where phi is free, phi is 0.
 inline wt_basis wt_spherical_basis(wt_double3 direction) {
   const double rho = sqrt(direction.x * direction.x + direction.y * direction.y);
   const double cosine = rho == 0.0 ? 1.0 : direction.x / rho, sine = rho == 0.0 ? 0.0 : direction.y / rho;
@@ -47,8 +47,8 @@ inline wt_transfer wt_transfer_from(wt_basis departure) {
   return out;
 }
 
-// The unit normal of the plane of incidence. At normal incidence there is no such plane, TE and TM are one and any
-// direction in the surface serves: below 1e-8 the cross product has lost half its digits, and the two differ by less.
+// The unit normal of the plane of incidence. At normal incidence there is no such plane, TE and TM are the same and any
+// direction in the surface serves. Below 1e-8 the cross product has lost half its digits, and TE and TM differ by less.
 inline wt_double3 wt_incidence_normal(wt_double3 k, wt_double3 normal) {
   const wt_double3 across = wt_cross3(k, normal);
   const double sine = wt_length3(across);
@@ -56,7 +56,7 @@ inline wt_double3 wt_incidence_normal(wt_double3 k, wt_double3 normal) {
   return wt_normalized(wt_cross3(k, fabs(k.x) < 0.5 ? WT_DOUBLE3(1.0, 0.0, 0.0) : WT_DOUBLE3(0.0, 1.0, 0.0)));
 }
 
-// TE and TM of a wave along k at a surface.
+// The polarizations TE and TM of a wave along k at a surface.
 inline wt_basis wt_polarizations(wt_double3 k, wt_double3 normal) {
   wt_basis out;
   out.first = wt_incidence_normal(k, normal);
@@ -86,7 +86,7 @@ inline void wt_meet(wt_transfer* transfer, wt_double3 k_in, wt_double3 k_out, wt
   transfer->rows.second = wt_cross3(from.first, k_out);
 }
 
-// The matrix with its rows along the basis of the arrival.
+// The matrix with its rows in the basis of the arrival.
 inline wt_matrix wt_seen_in(const wt_transfer* transfer, wt_basis arrival) {
   return wt_turned(transfer->matrix, transfer->rows, arrival);
 }

@@ -1,8 +1,9 @@
 // The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
-// g(s) = sqrt(pi) exp(j pi / 4) erfcx(u) at u = exp(j pi / 4) s, erfcx(u) = exp(u^2) erfc(u) the scaled complement.
-// Three expansions of it meet at s = 3 and s = 8, where their neighbours have all digits; most edges are far from their
-// shadow boundaries, beyond 8, and there a few multiplications suffice. Numbers are those of M. Abramowitz and I.
-// Stegun.
+// g(s) = sqrt(pi) exp(j pi / 4) erfcx(u) at u = exp(j pi / 4) s, where erfcx(u) = exp(u^2) erfc(u) is the scaled
+// complement.
+// Three expansions of it meet at s = 3 and s = 8, where both neighbours have all digits. Most edges are far from their
+// shadow boundaries, beyond 8, and there a few multiplications suffice. Numbers of formulas are those of M. Abramowitz
+// and I. Stegun.
 #ifndef WAVETRACER_DEVICE_TRANSITION_H
 #define WAVETRACER_DEVICE_TRANSITION_H
 #include "wavetracer/device/complex.h"
@@ -14,11 +15,11 @@ namespace wavetracer::device {
 #define WT_INV_SQRT_PI 0.56418958354775628695
 #define WT_EIGHTH_TURN WT_DOUBLE2(0.70710678118654752440, 0.70710678118654752440)
 
-// The quotient of a real number.
+// The quotient of a real number and a complex one.
 inline wt_double2 wt_real_over(double a, wt_double2 b) { return WT_DOUBLE2(b.x, -b.y) * (a / wt_norm(b)); }
 
-// 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!; u^2 = j s^2, so that each term is
-// real or imaginary but for the factor u.
+// Formula 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!. Since u^2 = j s^2, each term
+// is real or imaginary, apart from the factor u.
 inline wt_double2 wt_erfcx_by_series(wt_double2 u, double s) {
   const double step = 2.0 * s * s;
   double real = 1.0, imag = 0.0, term = 1.0;
@@ -31,8 +32,8 @@ inline wt_double2 wt_erfcx_by_series(wt_double2 u, double s) {
   return wt_cos_sin(s * s) - wt_times(u, WT_DOUBLE2(real, imag)) * (2.0 * WT_INV_SQRT_PI);
 }
 
-// 7.1.14: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))). Numerator and denominator from the
-// head, x(k+1) = u x(k) + k / 2 x(k-1), so that there is one division.
+// Formula 7.1.14: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))). Numerator and denominator
+// are computed from the head, x(k+1) = u x(k) + k / 2 x(k-1), so there is one division.
 inline wt_double2 wt_erfcx_by_fraction(wt_double2 u) {
   wt_double2 above = wt_real(1.0), above_before = wt_real(0.0), below = u, below_before = wt_real(1.0);
   for (int k = 1; k <= 60; ++k) {
@@ -46,8 +47,8 @@ inline wt_double2 wt_erfcx_by_fraction(wt_double2 u) {
   return wt_over(above, below) * WT_INV_SQRT_PI;
 }
 
-// 7.1.23: sqrt(pi) u erfcx(u) ~ 1 - 1 / (2 u^2) + 1 * 3 / (2 u^2)^2 - ...; u^2 = j s^2, so the terms shrink until the
-// s^2-th, exp(-s^2) small.
+// Formula 7.1.23: sqrt(pi) u erfcx(u) ~ 1 - 1 / (2 u^2) + 1 * 3 / (2 u^2)^2 - ...; u^2 = j s^2, so the terms shrink
+// until the s^2-th, which is of the size exp(-s^2).
 inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
   const double step = 1.0 / (2.0 * s * s);
   double real = 1.0, imag = 0.0, term = 1.0;  // each term is j / (2 s^2) times its odd number times the one before
@@ -60,7 +61,8 @@ inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
   return wt_times(WT_DOUBLE2(real, imag), wt_real_over(WT_INV_SQRT_PI, u));
 }
 
-// g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. Finite at 0; 1 / s far out.
+// g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. It is finite at 0, and 1 / s for
+// large s.
 inline wt_double2 wt_transition_over_root(double s) {
   const wt_double2 front = WT_EIGHTH_TURN * (1.0 / WT_INV_SQRT_PI), u = WT_EIGHTH_TURN * s;
   if (s == 0.0) return front;

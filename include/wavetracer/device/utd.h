@@ -1,6 +1,6 @@
-// The uniform theory of diffraction at a straight wedge, with faces of any material: what host/radio/utd.hpp describes.
-// Four terms, each the jump of a geometrical wave at its shadow boundary times a function that is half of that jump on
-// either side of the boundary. Local axes: x along face 0, y its normal, z along the edge.
+// The uniform theory of diffraction at a straight wedge with faces of any material, as host/radio/utd.hpp describes it.
+// It has four terms: each is the jump of a geometrical wave at its shadow boundary times a function that is half of
+// that jump on either side of the boundary. Local axes are x along face 0, y along its normal, and z along the edge.
 #ifndef WAVETRACER_DEVICE_UTD_H
 #define WAVETRACER_DEVICE_UTD_H
 #include "wavetracer/device/corner.h"
@@ -10,22 +10,23 @@
 namespace wavetracer::device {
 #endif
 
-#define WT_UNDECIDED_RAD 1e-6  // geometry in double from the same points is no further off
+#define WT_UNDECIDED_RAD 1e-6  // geometry in double from the same points has smaller errors than this
 #define WT_BOUNDARIES 4
 
-// In the world's axes.
+// A wedge in the world's axes.
 typedef struct {
   wt_double3 along, face, normal;
   double exterior;  // radians
 } wt_wedge_frame;
 
-// The field at the edge in components along from, times the matrix, leaves it in components along to.
+// The field at the edge, in components along from, times the matrix is the field that leaves it, in components along
+// to.
 typedef struct {
   wt_basis from, to;
   wt_matrix matrix;
 } wt_wave_map;
 
-// Of a direction that points away from the edge, 0 to exterior.
+// The azimuth of a direction that points away from the edge, 0 to exterior.
 inline double wt_azimuth_of(const wt_wedge_frame* wedge, wt_double3 away) {
   double azimuth = wt_atan2(wt_dot3(away, wedge->normal), wt_dot3(away, wedge->face));
   if (azimuth < 0.0) azimuth += 2.0 * WT_PI;
@@ -33,17 +34,17 @@ inline double wt_azimuth_of(const wt_wedge_frame* wedge, wt_double3 away) {
   return azimuth - wedge->exterior < 2.0 * WT_PI - azimuth ? wedge->exterior : 0.0;
 }
 
-// A shadow boundary. Reflection unfolds: a geometrical wave is a straight line past the edge, from an azimuth to one
-// that differs by less than pi, and each face in between reflects it. At the boundary they differ by just pi; epsilon
-// is by how much less, so the wave is there if it is positive.
+// A shadow boundary. If reflections are unfolded, a geometrical wave is a straight line past the edge, from one azimuth
+// to another that differs by less than pi, and each face in between reflects it. At the boundary they differ by exactly
+// pi. They differ by epsilon less than that, so the wave is there if epsilon is positive.
 typedef struct {
   double epsilon;
   int turn;   // +1, -1: unfolded, the receiver's azimuth is larger, smaller than the source's
-  int image;  // as wt_image_wave has it
+  int image;  // the image, as wt_image_wave takes it
 } wt_boundary;
 
-// The boundary nearest to these azimuths of the images of an even number of reflections or of an odd one: pi +- beta =
-// 2 pi n N + epsilon, with Kouyoumjian and Pathak's N.
+// The boundary nearest to these azimuths among the images of an even or of an odd number of reflections: pi +- beta = 2
+// pi n N + epsilon, with Kouyoumjian and Pathak's N.
 inline wt_boundary wt_nearest_boundary(double in, double out, double exterior, int odd, int turn) {
   const double beta = odd ? out + in : in - out, period = 2.0 * exterior;
   const double angle = WT_PI + turn * beta, number = wt_nearest_whole(angle / period);
@@ -54,8 +55,8 @@ inline wt_boundary wt_nearest_boundary(double in, double out, double exterior, i
   return boundary;
 }
 
-// The factors of a term, cot(epsilon / 2n) F(k L a) / sqrt(2 k L) with a = 2 sin^2(epsilon / 2): F(x) = sqrt(x) g(sqrt
-// x) takes the pole away.
+// The factors of a term, cot(epsilon / 2n) F(k L a) / sqrt(2 k L) with a = 2 sin^2(epsilon / 2). F(x) = sqrt(x) g(sqrt
+// x) removes the pole.
 typedef struct {
   double sine;   // |sin(epsilon / 2)|: times sqrt(2 k L), it is the argument of g
   double ratio;  // cot(epsilon / 2n) |sin(epsilon / 2)|
@@ -70,7 +71,7 @@ inline wt_term_factors wt_factors_of(double epsilon, double n) {
   return out;
 }
 
-// The turn of a ray at the edge: the azimuths of its source and its receiver, and the boundaries that are nearest.
+// The turn of a ray at the edge: the azimuths of its source and its receiver, and the nearest boundaries.
 typedef struct {
   double in, away;
   wt_boundary boundaries[WT_BOUNDARIES];
@@ -85,16 +86,16 @@ inline wt_turn wt_turn_at(const wt_wedge_frame* wedge, wt_double3 k_in, wt_doubl
   return turn;
 }
 
-// Can the wave of this boundary be there at all? Outside of a convex wedge nothing is reflected twice.
+// Can the wave of this boundary exist? Outside of a convex wedge nothing is reflected twice.
 inline int wt_has_wave(const wt_wedge_frame* wedge, wt_boundary boundary) {
   return wedge->exterior < WT_PI || (boundary.image >= -1 && boundary.image <= 1);
 }
 
 // Describes the waves at the boundaries of a turn, in their order.
 typedef struct {
-  int lit[WT_BOUNDARIES];  // does the wave reach the receiver? -1: not known
-  double undecided;        // radians; no farther from a boundary angles leave the side to what is known
-  int most_images;         // waves that are reflected in a corner more often than this, and than once, are left out
+  int lit[WT_BOUNDARIES];  // 1: the wave reaches the receiver; 0: it does not; -1: not known
+  double undecided;        // radians; within this distance from a boundary `lit` decides the side, not the angles
+  int most_images;         // in a corner, waves with more reflections than this, and more than one, are left out
 } wt_known_waves;
 
 inline wt_known_waves wt_nothing_known(void) {
@@ -110,7 +111,7 @@ inline double wt_decided(wt_boundary boundary, const wt_known_waves* known, int 
   return copysign(boundary.epsilon, known->lit[i] ? 1.0 : -1.0);
 }
 
-// A ray that turns at a corner: the waves from its source and, the link the other way, from its receiver, and the bases
+// A ray that turns at a corner: the waves from its source and, in the other direction, from its receiver, and the bases
 // of what comes and leaves.
 typedef struct {
   wt_corner corner;
@@ -122,7 +123,7 @@ typedef struct {
   int transmits;
 } wt_bend;
 
-// Rays within 1e-9 of the edge, half of the digits of a double, have no azimuths: 0.
+// Rays within 1e-9 of the edge, half of the digits of a double, have no azimuths; then this is 0.
 inline int wt_turns(const wt_wedge_frame* wedge, wt_double3 k_in, wt_double3 k_out) {
   return fmin(wt_length3(wt_cross3(k_in, wedge->along)), wt_length3(wt_cross3(k_out, wedge->along))) >= 1e-9;
 }
@@ -152,7 +153,7 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
   return bend;
 }
 
-// Tells how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
+// Says how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
 inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
 
 // The mean distance from the edge, in metres, of the waves on the side of a boundary at which g has the argument s and
@@ -185,8 +186,8 @@ inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 
   return sum;
 }
 
-// Outside of a convex wedge nothing is reflected twice: one reflection, at the face on this side, is all. Of the two
-// terms of the incident wave one has its boundary behind the other face; it is of the wave that both faces reflect (P.
+// Outside of a convex wedge nothing is reflected twice: the only reflection is at the face on this side. One of the two
+// terms of the incident wave has its boundary behind the other face; it belongs to the wave that both faces reflect (P.
 // Holm, IEEE Trans. AP 48(8), 2000), so that nothing is left where an end lies on a face that reflects -1. along: a
 // face is grazed, and its reflections are counted elsewhere.
 inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_double2 spread) {
@@ -207,10 +208,10 @@ inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int o
   return wt_matrix_sum(wt_scaled(jump, wt_real(1.0 - bent)), -bent, both);
 }
 
-// In a corner an image of several reflections has two boundaries, one for either order of the faces, and away from them
-// their terms nearly cancel (just so at a right angle, and where nothing is bent): there its weight is that of the
-// other. near: 1 on the boundary, 0 far away. Between boundaries the mean of the waves from both ends makes the
-// coefficient reciprocal.
+// In a corner an image of several reflections has two boundaries, one for each order of the faces. Away from them their
+// terms nearly cancel (exactly at a right angle, and where nothing is bent); there the image with two reflections fewer
+// takes its place. near: 1 on the boundary, 0 far away. Between boundaries the mean of the waves from both ends makes
+// the coefficient reciprocal.
 inline wt_matrix wt_corner_jump(const wt_bend* bend, wt_boundary boundary, int odd, double near) {
   const wt_corner* corner = &bend->corner;
   const int image = boundary.image, images = image < 0 ? -image : image;
@@ -236,7 +237,7 @@ inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int alo
   return wt_corner_jump(bend, boundary, odd, 1.0 / (1.0 + away_from * away_from));
 }
 
-// Does a wave run along a face, so that it and its reflection are one?
+// Does a wave run along a face, so that it and its reflection are one wave?
 inline int wt_grazes(double azimuth, double exterior) {
   return azimuth < WT_GRAZING_RAD || exterior - azimuth < WT_GRAZING_RAD;
 }
@@ -247,8 +248,8 @@ inline wt_double2 wt_edge_amplitude(double distance_m, double n) {
   return WT_DOUBLE2(-size, size) * 0.70710678118654752440;
 }
 
-// The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. turn: of these directions. distance_m: s s' sin^2
-// beta0 / (s + s').
+// The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. turn: that of these directions. distance_m: s s'
+// sin^2 beta0 / (s + s').
 inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
                                const wt_turn* turn, const double* legs_m, double distance_m, double wavelength_m,
                                int transmits, const wt_known_waves* known) {

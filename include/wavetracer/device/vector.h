@@ -1,5 +1,5 @@
-// Vectors of doubles in C++ (GLM) and OpenCL C under one set of names, and what both compute with them.
-// + - * / and sqrt in a fixed order, so that host, CPUs and GPUs agree to the last bit. Assumes no contraction.
+// Vectors of doubles in C++ (GLM) and OpenCL C under one set of names, and functions of them for both.
+// They use + - * / and sqrt in a fixed order, so host, CPUs and GPUs agree to the last bit. They assume no contraction.
 #ifndef WAVETRACER_DEVICE_VECTOR_H
 #define WAVETRACER_DEVICE_VECTOR_H
 #include "wavetracer/device/types.h"

@@ -1,5 +1,6 @@
-// Volumes that waves pass, vegetation, and how much of a straight leg is inside of one.
-// In double, the same bits on every device. A mesh is closed and its triangles are counter-clockwise seen from outside.
+// Volumes of vegetation, which waves pass, and the length of a straight leg inside of one.
+// All is in double, with the same bits on every device. A mesh is closed and its triangles are counter-clockwise seen
+// from outside.
 #ifndef WAVETRACER_DEVICE_VOLUMES_H
 #define WAVETRACER_DEVICE_VOLUMES_H
 #include "wavetracer/device/field_records.h"
@@ -9,12 +10,12 @@
 namespace wavetracer::device {
 #endif
 
-// Shares of a leg.
+// A part of a leg; its ends are shares of the leg.
 typedef struct {
   double first, last;
 } wt_share;
 
-// Where p + t q is between -1 and 1.
+// The part of the share where p + t q is between -1 and 1.
 inline wt_share wt_between_planes(wt_share share, double p, double q) {
   if (q == 0.0) {
     if (fabs(p) > 1.0) share.last = share.first;
@@ -26,7 +27,8 @@ inline wt_share wt_between_planes(wt_share share, double p, double q) {
   return share;
 }
 
-// Where p + t q is in the unit ball. By the point that is nearest to its middle: far away nothing cancels.
+// The part of the share where p + t q is in the unit ball. It is computed from the point nearest to the middle: far
+// away nothing cancels.
 inline wt_share wt_in_ball(wt_share share, wt_double3 p, wt_double3 q) {
   const double a = wt_dot3(q, q), middle = a > 0.0 ? -wt_dot3(p, q) / a : 0.0;
   const wt_double3 nearest = p + q * middle;
@@ -44,15 +46,16 @@ inline wt_share wt_in_ball(wt_share share, wt_double3 p, wt_double3 q) {
 
 inline double wt_axis(wt_double3 v, wt_uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
-// On which side of the edge from a to b, seen along the leg, is the leg? Where it meets the edge, as if it stood a
-// little to the side, which is the same side for the triangle beyond the edge: one of the two is met, never both.
+// On which side of the edge from a to b, seen along the leg, is the leg? A leg that meets the edge is treated as if it
+// were a little to the side. The triangle beyond the edge sees it on the same side, so exactly one of the two is met.
 inline int wt_left_of(wt_double2 a, wt_double2 b, double area) {
   if (area != 0.0) return area > 0.0;
   if (a.y != b.y) return a.y > b.y;
   return a.x < b.x;
 }
 
-// Finds where the line of a leg passes a triangle of a closed mesh, in metres from its beginning, and which way.
+// The place where the line of a leg passes a triangle of a closed mesh, in metres from its beginning, and in which
+// direction.
 typedef struct {
   double at_m;
   int side;  // 1: it leaves the mesh there, -1: it enters, 0: it passes the triangle by
@@ -84,9 +87,9 @@ inline wt_crossing wt_crossing_at(const WT_GLOBAL double* triangle, wt_double3 f
   return out;
 }
 
-// Returns how much nearer than its end the leg leaves (or, negative, enters) a closed mesh by this triangle. Summed
-// over all triangles that is the length inside: what enters before the leg begins counts 0, what leaves after its end
-// all of it.
+// Returns by how much the leg leaves (or, negative, enters) a closed mesh at this triangle before its own end. The sum
+// over all triangles is the length inside: a passage after the end of the leg counts 0, one before its beginning the
+// whole leg.
 inline double wt_leaves_at(const WT_GLOBAL double* triangle, wt_double3 from, wt_double3 along, double length_m,
                            wt_uint axis) {
   const wt_crossing c = wt_crossing_at(triangle, from, along, axis);
@@ -109,11 +112,11 @@ inline double wt_length_in_mesh(const WT_GLOBAL double* triangles, wt_uint count
   return fmin(fmax(inside, 0.0), length_m);
 }
 
-// Lengths are summed as whole parts of a metre, of which it has 2^40: then no sum depends on the order of its terms.
+// Lengths are summed in whole units of 2^-40 m, so no sum depends on the order of its terms.
 inline wt_ulong wt_parts_of_length(double length_m) { return (wt_ulong)(length_m * 1099511627776.0 + 0.5); }
 inline double wt_length_of_parts(wt_ulong parts) { return (double)parts / 1099511627776.0; }
 
-// The share of a leg that is inside of a volume, of a mesh inside of its box. It is empty where it does not end behind
+// The share of a leg that is inside of a volume; for a mesh, inside of its box. It is empty where it does not end after
 // its beginning.
 inline wt_share wt_share_inside(const WT_GLOBAL wt_volume* volume, wt_double3 from, wt_double3 leg) {
   const wt_double3 size = wt_vector(volume->half_size), away = from - wt_vector(volume->centre);
@@ -136,7 +139,7 @@ inline wt_share wt_share_inside(const WT_GLOBAL wt_volume* volume, wt_double3 fr
   return share;
 }
 
-// Returns how much of the leg is inside of the volume, in metres. triangles: nine doubles each, of all meshes.
+// Returns how much of the leg is inside of the volume, in metres. triangles: nine doubles each, those of all meshes.
 inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_double3 from,
                                wt_double3 to) {
   const wt_double3 leg = to - from;
@@ -149,7 +152,7 @@ inline double wt_length_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBA
   return share.last > share.first ? (share.last - share.first) * length_m : 0.0;
 }
 
-// A leg, for questions about where on it volumes are.
+// A leg, for questions about the places on it where volumes are.
 typedef struct {
   wt_double3 from, leg, along;
   double length_m;
@@ -166,7 +169,7 @@ inline wt_leg wt_leg_between(wt_double3 from, wt_double3 to) {
   return out;
 }
 
-// From where to where, in metres, the leg is in the volume or in hollows of it.
+// The part of the leg, in metres, from its first point in the volume to its last one, hollows included.
 inline wt_share wt_reach_of(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg) {
   wt_share out = wt_share_inside(volume, leg.from, leg.leg);
   out.first *= leg.length_m;
@@ -183,7 +186,7 @@ inline wt_share wt_reach_of(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL d
   return out;
 }
 
-// The next place behind after_m where the leg enters or leaves the volume; last_m where there is none before it.
+// The next place after after_m where the leg enters or leaves the volume; last_m where there is none before it.
 inline double wt_next_border(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg,
                              double after_m, double last_m) {
   double out = last_m;
@@ -202,14 +205,14 @@ inline double wt_next_border(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL 
   return out;
 }
 
-// Is the leg inside of the volume at_m from its beginning? That is no border.
+// Is the leg inside of the volume at_m metres from its beginning? That place is no border.
 inline int wt_is_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL double* triangles, wt_leg leg, double at_m) {
   if (volume->shape != WT_VOLUME_MESH) {
     const wt_share share = wt_share_inside(volume, leg.from, leg.leg);
     return at_m > share.first * leg.length_m && at_m < share.last * leg.length_m;
   }
   const WT_GLOBAL double* own = triangles + 9 * (wt_ulong)volume->first_triangle;
-  int left = 0;  // how often the line leaves behind at_m, less how often it enters
+  int left = 0;  // number of times the line leaves after at_m, less how often it enters
   for (wt_uint i = 0; i < volume->triangle_count; ++i) {
     const wt_crossing c = wt_crossing_at(own + 9 * (wt_ulong)i, leg.from, leg.along, leg.axis);
     if (c.at_m > at_m) left += c.side;
@@ -217,8 +220,8 @@ inline int wt_is_inside(const WT_GLOBAL wt_volume* volume, const WT_GLOBAL doubl
   return left > 0;
 }
 
-// The volumes of a scene. Space that several of them hold is that of the first. earlier[k] to earlier[k + 1] - 1 are
-// where in this same list the numbers of those before volume k are whose boxes meet its own.
+// The volumes of a scene. Space inside of several of them belongs to the first one. earlier[k] to earlier[k + 1] - 1
+// are the places, in this same list, of the numbers of the volumes before k whose boxes meet its own.
 typedef struct {
   const WT_GLOBAL wt_volume* volumes;
   const WT_GLOBAL double* triangles;
@@ -227,7 +230,7 @@ typedef struct {
 
 inline const WT_GLOBAL wt_volume* wt_earlier(wt_volumes all, wt_uint i) { return all.volumes + all.earlier[i]; }
 
-// Does the leg go through anything earlier between two places?
+// Does the leg go through an earlier volume between two places?
 inline int wt_meets_earlier(wt_volumes all, wt_uint volume, wt_leg leg, wt_share own) {
   for (wt_uint i = all.earlier[volume]; i < all.earlier[volume + 1u]; ++i) {
     const wt_share reach = wt_reach_of(wt_earlier(all, i), all.triangles, leg);
