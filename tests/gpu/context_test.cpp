@@ -194,7 +194,8 @@ TEST_CASE_FIXTURE(Fixture, "wrong arguments are named") {
       message_of<std::logic_error>([&] { add(one, Stage::transfer, out, out, float4{}, 1.0); });
   CHECK(contains(not_a_value, "argument 1"));
   const gpu::Buffer<uint32_t>* const absent = nullptr;  // fits if there is memory
-  const std::string no_buffer = message_of<std::logic_error>([&] { add(one, Stage::transfer, out, absent, float4{}, 1.0); });
+  const std::string no_buffer =
+      message_of<std::logic_error>([&] { add(one, Stage::transfer, out, absent, float4{}, 1.0); });
   CHECK(contains(no_buffer, "argument 1"));
   const std::string unallocated =
       message_of<std::logic_error>([&] { add(one, Stage::transfer, gpu::Buffer<uint32_t>(), 1u, float4{}, 1.0); });
