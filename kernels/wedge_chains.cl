@@ -69,10 +69,12 @@ kernel void roof_chains(const global wt_wedge* wedges, const global uint* first,
     for (uint i = 0; i <= chain.count + 1; ++i) near.heights[i] = wt_point_of_chain(wedges, &chain, i, a.xyz, b.xyz).z;
     wt_find_near_edges(&map, &args.map, &curtain, &near);
   }
-  uint always = wt_edges_of_planes(wedges, &chain, &near);
-  if (chain.count + popcount(always) > args.most_edges) always = 0;  // a path with some of them is better than none
+  const uint planes = wt_edges_of_planes(wedges, &chain, &near);
+  // Edges of planes belong to all sets, or, if they are too many, to none: a path with some of them is better than
+  // none.
+  const uint always = chain.count + popcount(planes) > args.most_edges ? 0 : planes;
   for (uint set = 0; set < 1u << near.count; ++set)
-    if ((string == 0 ? (set & always) == always : set == always) &&
+    if ((string == 0 ? (set & planes) == always : set == always) &&
         wt_widen(&chain, &curtain, &near, set, args.most_edges, &wider) && wider.count > 0 &&
         wt_solve_set(wedges, &wider, turned, a.xyz, b.xyz) && wt_is_free_chain(wedges, &wider, a.xyz, b.xyz))
       wt_enter_chain(wedges, &wider, turned, transmitter, receiver, args.max_depth, args.capacity, solved, vertices,

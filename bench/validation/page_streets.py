@@ -195,7 +195,7 @@ Points of the figure are medians of ours in the ten cities, bars reach from the 
 
 {spread_table(result)}
 
-# ## Where they disagree, and why
+### Where they disagree, and why
 **In sight** the medians of ours less theirs are {span(medians(result, "los", 0))} for P.1411 and {span(medians(result, "los", 1))} for 3GPP, with less deviation than the models state. P.1411 is nearly free space here; ours has that and the power of every reflection off flat, bare ground and flat walls, with nothing in front of them. The models are fitted to streets where much that no map has grazes the direct wave, and, between low antennas, to the breakpoint (above).
 
 **Hidden**, with diffraction, they are {span(medians(result, "nlos", 0))} for P.1411, more at 28 GHz than at 5.9, with {span([row["loss"][0]["sigma_db"] / row["loss"][0]["stated_sigma_db"] for row in chosen(result, "with", ("nlos",))], ".1f", "")} times its sigma. Little of it is for want of depth or of second edges. In the first city, more of the physics changes hidden links from masts by:

@@ -30,6 +30,7 @@ static_assert(thin_wall_m >= touch_m);
 constexpr double inside_m = 1e-6;         // probes on the border between two triangles are in both
 constexpr double right_angle_rad = 3e-6;  // walls of 10 m whose corners are off by half a unit of float32 at 1 km
 constexpr double on_planes_m = 1e-7;      // an edge that is so near to the planes of its faces keeps its bits
+constexpr double most_rounded_m = 5e-4;   // faces whose planes are farther from an edge do not end there by rounding
 constexpr double least_sine2 = 0.1;       // planes at a smaller angle tell little of where their line is
 constexpr double most_lean = 0.1;         // sine: a plane that leans more does not hold a piece, however short that is
 
@@ -222,7 +223,7 @@ void put_on_planes(const Scene& scene, Wedge& wedge) {
   const dvec3 from = wedge.start, to = wedge.start + wedge.along * wedge.length_m;
   const dvec3 start = moved(from), end = moved(to);
   const double off_m = std::max(glm::distance(from, start), glm::distance(to, end));
-  if (off_m < on_planes_m || off_m > touch_m) return;
+  if (off_m < on_planes_m || off_m > most_rounded_m) return;
   wedge.start = start;
   wedge.along = glm::normalize(end - start);
   wedge.length_m = glm::distance(start, end);

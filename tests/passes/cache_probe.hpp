@@ -70,7 +70,7 @@ class CacheProbe {
     run("mixed_operations", static_cast<size_t>(operations / 16 + 1), region_count_, table.widths, operations, universe,
         slots, outcome_);
     const std::vector<uint32_t> o = outcome_.read();
-    return {o[0], o[1], o[2], o[3], slots.read(), context_.profile().at("probe")};
+    return {o[0], o[1], o[2], o[3], slots.read(), context_.profile().at("transfer")};
   }
 
   static constexpr uint32_t wrong_answer = WT_NONE - 1;
