@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_arrays measures the time that array elements add to a frame whose links have one antenna at each end: responses
 // at 1 and at 64 subcarriers, and beams. "ratio" is the time of the frame of one antenna over that of the frame with
 // arrays; "error" is the rms error of plane wavefronts against spherical ones, which are exact.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_cache compares the ray cache's tables with the thesis' as printed, in right answers per second; it also
 // measures mixed operations on them, the stages of a cached depth, and how evenly the hashes spread the rays of a
 // scene.

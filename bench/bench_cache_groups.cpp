@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_cache_groups measures grouping the rays of a depth by their key (cache.innerframe) through an election in a
 // table, and compares it with a lower bound of grouping by a sort: the sort of as many 64-bit keys with the rays'
 // numbers, alone. It also prints the time of tracing the rays that follow others, which grouping saves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_cached_frame compares frames of a moving world with and without ray caches: seconds, their stages, and losses.
 // The scene is Munich with moving cars; the transmitter stands at a crossing, or rides on a car. No frame reuses
 // sequences, except in the case that says so. "error" is the lost power against uncached frames of the same rays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_cases measures twenty cases that nothing was tuned on individually: the losses of launches in each, how well
 // "auto" keeps its promise, and whether the intervals of `missed` contain the truth. The truth is all paths that any
 // launch of a case found; "error" is the share of them that is lost.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_coverage measures receivers per second of coverage maps, with reflections to depth 3, and the longest stages.
 // The machine must be quiet. "error" is the share of receivers whose power is wrong by more than 0.1 dB, or that have
 // no path although ten times the rays find paths to them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_discovery measures how many rays are needed for a recall, on streets of munich: plain launches, rays = "auto",
 // and frames of a drive that keep the sequences of earlier ones. It needs the reference lists of munich; "error" is 1 -
 // path recall.

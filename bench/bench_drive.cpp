@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_drive measures frames of moving worlds: a hundred vehicles in munich that all talk to each other, a thousand in
 // a generated city, links between
 // fixed antennas among moving cars compared with Sionna RT, placing instances, and memory over a thousand frames. The

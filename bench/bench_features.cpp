@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_features measures the time that each kind of interaction adds to a frame of reflections, and checks that an
 // interaction which a scene does not need adds nothing. "ratio" is the time of reflections over the frame's; "error" is
 // the share that fewer rays or larger tiles miss.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_frame_kernels measures every kernel in the frames that need it, and compares it with the least time that its
 // bytes, its operations and its launches allow on this device. The machine must be quiet. Times are those of the
 // kernels by the device's clock. A time below that of its bytes means that they came from a cache, which the copy that

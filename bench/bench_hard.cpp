@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_hard prints the measurements of the hard suite (tests/hard), each with its tolerance.
 // It exits with 1 if a case fails, so that a table is never made of wrong figures unnoticed.
 #include <fmt/format.h>

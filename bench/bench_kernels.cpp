@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_kernels measures the throughput of every small kernel of the suite, and its share of the memory limit: the
 // bytes that an element must move, at the rate of the device's own copy in the same run. The machine must be quiet.
 // Times are those of the kernels by the device's clock; "error" counts wrong elements among the first 2^20.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_leaks aims rays at the edges and vertices of closed rooms from inside, through the trace pass. Each must hit: a
 // ray that leaves a closed surface without a hit passed between two triangles that share an edge or a vertex. The value
 // is the number of leaks, which must be 0; speed does not matter.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_live measures the latency from pose to channel, as a client of `wavetracer serve` sees it over a Unix socket,
 // and its stages. It needs POSIX and a quiet machine. "error" is the share of the power of cold frames of ten times the
 // rays, at the same poses, that the measured frames miss.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_order measures the gain of ordering rays, including the time of the sort: every method of order.method, at
 // launch and before each depth, launch shapes, and rays born in order, against random directions unordered. The machine
 // must be quiet, with device memory for all of them at once. "error" counts paths that differ from those of the

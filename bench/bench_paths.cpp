@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_paths measures seconds per frame from poses to fields, for one to a thousand links in munich, and compares with
 // Sionna RT. The machine must be quiet. "error" is the share of paths that are missed, among those that many more rays
 // find.

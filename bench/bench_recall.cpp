@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_recall measures the effect of more rays: seconds per frame against the share of known paths that are found, for
 // each way of choosing directions. It needs the reference lists of specular paths; "error" is 1 - recall.
 #include <fmt/format.h>

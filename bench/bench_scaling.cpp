@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_scaling measures frames per second of a drive on 1, 2, 4, ... devices of a host, or on CPUs with 1 process on 1
 // core and 2 processes on 2 cores. It only needs the program: city and traffic are generated.
 // It needs POSIX, util-linux's taskset for CPUs, and the program's lines "ready after" and "writing to" on stderr.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_sort measures our sorts of random keys and compares them with those of C++, TBB, Highway and Boost.Compute in
 // the same run, and with those of CUDA if --cub names a program for them. The machine must be quiet. The value is wall
 // time, including launches; "error" counts keys and values that are not where std::stable_sort puts them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_start measures the seconds from the start of `wavetracer run` to its first kernel, with empty caches and on
 // later starts. It needs POSIX, and the program's line "ready after" on standard error, printed when its kernels are
 // built and none has run.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench_trace measures nearest hits of seven segments of specular bounces, with our kernels in every shape that the
 // device has, and with Embree. The machine must be quiet. Ours and Embree get the same arrays of rays; "error" counts
 // rays whose hit distance differs from that of Embree's robust mode (or of our first shape, if Embree is missing) by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boost.Compute runs in its own context on the device of the same platform and name.
 // It uses a radix sort on GPUs, a merge sort on CPUs. Its programs compile in the first run, which is not counted.
 #include "boost_peer.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A peer of the sort benchmark on the OpenCL device itself: Boost.Compute's sort and sort_by_key.
 // Compiled only where CMake found Boost.
 #pragma once

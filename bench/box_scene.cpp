@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes boxes and height fields of triangles, and their OBJ file.
 // OBJ counts vertices from 1.
 #include "box_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small scenes made of boxes and height fields, written as Wavefront OBJ.
 // The same calls write the same bytes on every machine: coordinates are printed to a micrometre.
 #pragma once

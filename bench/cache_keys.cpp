@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts keys per bucket, and follows the concurrent table's search for a place, one key after the other.
 #include "cache_keys.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes on the host how evenly the hashes of the ray cache spread the rays of a real scene over buckets.
 // Rays must be labelled, see cache_rays.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The host side of probe_cache_rate.cl and probe_thesis_cache.cl of tests/kernels.
 // Times are those of the kernels by the device's clock, medians; the first run of each is not counted.
 #include "cache_rates.hpp"

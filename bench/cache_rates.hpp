@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rates of one table of the ray cache, and of the thesis' as printed: the part of bench_cache that runs on the device.
 // A table is filled to a load of 0.8 with the keys 0, 1, 2, ... before it is asked.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our own kernels trace, the host reflects.
 // In Munich the transmitter stands in a street, at a pedestrian's height.
 #include "cache_rays.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays of a real scene, segment by segment, with the values that the ray cache's key uses.
 // There is one transmitter, and only specular reflection.
 #pragma once

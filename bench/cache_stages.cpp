@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run goes through the segments as the first frame of a drive does, and asks again as the second one does. The first
 // run is not counted.
 #include "cache_stages.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the stages of a cached depth: each pass over the rays of a scene, by itself, compared with tracing the same
 // rays. The machine must be quiet; times are the kernels' by the device's clock, medians.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two simulations solve frames alternately, so that other load of the machine affects both.
 #include "continuous.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures steps of a millisecond in which only some frames launch rays, compared with frames that all launch rays.
 // The machine must be quiet, and sequences must be reused.
 #pragma once

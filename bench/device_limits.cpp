@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/kernels/probe_arithmetic.cl measures arithmetic: chains of fused multiplies and adds.
 // GPUs need one lane per work-item, CPUs vectors: the better of both counts.
 #include "device_limits.hpp"

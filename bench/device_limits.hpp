@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the limits of a device: no kernel is faster than its bytes, operations and launches allow. The machine must
 // be quiet.
 #pragma once

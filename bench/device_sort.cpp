@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs and checks our sorts.
 // The word that travels with key i is ~i, so that a sort that made up its own indices would be detected.
 #include "device_sort.hpp"

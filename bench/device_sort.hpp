@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs our sorts for the sort benchmark: over one array of keys, restored on the device before each run, and checked on
 // the host. Only the lowest `bits` bits of keys differ.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stages of the device come from its events; the rest of a frame is the host, transfers and waiting. The 95th
 // percentile is the smallest value that at most 5 % of the frames exceed.
 #include "drive.hpp"

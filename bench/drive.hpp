@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a drive frame by frame, under several settings of rays: seconds per frame, and the share found of the paths of
 // frames with many more rays. The machine must be quiet.
 #pragma once

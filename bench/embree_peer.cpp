@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Embree as the peer: it builds the scene, and traces single rays and packets.
 // On x86 it sets FTZ and DAZ, which Embree's manual recommends for speed.
 #include "embree_peer.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The peer of the trace benchmark: nearest hits by Embree 3 on all cores, in the settings that a user would tune it to.
 // Rays must be finite with unit directions; it is compiled only if CMake found Embree.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas stand around a street crossing; in the drive, vehicles pass them.
 #include "frame_worlds.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds that together launch every kernel of a frame: munich, or the generated city if munich is missing.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures wall time around Simulation::run_frame, so that host stages count as well as kernels.
 // The clock is steady; the median of an even number of frames is the mean of the two in the middle.
 #include "frames.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures warm frames of a simulation: the first one separately, then the median of the rest by wall time.
 // Nothing else may run on the device.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The output of a benchmark: one JSON object per line on standard output, with the same keys in every benchmark. All
 // other output goes to standard error.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Costs are lower bounds. A search in a tree of n triangles visits a node of eight boxes per level and one triangle; a
 // reflection costs its image and its point. If a count is unknown, the smallest possible one is used.
 #include "kernel_costs.hpp"

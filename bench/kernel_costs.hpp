@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The minimal work of each kernel of a frame, per element: the bytes that it must move and the operations that it must
 // run. With the limits of the device, that gives a lower bound of its time.
 // Costs are counted by reading the kernels; caches, divergence and searches in trees are not included.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merges lists that are sorted by link and delay, as Paths promises.
 #include "known_paths.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All paths of a frame that any of several launches has found: the best available approximation of the truth.
 // The launches must be of one world, by one program: paths are the same if path_recall says so.
 #pragma once

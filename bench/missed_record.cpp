@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts over cases.
 // The factor of three is the calibration that docs/method.md promises for the power.
 #include "missed_record.hpp"

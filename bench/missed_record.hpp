@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts over many cases how often a launch kept its promise, and how often `missed` contained the truth.
 // Shares of zero cases are 1.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A place is open if a line straight down hits nothing but the ground.
 // Kerbs, cars and uneven ground below one metre count as ground; roofs and decks are higher.
 #include "open_places.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws places for antennas at random: in the open, or within a box.
 // The same seed gives the same places everywhere: the generator is that of the standard, and distributions are not
 // used.

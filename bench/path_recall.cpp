@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merges two lists sorted by link and delay: only paths within the tolerance of each other are compared. Powers must
 // agree within 1e-6 of themselves: the same path solved from its other end differs in the last bits alone.
 #include "path_recall.hpp"

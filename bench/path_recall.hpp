@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts the paths of one frame that another frame has, where both were solved by us in the same world.
 // Two paths are the same if link and delay (to 1e-12 s) agree, and also surfaces and instances, or else the power.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places are drawn by street_points, so that they are the same on every machine.
 // The nearest receiver comes first, so that a single link has paths.
 #include "places.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes with antennas in their streets, the same for every benchmark that solves whole frames.
 // Streets are at z = 0 of the file's coordinates.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The three plots of RESULTS.md, of the newest rows of bench/results. A curve whose rows are gone is left out."""
 import re
 import shutil

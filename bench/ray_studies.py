@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of ray orders, sorts and ray caches for docs/rays_studied.md, of the newest rows; see speed.py."""
 from rows import of_device
 from speed import CPU, H200, digits, markdown, share, sources

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 # Makes all tables of measurements of bench/results/*.jsonl: bench/RESULTS.md, a page for each benchmark beside its
 # results, docs/thesis_verdicts.md, three plots, and the blocks of README.md and docs/ that are marked as generated.
 # Assumes the keys of json_line.hpp. The plots take gnuplot.

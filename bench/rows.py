@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows of bench/results/*.jsonl: one JSON object a line, with the keys of json_line.hpp.
 
 The tree keeps the newest row of each measurement and device; `newest` says which those are.

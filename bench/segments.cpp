@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes specular reflection in double, and converts back to float32.
 // A hit's primitive must be the triangle's index in the array given to next_segment.
 #include "segments.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rays of the trace benchmark: directions from one transmitter, then specular bounces of the rays that hit
 // something. Coordinates are float32 around the scene's origin; every tracer gets the same arrays.
 #pragma once

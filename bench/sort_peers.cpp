@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wraps host sorts in one closure each, and reads a pipe from an external program.
 // Closures share one array to sort in, so they must not run at the same time.
 #include "sort_peers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The peers of the sort benchmark: the sorts of C++ and its libraries on the host, and a program for CUDA devices.
 // Every peer sorts the same keys as ours, restored before each run; only the sort is timed.
 #pragma once

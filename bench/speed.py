@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of speed for README.md, docs/speed.md and RESULTS.md, of the newest row of each measurement and device.
 
 This file has the names of the rows; each number, with its error, command and date, comes from bench/results. So one measurement

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws points in a disc and keeps those with only sky above, by testing every triangle: a few million tests in all.
 // The generator is that of the standard, whose numbers are the same with every library; distributions are not used.
 #include "street.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds places for antennas in the streets of a city: points with nothing but sky above them.
 // Streets are at z = 0 of the file's coordinates, as in munich and in the generated city.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All parts of the scene above the kerb are obstacles, at any height, so that all tests are plane geometry: rectangles
 // on the ground against the footprints of triangles, by the separating axis theorem.
 #include "street_traffic.hpp"

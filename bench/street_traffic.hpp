@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes traffic for scenes without a road map: vehicles that drive straight along free strips of the ground.
 // Streets are at about z = 0 of the file's coordinates, as in munich and in the generated city.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The twenty cases: each has a scene, a depth, and the places of its ends.
 // Heights are those of cars, masts, drones and rooms; receivers stand around the first transmitter, as in real links.
 #include "study_cases.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Twenty scenes with antennas on which launches are measured: cities of many shapes, quarters of munich, street
 // canyons, rooms, a car park, a bridge, a hill of houses. The program was not tuned on any single one of them.
 #pragma once

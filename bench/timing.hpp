@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that the kernel benchmarks share: medians, wall time, and the bandwidth of the device's own copy. The
 // machine must be quiet.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cars are scattered over a square kilometre, at other places in each run; times are medians of wall time, without
 // profiling. The scene below them is a generated block: placing does not depend on it.
 #include "top_level_times.hpp"

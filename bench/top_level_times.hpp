@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures placing instances anew in every frame, with the tree over them built on the host and on the device. The
 // machine must be quiet.
 #pragma once

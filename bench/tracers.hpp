@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tracers that the trace benchmark compares, behind one interface: our kernels in each shape, and Embree if it was
 // found. Rays must outlive the runs over them.
 #pragma once

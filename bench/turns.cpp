@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures with a steady clock around Simulation::run_frame, as frames.cpp does.
 // Quartiles are interpolated between ranks.
 #include "turns.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures frames of several configurations alternately, so that other load of the machine affects all of them. All
 // must fit on the device at once.
 #pragma once

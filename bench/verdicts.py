@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Verdicts on the claims of A. Zhdanov's thesis on each device.
 
 Usage: verdicts.py THESIS_MD...; each file is the thesis.md that `wavetracer bench thesis` has written. Its verdicts replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes build_info.cpp for `wavetracer --version`, only if its text has changed.
 # Included, it adds the file to the program; run with cmake -P at every build, it asks git for the revision.
 if(NOT CMAKE_SCRIPT_MODE_FILE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Compiles through ccache if it is installed. Clones and presets share results: paths below the project are hashed as
 # relative ones, and neither the compiler's working folder nor the names of unity files count. CCACHE_DISABLE=1 in the
 # environment builds without it.

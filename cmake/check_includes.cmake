@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Fails if a source includes a header of a folder of host/ that it must not use.
 # cmake -DROOT=the project -DSOURCES="files" -DALLOWED="folders" -DADVICE=what to do -DSTAMP=file -P
 # check_includes.cmake

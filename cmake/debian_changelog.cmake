@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, a changelog in Debian's form, from INPUT in the form of Keep a Changelog. Run with cmake -P.
 # Headings are `## [VERSION] - YYYY-MM-DD` and items begin with `- `; an unreleased heading is skipped.
 file(STRINGS ${INPUT} lines ENCODING UTF-8)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Man pages and completions: the built program writes them from its own options and field table, and they are installed.
 # docs/configuration.md and docs/materials.md are kept with the sources: the target `reference` writes them, and a test
 # fails if one is out of date.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_bytes(NAMES FILES): sets `arrays`, a C++ array of the bytes of each file, and `rows`, {name, {bytes, size}} of
 # each. Bytes are written as numbers: string literals have length limits that differ between compilers.
 function(embed_bytes names files)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, a C++ source with FUNCTION(), the table of the texts of FILES (separated by |, relative to ROOT) for
 # host/gpu/source.hpp.
 # Run with cmake -P.

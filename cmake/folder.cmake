@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # wavetracer_check_includes(TARGET SOURCES file... ALLOWED folder... ADVICE text): makes the build of TARGET fail if a
 # source includes a header of a folder of host/ that is not allowed.
 function(wavetracer_check_includes target)

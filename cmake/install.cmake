@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the program, the shared library, its headers, a package for find_package(wavetracer) and one for pkg-config.
 # documentation.cmake installs man pages and completions. All of it may be moved to another prefix.
 include(CMakePackageConfigHelpers)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # `cpack -G DEB` in the build folder: the package wavetracer for Debian 12, with what its libraries need. It needs
 # dpkg-dev (dpkg-shlibdeps) and gzip. tests/install/clean_system.sh installs it in a separate system. Debian requires
 # the name and address of a maintainer: those that Debian's own tools use, else root of the machine.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Packs a complete build folder as a wheel: pip's build copies from it, and compiles nothing.
 add_custom_target(wavetracer)
 add_custom_target(wavetracer_library)

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # A drive as a job array of Slurm: each task computes one part, and a second job merges them when all have ended well.
 #   job=$(sbatch --parsable --array=0-15 configs/slurm.sh drive.toml out/drive)
 #   sbatch --dependency=afterok:$job configs/slurm.sh merge out/drive

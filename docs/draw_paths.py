@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws a scene from above with the paths of a paths.h5, coloured by their gain, as SVG or PNG.
 
     docs/draw_paths.py SCENE.xml out/paths.h5 -o picture.png

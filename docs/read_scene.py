@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the background of draw_paths.py: the triangles of a scene, and its edges that diffract.
 Scenes are Mitsuba XML with PLY meshes of triangles, ascii or binary little endian, and z up."""
 import math

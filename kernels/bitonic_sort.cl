@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bitonic_sort: a stable sort of keys with a payload by comparators alone (K. Batcher, "Sorting networks and their
 // applications", AFIPS 1968). It sorts blocks in local memory; above them it merges one step per launch, then blocks
 // again.

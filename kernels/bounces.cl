@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bounces: follows every ray of a queue from its launch to its last hit, in one work-item: the nearest hit, its prefix
 // into the trie, the reflection, and again. It replaces trace, scan and interact, without a queue, where nothing else
 // happens between two depths. Consumes rays; counters->ended[n] gets the rays that ended after n hits.

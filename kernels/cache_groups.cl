@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_groups: the rays of one key that the ray cache did not answer are a group. The first of them in the queue is
 // traced; the others take its hit. Consumes a labelled queue and missed[i], which is i where ray i is to be traced.
 //   cache_keys    the key of each ray as words that lie together; places[i] says whether it has one

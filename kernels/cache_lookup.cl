@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_lookup: rays of a labelled queue ask the cache. Consumes rays; produces hits[i] where the cache answers.
 // missed[i] is i where ray i is to be traced, else WT_NONE. A work-item takes WT_RAYS_PER_ITEM rays (1 on GPUs).
 //   WT_CACHE_OWN_POINT   an answer names the surface, and the ray meets its plane itself; else the ray is replaced by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_purge: removes entries of every region that were neither written nor used since `keep_from`, and those that
 // were withdrawn.
 // Work-item (x, r) takes WT_ENTRIES_PER_ITEM entries of region r; no other kernel uses the table meanwhile.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_store: stores rays that were traced because the cache had no answer. Consumes missed[k], its hit, and
 // indices[k], the number of the ray in the whole queue; produces that ray's hit, and an entry. A work-item takes one
 // missed ray.

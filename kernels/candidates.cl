@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // candidates: tests every sequence with every receiver, and rejects pairs in float32 where the last reflection surely
 // misses its surface, then in double where a reflection misses the box of its surface. Roots (lines of sight) are
 // always candidates. It is conservative: each bound covers the rounding of everything it is computed from. Only

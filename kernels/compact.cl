@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compact: lists, in order, the indices of the words planes[first .. first + count - 1] that are not WT_NONE. Consumes
 // the counts of count_blocks after they are scanned. Words come in blocks of WT_BLOCK. With WT_BLOCKS_PER_ITEM (CPUs) a
 // work-item takes that many blocks in turn, without it a work-group takes one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // crowns: paths transmitter - cell - receiver, a row for every link and every cell of the vegetation that scatters.
 // Legs are not tested.
 #include "wavetracer/device/arguments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // distinct: the rows of a frame's paths, each path once, in the order of links and delays. Consumes visible paths and,
 // where links have one the other way, adds each path's reversed twin. A row is only a number
 // (wavetracer/device/path_rows.h); nothing is copied. Keys with a coarse length bring the rows of a link together; then

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fields: the columns of the paths of a frame, from rows in their order (distinct.cl): delay, angles, coefficients and
 // Doppler shift of each (wavetracer/device/path_field.h), and its vertices.
 #include "wavetracer/device/arguments.h"

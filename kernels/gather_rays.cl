@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // gather_rays: copies rays of a queue to another: slot i gets ray order[i]. order is a permutation, or lists some of
 // the rays.
 // Both queues have the same capacity. A work-item copies WT_RAYS_PER_ITEM rays, plane by plane (1 on GPUs).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // generate_rays: writes the launch rays of one transmitter, for a range of its launch indices, into a range of a ray
 // queue. A ray's number in the launch gives its quarter; `number` is that of the first ray.
 // WT_PLACES names the map's places on the cylinder (wt_place_hilbert, _fibonacci, _random); WT_BY_TABLE is 1 where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // interact: every ray that hit something enters its prefix into the trie and is reflected; the reflected rays are
 // compacted, in order. Consumes rays, hits and the scanned hits of the blocks; produces the next queue. last: no ray is
 // reflected. With WT_THROUGH every such ray also goes on straight, in the same place of the queue `through`.

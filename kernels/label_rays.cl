@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // label_rays: fills the planes of launched rays that say where they come from: the sample, the primitive that was left,
 // the transmitter, and the cache entry before. Samples are first_sample + k, or first_sample + order[k] where rays were
 // launched in an order (WT_ORDERED), or they stay as they are (WT_KEEP_SAMPLES).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // occlusion: is a leg of a solved path obstructed? A work-item takes one leg; legs from args.first_leg on are ordered
 // by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs have a
 // launch of their own: paths over one tile follow each other and share their first leg, which is tested once, and later

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // order_keys: the sort key of every ray, from its launch index before rays exist, or from the queue before any depth.
 // WT_LAUNCH_KEY and WT_QUEUE_KEY name the keys below, WT_PLACES and WT_BY_TABLE the map of launch_keys (see
 // generate_rays). Keys are padded, so the last item may write past the count.

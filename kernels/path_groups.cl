@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // path_groups: the geometrical waves that each path of a frame belongs to, and its share in each of them
 // (wavetracer/device/path_groups.h), from rows in their order (distinct.cl). The host numbers them link by link.
 #include "wavetracer/device/arguments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // place: computes the surfaces of all instances in the scene's coordinates, for the poses of a frame: exact in double,
 // and in float32 for discovery. Absent instances get surfaces that no point lies on.
 #include "lib/images.clh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radix_sort: a stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
 // count, offsets, move; settle follows the last. No work-group waits for another, so no forward progress is assumed.
 // Build options besides those of lib/radix.clh: WT_ITEMS in a work-group (at least WT_DIGITS), WT_OFFSET_ITEMS in one

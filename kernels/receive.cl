@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // receive: finds rays that pass within a radius of receivers that their transmitter has links to. A segment ends where
 // the ray hits something, or never. The queue is labelled; a work-item takes one ray, and 16 receivers at once. With
 // WT_ANSWERED a ray cache answered some rays, and then it also says which receivers they pass.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // refine: finds the samples of a launch that are worth four more each. A sample is a cell of the sphere of directions,
 // and its end is the sequence that its ray met. Where few samples of the launch have that end, others like it are
 // missed.

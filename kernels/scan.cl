@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scan: exclusive prefix sums of counts in place, and their total: reduce, then scan (D. Merrill, M. Garland, "Single-
 // pass parallel prefix scan with decoupled look-back", NVIDIA 2016, section 2), which needs no progress between groups.
 // Each group has one chunk, a multiple of its tile of 4 * WT_SCAN_ITEMS counts. A single chunk needs no sums.

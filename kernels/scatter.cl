@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds the
 // receivers that each surface may serve; scatter writes a row for each of those and each tile. Legs are not tested.
 #include "lib/count.clh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sequences: the trie as a list (collect), its neighbours (commute), and a trie filled from another one, larger or
 // without old sequences (regrow, follow). A node is its slot, so a parent must be in the new table before its children:
 // regrow runs once for each depth.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solve: the image method in double for every candidate; it keeps those whose points lie inside their surfaces, on the
 // lit sides. Legs are not tested here (occlusion does that), except with WT_BLOCKERS, against the triangle that hid the
 // path before: such paths are counted as hidden, and not kept.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // top_level: the top-level tree of a frame (wavetracer/device/moving.h), over instances in the order of keys that are
 // sorted between the first kernel and the others. It is numbered as a heap: below node k are 2 k + 1 and 2 k + 2, so
 // every level is a range of numbers, and so are the leaves. A box is two float4, the lower and the upper corner.

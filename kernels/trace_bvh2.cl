@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
 // compaction). This is the form for GPUs: one ray per work-item through a BVH2, found by wt_launch_index. With
 // WT_COUNT_BLOCKS a work-group is a block and counts its hits. With WT_INSTANCES, `moving` is traced too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace_moving: tests hits of the static scene against the instances: a hit of an instance that comes before a ray's
 // hit replaces it. After trace of the static scene alone, the result is that of trace with all. A work-item takes
 // WT_RAYS_PER_ITEM rays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
 // compaction). This form is for CPUs and ordered rays: one block of 16 rays per work-item, found by wt_launch_index,
 // through a BVH2. With WT_INSTANCES, `moving` is traced too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // transmissions: enters the surfaces that the legs of a solved path pass through into its row, as interactions. Waves
 // go straight on, so a path with transmissions is a path without them whose legs are obstructed; lib/legs.clh says by
 // what. Consumes solved paths; rewrites their rows, or sets wt_solved::blocked where a path may not pass that many.

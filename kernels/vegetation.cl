@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // vegetation: computes the metres of each visible path inside of each kind of vegetation, over all of its legs. Where
 // volumes overlap, the space belongs to the first. Consumes visible paths and the tree over the volumes; writes
 // wt_vegetation_arguments::kinds lengths per path.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visible: copies the solved paths without an obstructed leg side by side, so that the host reads no others. They are
 // in no particular order; counters->visible is their number.
 #include "lib/count.clh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // waypoints: the places where the segments of a queue begin and end, one row for each sample, and the rows of chosen
 // samples side by side. Rows have `stride` waypoints; the queue is labelled.
 #include "lib/hit.clh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_chains: paths over several edges, by the strings of each link. For a link only a few chains of edges are tried,
 // those that strings between its ends touch when they are pulled tight, and these are solved at once, in double: no
 // pairs of edges are listed, and no ray is needed. Produces rows as wedge_solve does; legs are not tested here.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_join: candidates of paths over one wedge, from prefixes of both ends that see it.
 // A pair is rejected in float32 where the point of diffraction surely lies beyond the edge's ends, or a reflection
 // beside its surface. It is conservative: the margin covers the rounding of what it is computed from.

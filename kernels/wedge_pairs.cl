@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
 // every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. Results
 // about two static wedges are kept as long as the scene is.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_prefixes: lists every wedge that some prefix sees. A node of the trie is a prefix and the surface that its rays
 // met next, so it sees the wedges of that surface; a wedge between two such surfaces is listed once. Images are exact,
 // and this pass decides whether a prefix lies in the free sector of a wedge. A wedge that the last mirror surely does

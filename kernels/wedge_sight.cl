@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_sight: finds the pieces of its edge that a prefix may see. Rays only say that a prefix sees a face. This pass
 // decides, without losing any path, whether the edge can be seen past the last mirror and past other surfaces.
 #include "lib/sight.clh"

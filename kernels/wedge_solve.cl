@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_solve: diffracted paths in double. It computes the points on the edges first, from the images of both ends,
 // then the reflections between each end and its edge. It keeps paths whose points are inside edges and surfaces, in the
 // free sector of each wedge. Legs are not tested here (occlusion does that).

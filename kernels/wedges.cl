@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedges: the wedges of all instances in the scene's coordinates, for the poses of a frame. Those of absent instances
 // get a length that no place is within.
 #include "wavetracer/device/records.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the wheel of wavetracer: the package, its program and library, and all libraries that these need.
 
 usage: make_wheel.py FOLDER [--build BUILD_FOLDER]

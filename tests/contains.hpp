@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checks of texts that most tests use.
 #pragma once
 #include <string>

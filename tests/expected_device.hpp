@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver that tests must run on, if the environment names one.
 #pragma once
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paths come from CMake.
 #include "folders.hpp"
 

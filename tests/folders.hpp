@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders in which a test finds its inputs, its outputs and the program. They are functions and not macros: a path of
 // the machine in a source would be another source to ccache in every clone.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A folder for files of a test or a benchmark that goes away with it.
 // Below the system's temporary folder, under a name that nobody else has.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sorts of CUDA's own libraries, CUB and Thrust, over the shapes that bench_sort asks for; one JSON object a line.
 // Build: nvcc -O3 -arch=native -o cub_sort bench/peers/cub_sort.cu; then bench_sort --cub ./cub_sort
 //

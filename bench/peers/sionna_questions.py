@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Answers questions of users of Sionna RT with both programs on one scene, and prints the numbers of
 docs/from-sionna.md, a line each.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Cells a second of Sionna RT's RadioMapSolver on the map of bench_coverage; one JSON line for each number of rays on standard output.
 
     bench_coverage --write-grid grid.json

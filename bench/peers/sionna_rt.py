@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 # Solves the links of bench_paths by Sionna RT and prints the same JSON lines, for `bench_paths --peer`.
 # It needs `pip install sionna-rt`, and on CPUs LLVM: 15 is too old, libllvm19 works (DRJIT_LIBLLVM_PATH names its .so).
 """Usage: bench_paths --write-links links.json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compares links with the models: medians and spreads of each class of links, and by distance."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Gains, delays and spreads of many links from their paths, in arrays with one entry per pair of a transmitter and a
 receiver."""
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Basic transmission losses within street canyons: Recommendation ITU-R P.1411-12, section 4.1, after the transcription in
 crc-covlib (crc_covlib.helper.itur_p1411). Frequencies in GHz, lengths in metres, losses in dB."""
 import numpy as np

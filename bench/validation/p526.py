@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Losses by diffraction over knife edges: Recommendation ITU-R P.526-15, and what it approximates.
 
 Lengths in metres, losses in dB relative to free space. Edges are infinite, thin and across the path.

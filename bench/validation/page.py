@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page docs/validation.md of the results: every number in it is one of bench/validation/results/*.json, or made of them."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Helpers that write and draw the parts of docs/validation.md."""
 import subprocess
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The part of docs/validation.md about links in streets."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Two laws that no ray tracer may break: energy in a closed room, and reciprocity.
 
 Energy: a transmitter of 1 W in an empty room of one material. All of it arrives at the walls (order 0); what they do not

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Screens in free space: what our uniform theory of diffraction says of one edge and of two, beside ITU-R P.526.
 
 Screens of metal, 6 km wide, hang down from z = 0 at one or two places along x. Ends at or below z = 0 move in height. Only

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Links in streets: ten generated cities and, where its files are, the centre of Munich.
 
 "mast" links go from 10 m down to 1.5 m, as in UMi of TR 38.901; "vehicle" links are between antennas at 1.6 m, as in

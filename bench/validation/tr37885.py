@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """3GPP TR 37.885 V15, links between vehicles in a city: path loss (Table 6.2.1-1), what a vehicle in between adds (6.2.1),
 delay and angular spreads (Table 6.2.3-1), as ns-3 has them (three-gpp-v2v-propagation-loss-model,
 three-gpp-channel-model). GHz, metres, dB; spreads as (mean, sigma) of log10 of seconds or degrees."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """3GPP TR 38.901 V17, scenario UMi - street canyon: path loss (Table 7.4.1-1), delay and angular spreads (Table 7.5-6), as
 ns-3 has them (three-gpp-propagation-loss-model, three-gpp-channel-model). Frequencies in GHz, metres, dB; spreads as
 (mean, sigma) of log10 of seconds or degrees."""

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes docs/validation.md: solves the scenes of each part, keeps the numbers in bench/validation/results/PART.json, draws
 the figures, and writes the page. `./dev validation` builds what it needs and starts it.
 

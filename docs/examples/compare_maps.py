@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Compares the path gains of runs with those of a reference, link by link: the error of a coverage map with fewer rays.
 
 usage: compare_maps.py REFERENCE RUN...

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """A coverage map of a city of 2 km x 2 km with diffraction, in cells of 5 m: its seconds, and its error.
 
     coverage_2km.py                          # 160,000 cells, on the default device

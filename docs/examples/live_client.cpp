@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A client of `wavetracer serve` in C++: two cars meet at a crossing, and the channel from one to the other is printed
 // at ten instants of every step. It is one file, to be copied into a simulator; it needs nlohmann's json (Debian:
 // nlohmann-json3-dev) and C++17.

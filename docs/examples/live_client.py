@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """A client of `wavetracer serve` in Python: two cars meet at a crossing, and their channel is printed frame by frame.
 
     wavetracer serve -c configs/live.toml &

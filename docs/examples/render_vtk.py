@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws a frame of `wavetracer convert --to vtk` as PNG, with VTK alone, as ParaView shows it when run.pvd is opened.
 
     docs/examples/render_vtk.py FOLDER -o picture.png --frame 0

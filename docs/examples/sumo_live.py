@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Follows a running SUMO by TraCI, sends its vehicles to `wavetracer serve`, and prints or writes their channels.
 
     wavetracer serve -c configs/sumo/live.toml &

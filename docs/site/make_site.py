@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the site of the documents: make_site.py MKDOCS ROOT. MKDOCS is the program, ROOT the source tree.
 
 Pages, and the files that they link to, are copied to build/site/pages in the layout of the tree, so that links stay as

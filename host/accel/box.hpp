@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An axis-aligned box in float32, and the few operations that building needs.
 // Bounds are finite; an empty box is inverted (lower > upper), and growing and intersecting handle that.
 #pragma once

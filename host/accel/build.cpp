@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The recursion of the builder: leaf, object split, spatial split or halving, one task per subtree; then flattening.
 // Each node owns its references, so subtrees are independent and the tree is the same for any number of threads.
 #include "accel/build.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds binary bounding volume hierarchies by the binned surface area heuristic (SAH), with optional spatial splits.
 // Triangles must be finite in float32. It runs on all cores, and the result does not depend on their number.
 #pragma once

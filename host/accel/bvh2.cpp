@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The BVH2 layout: nodes with the boxes of both children, and triangles in three rotations of their axes. Leaves of the
 // tree must hold at most 15 triangles.
 #include <tbb/parallel_for.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fills a node of a BVH2, for the builders of trees over triangles and over instances.
 #pragma once
 #include "accel/box.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The BVH8 layout: the optimal collapse of a binary tree by dynamic programming, and blocks of four triangles. The tree
 // must be built down to small leaves; a binary leaf is never divided.
 #include <array>

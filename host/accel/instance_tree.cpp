@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // It uses median splits: surface areas matter little if all boxes are vehicles.
 // The layout is that of a BVH2, wavetracer/device/bvh.h.
 #include "accel/instance_tree.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tree of a frame over the boxes of its instances: halved by count along the longest axis, one instance per leaf.
 // It is balanced, so no deeper than log2 of their number, and is built anew every frame on one core.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layouts that kernels traverse, made from a binary tree: BVH2 for GPUs and packets, BVH8 for CPUs.
 // wavetracer/device/bvh.h defines their memory; node 0 is always an inner node, even in an empty scene.
 #pragma once

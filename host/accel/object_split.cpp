@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits objects by binning (I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, IRT 2007), and
 // halves. All sums are minima, maxima and integers, so results do not depend on how threads share the work.
 #include <tbb/blocked_range.h>

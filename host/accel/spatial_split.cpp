@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits space (Stich, Friedrich, Dietrich, HPG 2009): a plane cuts the node's box, and triangles that cross it are cut
 // too. Boxes of pieces are computed in double and rounded outwards, so that the pieces' boxes always cover the
 // triangle.

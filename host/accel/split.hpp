@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Divides a node's references: finds the best object split and the best spatial split, and carries them out. It is
 // internal to the builder; boxes of references must lie inside the node's box.
 #pragma once

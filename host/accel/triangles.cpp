@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts the scene's doubles to float32 triangles.
 // The loader must have dropped zero-area triangles and checked indices.
 #include "accel/triangles.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles in the form for acceleration structures: float32, recentred, with the indices that a hit reports.
 // accel_triangles refuses coordinates that float32 cannot hold.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes sentences from rows.
 // The axes rays, auto and reuse share their reference.
 #include "accuracy/advice.hpp"

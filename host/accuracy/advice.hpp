@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Explains the rows of a study: which keys to set, and which effects may be left out.
 #pragma once
 #include <string>

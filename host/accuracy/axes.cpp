@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists the axes, cheapest setting first.
 // Keys are those of the field table (host/config/field_table.cpp), which checks them when a setting is read.
 #include "accuracy/axes.hpp"

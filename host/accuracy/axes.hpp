@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The axes of `wavetracer accuracy`, which are varied one at a time from the user's own settings.
 // A setting is a list of --set options, so every row can be repeated with `wavetracer run`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the files of a study: accuracy.csv, the plot with its script, and a page.
 #pragma once
 #include <filesystem>

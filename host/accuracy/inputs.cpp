@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One-at-a-time effects use the samples of all inputs, with the others at their nominal values: N samples for each
 // input. Sobol's first-order indices of so few samples would have errors of 0.1 to 0.2; these variances have a relative
 // error of sqrt(2 / N).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes the effect of input errors on the results: positions of antennas and vehicles, heights, and materials of
 // walls are varied together and one after the other, and every link gets an interval of gain and delay spread.
 // Sequences of surfaces are kept from sample to sample (trace.reuse): only some samples launch rays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the rows of a study of inputs as CSV, as lines for a terminal, and as a figure.
 // A number is empty if a link has none.
 #include <fmt/format.h>

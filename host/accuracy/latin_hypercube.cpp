@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // std::shuffle and the distributions of the standard library may differ between libraries; these functions do not.
 #include "accuracy/latin_hypercube.hpp"
 #include <cmath>

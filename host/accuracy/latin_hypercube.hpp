@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random inputs that fill their ranges evenly: in each dimension, exactly one sample is drawn from every one of N
 // equally likely intervals (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21(2), 1979).
 // A seed gives the same numbers on every machine.

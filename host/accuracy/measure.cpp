@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each frame starts without results of earlier ones, because its paths should depend on the setting alone; but it is
 // timed on a warm device. Where sequences are reused, the ten frames before launch every direction once
 // (trace.refresh_rays by default).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the frames of one setting: the paths that they find, and their time.
 // Every counted frame is solved again and again without results of earlier frames but on a warm device, unless the
 // setting is about reuse.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the page, and writes the files: the table first, because the plot and the page are made from it.
 #include "study/page.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two panels on logarithmic axes, one colour per axis. Rows that lose nothing lie at the bottom, where the scale says
 // "none". It needs gnuplot 5.2.
 #include <fmt/format.h>

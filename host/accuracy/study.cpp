@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The user's own settings are measured first, because mistakes and a scene without links show there; then axis by axis.
 // Only the paths of the own settings and of one reference at a time are kept.
 #include "accuracy/study.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the user's own scene at many settings: the time of a frame, and its error against the reference.
 #pragma once
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A list of columns, each with a name and a function that writes its cell.
 // Numbers have six digits, more than a clock is good for.
 #include "accuracy/table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the rows of a study as a table: accuracy.csv, lines for a terminal, HTML.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer accuracy` compares speed and error of the user's own scene, and advises what to set.
 #include <fmt/format.h>
 #include <iostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer bench EXPERIMENT` runs an experiment by name and writes tables, a plot and a report.
 // The programs of bench/ measure the speed of single parts.
 #include <fmt/format.h>

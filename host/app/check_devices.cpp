@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks several sets of features, so that every kernel of ordinary runs is checked once.
 #include "app/check_devices.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer devices --check`: reports the check of what each device computes.
 #pragma once
 #include <string>

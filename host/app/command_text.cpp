@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CLI11 gives a value's type and its choices in one text, `TEXT:{a,b}`, as --help shows them.
 // Choices are read from it, so shells complete everything that --help lists.
 #include "app/command_text.hpp"

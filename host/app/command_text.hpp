@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line as data, read from CLI11's own description of it, for man pages and completions. Hidden subcommands
 // have an empty group.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands of the program: each add_ function declares one with its options and its action.
 // A subcommand throws an Error to fail; Invocation holds the exit code of a success that is not 0.
 #pragma once

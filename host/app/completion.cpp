@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes completion scripts. They complete commands, options, the words that an option accepts, and after --set the keys
 // of the configuration with the words that a key accepts. Where there are no such words, shells complete files.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer validate` and `wavetracer init`.
 // Neither needs a device.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer convert`: a run in the format of another program, or a map as a scene.
 // The content of INPUT decides which of the two it is; --to, or a sufficient suffix of -o, decides what is written.
 #include "convert/convert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer devices` lists OpenCL devices and the one that a run would use and, with --check, checks what they
 // compute. The list is in the order of the ICD; --device accepts its index.
 #include <fmt/format.h>

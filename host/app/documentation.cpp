@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer documentation` writes man pages, completions and the configuration reference, from the program's own
 // tables. It is hidden: the build uses it and installs what it writes.
 #include <fmt/format.h>

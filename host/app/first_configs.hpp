@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // First configuration files of `wavetracer init --minimal`, `--sumo` and `--coverage`: short ones, to be changed. Other
 // keys have their defaults; tests run the files unchanged.
 #pragma once

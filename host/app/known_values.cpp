@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words that options accept but CLI11 does not list: other commands list them, and they would fill the screen in
 // --help.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame becomes a run of one frame, and the run a page, by the same code as for other runs.
 // The run lies in a hidden folder beside the page, and is removed with the object.
 #include "app/live_page.hpp"

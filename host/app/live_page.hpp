@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer serve --page FILE`: writes the live world as a page again and again while frames are solved. A thread of
 // its own writes, at most once per second: no frame waits for the page, and a newer frame replaces a waiting one. The
 // page reloads itself in the browser.

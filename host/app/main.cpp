@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line: subcommands, and the one place where an error becomes a message and an exit code.
 // Results go to stdout, messages and progress to stderr.
 #include <CLI/Config.hpp>

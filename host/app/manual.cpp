@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wavetracer(1): every subcommand with its options, as CLI11 describes them, environment variables, files and exit
 // codes. Footers of subcommands are laid out as they are shown.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values of laws are computed by the same code as fields, so that the page cannot differ from the program.
 #include "app/materials.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The library of radio materials as text for people.
 #pragma once
 #include <string>

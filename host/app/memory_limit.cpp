@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A signal handler would not work: compilers inside of drivers replace it.
 #include "app/memory_limit.hpp"
 #include <fmt/format.h>

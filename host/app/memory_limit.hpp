@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Handles processes with a limit of memory (`ulimit -v`, `ulimit -d`). Libraries, above all OpenCL's drivers, are ended
 // by a signal if they get no memory. Without a limit nothing here has an effect.
 #pragma once

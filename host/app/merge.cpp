@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer merge` joins the parts of a run that several processes or machines have written.
 // It needs no device and none of the run's input files.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks existence and permissions of the files and folders that a config names.
 // A file may change between the check and its use; the code that opens it reports that.
 #include "app/named_files.hpp"

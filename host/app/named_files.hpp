@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a config against the file system, for `run` and `validate`.
 // The checks need no device and load nothing, so that a mistake in a name is reported at once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer plot` makes figures of a run, each with its data and the gnuplot script that drew it.
 // It needs no device; without gnuplot, data and scripts are still written.
 #include <fmt/format.h>

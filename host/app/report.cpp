@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words and numbers of the closing report.
 // Counts are sums over the frames.
 #include "app/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The closing report of a run, for people: what ran where, how fast, what was found and where it is.
 // Everything in it is in summary.json and links.csv, too.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer run` turns a config into paths.
 // The checks that need no device come first, so that a mistake is reported at once.
 #include <fmt/format.h>

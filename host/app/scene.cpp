@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer scene info`, `wavetracer scene materials` and `wavetracer scene city`.
 // None needs a device.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer serve`: poses come in over a socket, channels go out, until a signal ends it.
 // Standard output gets the address once it listens; everything else goes to standard error.
 #include "live/serve.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The limit applies to the first thread alone; stacks of other threads are allocated like any memory.
 #include "app/stack.hpp"
 #include <pthread.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Provides stacks for the drivers: LLVM, which compiles kernels, needs megabytes, and a system may give a process less
 // (`ulimit -s`).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // std::cout does not keep the reason of a failed write, so it writes through our buffer, which does.
 // This is for Linux only.
 #include "app/standard_streams.hpp"

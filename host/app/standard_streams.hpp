@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Standard output of the program: where it leads, and whether everything printed has arrived there.
 #pragma once
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each figure has its own clock: the bar's clock starts again with each.
 #include "app/study_host.hpp"
 #include <fmt/format.h>

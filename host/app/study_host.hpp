@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services of the program for `bench` and `accuracy`.
 #pragma once
 #include "jobs/progress.hpp"

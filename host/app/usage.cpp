@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unknown words are reported before missing options, since the one is often the reason for the other. CLI11 keeps words
 // that a command could not use as its remaining words.
 #include "app/usage.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages for a command line that CLI11 refuses, and `wavetracer help`.
 #pragma once
 #include <CLI/App.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer view` writes a run as one HTML page.
 // It needs no device.
 #include "viewer/view.hpp"

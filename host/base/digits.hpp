@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers for people: digits grouped by commas, large ones with a prefix.
 #pragma once
 #include <fmt/format.h>

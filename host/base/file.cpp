@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads whole files into memory and writes them.
 // It assumes that a scene file fits into memory; sizes are taken from the file system, never from file content.
 #include "base/file.hpp"

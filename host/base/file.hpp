@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads whole files into memory and writes them; errors name the file and give the system's reason.
 // A file is written under a temporary name first and renamed when it is complete, so a failure leaves no partial file.
 #pragma once

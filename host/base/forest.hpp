@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A union-find forest: sets of numbers that can be joined; the lowest number of a set represents it.
 #pragma once
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Implements FNV-1a of 128 bits, a fold by splitmix64, and XXH64.
 // It assumes a compiler with 128-bit integers (GCC, Clang) and a little-endian machine, as all OpenCL hosts here are.
 #include "base/hash.hpp"

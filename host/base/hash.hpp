@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three hashes of byte strings, for names and checks of files on disk; they are unrelated to each other.
 // Their values are the same in all versions and on all machines; none of them resists an adversary.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The threads have nice value 19: beside a thread of normal priority, such a thread gets about a seventieth of a core.
 // Its priority cannot be raised again, so stop() may wait 70 times as long as the running task needs; with SCHED_IDLE
 // it would be 340 times.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Threads of the lowest priority: they do work that may wait, on cores that have nothing more urgent to do.
 #pragma once
 #include <condition_variable>

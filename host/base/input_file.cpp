@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file's status is read without opening it: opening a pipe would wait for its writer.
 #include "base/input_file.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that an input file is a plain file, and not larger than its reader allows, before a reader opens it.
 // A pipe or a device might never end.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads whole numbers from JSON files that other programs wrote: nlohmann converts a number silently, even where the
 // conversion is undefined.
 #pragma once

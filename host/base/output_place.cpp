@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stat() follows links, including links in /proc, such as /dev/stdout, that do not lead to a file name.
 // This is for Linux only.
 #include "base/output_place.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds where an output that the user has named is really written. The name may be a symbolic link, a device or a pipe.
 // A rename() would replace it with a plain file: run as root, that would destroy even /dev/null.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes files appear completely or not at all: temporary name, fsync, rename, fsync of the folder.
 // It assumes a file system whose rename() is atomic.
 #include "base/pending_file.hpp"

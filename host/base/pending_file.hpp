@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that appear completely or not at all: they are written beside their final place, synced, then renamed. Links
 // are followed. A device or a pipe is not replaced: it gets the bytes once they are complete.
 // This is for POSIX only, where rename() replaces a file atomically within a folder.

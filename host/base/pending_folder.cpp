@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One syncfs() syncs all files of the folder together, which matters for thousands of small ones.
 // It assumes that rename() replaces an empty folder, as POSIX says; a link to a folder stays a link.
 #include "base/pending_folder.hpp"

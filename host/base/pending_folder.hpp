@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A folder of files that appears completely or not at all: it is filled beside its final place, synced, then renamed.
 // The disk is waited for once, however many files there are.
 // By default a folder that is not empty is refused: files of an earlier export would be read as part of this one.

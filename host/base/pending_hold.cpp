@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // There is one mutex for the process, since files get their final names seldom.
 #include "base/pending_hold.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lock for code that removes unfinished files when the process is told to end. While it is held, no temporary file or
 // folder is created, gets another file, or gets its final name.
 #pragma once

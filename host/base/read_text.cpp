@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // It uses plain POSIX calls: for a folder, a C++ stream would throw an error that users do not understand.
 #include "base/read_text.hpp"
 #include <fcntl.h>

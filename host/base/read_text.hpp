@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads small files that the program itself wrote.
 #pragma once
 #include <cstdint>

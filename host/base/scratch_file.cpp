@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file is unlinked as soon as it is open. If the process is killed between the two calls, a temporary file remains.
 #include "base/scratch_file.hpp"
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A temporary file that no other process sees: it has no name, and disappears with this object or with the process,
 // however that ends. POSIX only.
 #pragma once

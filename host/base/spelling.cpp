@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes edit distances with three rows of the table, and chooses the nearest word.
 // Most words differ in too many letters and need no table; a table is given up at the first row that exceeds the limit.
 #include "base/spelling.hpp"

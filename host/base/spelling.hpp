@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hints for misspelt words: the nearest of the known ones.
 // Distances are counted in bytes, which suits keys and names in ASCII.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps the first exception of the stages of a TBB pipeline. If a stage throws, TBB 2021.8 sometimes leaks one of the
 // pipeline's items (the address sanitizer reports it). So stages must not throw: they do their work in run(), which
 // records the first exception and ends the pipeline, and rethrow() throws it afterwards.

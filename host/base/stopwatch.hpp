@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures wall time of host stages.
 // It uses a steady clock; times of device stages come from profiling events instead.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spacings come from std::nextafter, digits from fmt.
 #include "base/times.hpp"
 #include <fmt/format.h>

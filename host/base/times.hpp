@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times in seconds as doubles: their precision, and how they are printed.
 // Near 1.7e9 s (times since 1970), neighbouring doubles are 0.24 us apart: a time given in decimal digits differs from
 // its double by up to half of that, and the difference of two times by up to all of it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of arrays and carriers that need the whole configuration: names that nothing has, keys that exclude each
 // other.
 #include <fmt/format.h>

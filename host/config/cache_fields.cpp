@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of the field table about the ray cache: its table, the fields of its keys, and the age at which entries expire.
 // The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_rows.hpp"

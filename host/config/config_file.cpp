@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parsing: the TOML tree is flattened into assignments to fields, --set options replace earlier ones, and only then is
 // each checked and stored, so that a value overridden on the command line cannot fail.
 #include "wavetracer/config_file.hpp"

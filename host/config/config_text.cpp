@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes texts from the field table: the commented config of `init`, the key list of `--help`, the resolved config. A
 // table without brackets of its own must follow the one before it, as TOML reads it.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each topic has one function, which adds the contradictions that it finds.
 // The parser knows where keys stand, and names the place.
 #include "config/contradictions.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a whole Config: problems that no single key shows, such as keys that exclude each other and names that are
 // used twice. The field table has checked every value by itself.
 #pragma once

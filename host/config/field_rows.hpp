@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers for writing rows of the field table, and the tables that are not in field_table.cpp itself. Only files with
 // rows include it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of the field table, one per key of the config file, in the order in which `init` writes them.
 // The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include "config/field_table.hpp"

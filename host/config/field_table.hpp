@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The field table: every key of the config file, once. Parsing, `validate`, `init`, `--help` and hints all read it.
 // Defaults are in config.hpp; a field only says where its member is, so the two cannot disagree.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // It uses the field table, so a new key with a file is included automatically.
 #include "config/input_files.hpp"
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of places that need the whole configuration: places in degrees, and air whose models are valid at each
 // carrier.
 #include <fmt/format.h>

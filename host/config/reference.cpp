@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes pages from the field table, one entry per key: accepted values, default, meaning.
 // Docs of fields are plain text with at most `code` in them.
 #include "config/reference.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The field table as text: the help of a key, docs/configuration.md, and the man page wavetracer.toml(5).
 // `wavetracer documentation` generates the pages; nothing in them is written by hand.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each key has a row, which stays, since configurations of old runs stay too.
 #include "config/retired_keys.hpp"
 

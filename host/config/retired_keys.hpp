@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys of earlier versions that no longer exist, with advice instead of "unknown key".
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of the field table about fixed objects: the static scene, radio materials and radio ends.
 // The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include <utility>

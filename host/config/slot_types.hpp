@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Type traits for code that visits a slot of the field table.
 #pragma once
 #include <optional>

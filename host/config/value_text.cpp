@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes values of the field table as text: TOML literals, and descriptions of what a field accepts.
 #include "config/value_text.hpp"
 #include <fmt/format.h>

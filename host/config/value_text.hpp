@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pieces of TOML text; literal() in field_table.hpp writes whole values.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts between TOML and the members of Config, one function per slot type.
 // An integer may be given as a float of integral value (1e6); NaN is never accepted.
 #include "config/values.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a value of a TOML node against the field table and stores it in a member.
 // This is the only header of this folder that names toml++; literal() in field_table.hpp writes TOML text.
 #pragma once

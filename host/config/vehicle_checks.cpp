@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of vehicles that need the whole configuration: their sources, their antennas, the times of the drive.
 #include <fmt/format.h>
 

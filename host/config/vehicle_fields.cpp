@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of the field table about vehicles: their trajectories, bodies and antennas, the frames and links of a drive. The
 // doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
 #include <utility>

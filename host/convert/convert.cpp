@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Holds the list of formats.
 #include "convert/convert.hpp"
 #include <array>

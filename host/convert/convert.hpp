@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exports of runs to the formats of other programs: one function per format, and the list that `wavetracer convert
 // --to` offers. Each writes what its readers expect, completely or not at all; its own file describes the conventions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a scenario folder of DeepMIMO 4: each transmitter has one .npz per array, (receiver, path), NaN where there is
 // no path. Its phase is that of the channel at the carrier, arg(a) - 2 pi f delay; its channels are h(f), with
 // subcarrier 0 at f.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects of the scene keep their names and are buildings for DeepMIMO; vehicles are objects if the frame has them. An
 // object without triangles is left out: DeepMIMO cannot say where it is.
 #include "convert/deepmimo_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the city and the vehicles of a run as DeepMIMO's Scene: one triangle mesh per object, and a list of materials.
 // Files that can no longer be loaded are left out with a warning; the channels do not need them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes glTF 2.0: the scene object by object, vehicles, paths and sampled rays of the first frame, and ends; several
 // frames make an animation. The root node turns z up to glTF's y up and carries the scene's origin, so nodes below it
 // are in file axes: a reader that applies nodes in double has file coordinates (x, -z, y), and float32 vertices stay

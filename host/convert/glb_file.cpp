@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layout of .glb: a header of 12 bytes, then chunks of JSON and of the buffer, each padded to 4 bytes. In names,
 // bytes that are not UTF-8 become U+FFFD.
 #include "convert/glb_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 file in its binary form (.glb): arrays for its one buffer, and the JSON that says what they are.
 // Assumes a little-endian machine, as the format is.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours belong to vertices and are linear, as glTF requires.
 // If a line continues, both legs use the same position, so that lines share their corners.
 #include "convert/glb_lines.hpp"

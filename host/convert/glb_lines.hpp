@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the lines of a glTF file: paths by their gains, sampled rays by their segments, markers of antennas.
 #pragma once
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours are linear, as glTF has them. Vegetation is translucent.
 #include "convert/glb_materials.hpp"
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rotations are quaternions, as in glTF.
 // Indices must be valid, as SavedRun checks them.
 #include "convert/glb_tracks.hpp"

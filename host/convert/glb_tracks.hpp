@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The places of vehicles and ends in the chosen frames, as keys of an animation.
 // A frame whose time does not increase, or is not a number, has no key.
 #pragma once

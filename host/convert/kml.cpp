@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes KML 2.2: ends, vehicles and paths, frame by frame. Longitudes and latitudes are those of WGS 84; heights of
 // the scene count as heights above the real ground. The run's 0 s is the first second of the year 2000; times from 1e9
 // s on are seconds since 1970.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Characters of XML 1.0, section 2.2, are written unchanged, except for those below.
 #include "convert/kml_text.hpp"
 #include "convert/unicode.hpp"

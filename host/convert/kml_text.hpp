@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text between the tags of an XML 1.0 file.
 // Assumes that the file says encoding="UTF-8".
 #pragma once

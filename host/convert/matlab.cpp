@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a run as one MATLAB struct of arrays, with the groups and names of paths.h5 and complex coefficients.
 // Rows count from 1, as MATLAB's do: tx, rx, instance, first_path and first_vertex can be used as indices.
 #include <functional>

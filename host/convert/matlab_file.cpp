@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layout that MATLAB's save -v7.3 writes: MATLAB_class on every object, MATLAB_empty on arrays without elements,
 // cells as references into /#refs#. Assumes that names are valid in MATLAB.
 #include "convert/matlab_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes MATLAB's file format 7.3: HDF5 after a 512-byte header, with attributes that give the class of a dataset.
 // Dimensions are given as in MATLAB, and values in its order, the first index fastest; HDF5 lists them in reverse.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes NumPy's format 1.0 (numpy.lib.format) inside PKWARE's zip (APPNOTE 6.3). Entries are deflated at the fastest
 // level, since many arrays are mostly padding.
 #include "convert/npz.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes NumPy's .npz: a zip archive of arrays in C order, one array after the other.
 // The machine must be little-endian; an archive stays below 4 GiB, so that it needs no extension of the zip format.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a scenario of ns-3's QdChannelModel (https://github.com/signetlabdei/qd-channel), in the form that its reader
 // of NodesPosition.csv parses: a channel between every two nodes, a step per frame; angles are in degrees, phases are
 // not.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Twins are found by their positions in every frame, and by name if several share those.
 // Velocities are not compared: they follow from the positions.
 #include "convert/ns3_nodes.hpp"

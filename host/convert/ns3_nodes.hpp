@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns radio ends into nodes: a node sends with one transmitter, receives with one receiver, or does both at one
 // place. The twins of a mounted antenna must have exactly equal positions, as runs write them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the traffic of a run as a trace of ASAM OSI 3: one GroundTruth message per frame, each after its length (four
 // bytes, the lowest first). It contains only moving objects: vehicles with a body, by their bounding boxes.
 #include <fmt/format.h>

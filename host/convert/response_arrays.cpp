@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arrays are padded to the largest number of antennas on either side.
 #include "convert/response_arrays.hpp"
 #include <fmt/format.h>

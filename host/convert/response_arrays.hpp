@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Returns the responses of a run as one padded array, for formats that only have rectangular arrays.
 #pragma once
 #include <array>

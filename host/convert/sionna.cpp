@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes arrays in the layout of Sionna RT's Paths with synthetic arrays: ports are antennas; delays and angles belong
 // to a link. `a` means the same there, a passband coefficient without the carrier phase of the delay, so no phase is
 // added.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 #include "convert/unicode.hpp"
 

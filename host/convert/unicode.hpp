@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts names of runs to the encodings of other programs.
 // A byte that is not UTF-8 becomes U+FFFD, so nothing is dropped and nothing fails.
 #pragma once

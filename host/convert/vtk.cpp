@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes for ParaView: a folder of .vtp files, and run.pvd, which gives them their times. Coordinates are those of the
 // files, z up. One frame at a time is in memory. An object that does not move is one file, which every time of the .pvd
 // names.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the XML of a .vtp file, and its body.
 // Sizes must be below 2^63 bytes.
 #include "convert/vtk_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file of VTK's XML PolyData (.vtp): points with vertices, lines or triangles, and arrays on them.
 // Arrays follow the XML in binary form (appended, raw), each after its size as UInt64.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours are those of matplotlib's plasma map (CC0) without its darkest fifth, which is hard to see on any background.
 // A frame must have valid indices of ends and vertices, as SavedRun checks them.
 #include "convert/vtk_glb_kml.hpp"

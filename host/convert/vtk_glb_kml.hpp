@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that the exports of geometry (vtk, glb, kml) share: points of paths, corners of vehicles, colours of gains.
 // All positions are file coordinates in metres, z up.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of one ray follow each other.
 #include "convert/vtk_rays.hpp"
 #include "wavetracer/world_state.hpp"

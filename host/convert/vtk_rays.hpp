@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the sampled rays of a frame (waypoints.h5) as a file for ParaView.
 #pragma once
 #include "convert/vtk_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Device memory: allocation, transfers, fills and copies, all bounds checked. Reads and large writes wait for the
 // device; when a call returns, the host's memory may be reused. A request of zero bytes gives a handle with bytes() =
 // 0, backed by a few bytes, which may be a kernel's argument.

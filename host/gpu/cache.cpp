@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file format of cached programs: magic, version, key text, source length and hash, payload length, checksum,
 // payload. The file name is one hash of the key, and the header holds the key itself, so that a collision of names is
 // detected.

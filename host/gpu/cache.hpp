@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps compiled programs on disk, so that a second start does not compile.
 // A file that differs in anything from the key is ignored; no function throws because of the disk.
 #pragma once

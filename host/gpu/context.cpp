@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Context: a device opened with one in-order profiling queue.
 // By default it requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept;
 // Needs can drop these requirements.

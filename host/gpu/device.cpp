@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists devices, chooses one by text, and derives build options from a device's properties. The order of platforms and
 // devices does not change while the process runs (the ICD loader promises that).
 #include "gpu/device.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Device data of this folder beyond DeviceInfo: the OpenCL handle and the build options. The order of all_devices() is
 // that of list_devices().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device layer's interface: choice of a device, buffers that know their length, programs, checked launches,
 // profiling. Only this folder names cl::; this header contains nothing of OpenCL's C++ bindings.
 #pragma once

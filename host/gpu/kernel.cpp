@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that launches: arguments are checked against the kernel's, sizes padded, failures named.
 // A wrong argument is a fault of the calling code (std::logic_error); a refused launch is a fault of the device
 // (DeviceError).

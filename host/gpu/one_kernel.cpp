@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scans the text at the level of declarations: comments, directives and strings are skipped, braces are counted.
 #include "gpu/one_kernel.hpp"
 #include <cctype>

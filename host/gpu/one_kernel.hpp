@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reduces a program's source to one of its kernels: compilers of CPUs take some 0.3 s for each kernel, even an unused
 // one.
 #pragma once

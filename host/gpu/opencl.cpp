@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gives names of OpenCL's error codes, for messages.
 // The codes are those of the OpenCL 3.0 specification, appendix E, and of the cl_khr_icd extension.
 #include "gpu/opencl.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that includes OpenCL's C++ bindings, configured once: exceptions on, any OpenCL 1.2 platform or later.
 // Only this folder's .cpp files include it; gpu.hpp, which all others include, names nothing of OpenCL.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows the rules by which PoCL chooses its folder (pocl_cache_init_topdir): POCL_CACHE_DIR, XDG_CACHE_HOME, HOME,
 // /tmp. It creates only the folder that this process chooses itself, which must belong to this user alone: PoCL runs
 // the code that lies in its cache.

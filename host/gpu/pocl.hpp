@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PoCL, the OpenCL of CPUs: it keeps its own cache of compiled kernels, and offers no device if it cannot.
 #pragma once
 #include <filesystem>

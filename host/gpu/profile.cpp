@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds up profiling events.
 // Half of the pending events are added at a time: by then the device has mostly finished them, so launches seldom wait.
 #include "gpu/profile.hpp"

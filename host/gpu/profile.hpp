@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seconds per stage and per kernel, summed from the profiling events of an in-order queue.
 // Events must be added in the order of their commands: all events before a finished one are finished too.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs: built once per context, from the disk cache or from source, and the kernels in them.
 // A cached program that the driver refuses is rebuilt from source; only source that does not build is an error.
 #include <fmt/format.h>

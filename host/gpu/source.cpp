@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expands a program's source: every line `#include "name"` is replaced by the file that it names, as in C. Files must
 // have include guards. A file that was included under a condition before is inserted again; otherwise its guard would
 // make it empty, so it is left out, as compilers read all text. `#include <...>` is left to the compiler.

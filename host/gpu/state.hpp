@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The private halves of Context and Kernel, shared by this folder's .cpp files.
 // A Context::State does not move during its life; kernels and buffers keep plain pointers to it.
 #pragma once

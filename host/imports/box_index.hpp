@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the boxes that contain another one. Boxes are sorted by their left sides, and only those within the width of
 // the widest box are looked at. It is fast if most boxes are small beside the map, and takes linear time otherwise.
 #pragma once

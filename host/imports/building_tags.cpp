@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the tags. Keys are those of https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings.
 // Heights may be up to 1000 m and 300 levels: larger values count as mistakes.
 #include "imports/building_tags.hpp"

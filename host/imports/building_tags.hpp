@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads heights and materials of a building from its tags, by the Simple 3D Buildings scheme of OpenStreetMap. People
 // write tags by hand: a value that cannot be read is replaced by a default and counted.
 #pragma once

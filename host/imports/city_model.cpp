@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the types of CityGML 2.0 and CityJSON 1.0 to 2.0, and the choice of the level of detail that is built.
 // A name that is unknown here is taken for one of an extension or of a later version.
 #include "imports/city_model.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A 3D city as its reader returns it, from CityJSON or CityGML: polygons in space with their roles, in the coordinates
 // of the file. Corners are finite; imports/model_faces.hpp checks the rest.
 #pragma once

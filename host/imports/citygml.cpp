@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads CityGML 1.0 and 2.0 (OGC 12-019) by pugixml: buildings and bridges with their parts, surfaces and fittings. The
 // text is not trusted: pugixml neither recurses nor expands entities, and targets of xlinks are read once.
 #include <fmt/format.h>

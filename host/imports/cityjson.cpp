@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads CityJSON 1.0, 1.1 and 2.0 (https://www.cityjson.org/specs/2.0.1/) by nlohmann's parser.
 // The text is not trusted: the parser does not recurse, and every index and number is checked.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines parallel to x are cut by all edges that they cross: this gives the lengths inside the polygon, and inside
 // others as well. Where a line passes through a corner, each edge counts by its lower end alone.
 #include "imports/coverage.hpp"

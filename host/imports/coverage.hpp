@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes which share of a polygon is covered by others, seen from above.
 #pragma once
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns a map into a folder: reads, plans, builds, writes and reports.
 // A city and its file must fit into memory.
 #include "imports/imports.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Imports cities of OpenStreetMap (.osm, .osm.pbf), SUMO (.poly.xml) and maps that GDAL reads as scenes: extruded
 // buildings on ground that is flat or follows a raster. City models (CityJSON, CityGML) keep their buildings' shapes.
 // Files are not trusted; objects that cannot be used are left out, counted and reported.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A map as its reader returns it: footprints with tags, in the coordinates that the scene will have.
 // Coordinates of rings are finite; imports/rings.hpp checks the rest.
 #pragma once

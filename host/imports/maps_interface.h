@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The interface of the module wavetracer_maps.so, the one part of the program that uses GDAL: footprints of vector maps
    and heights of rasters. It is plain C, so that the program can load it at run time if it exists. Texts are UTF-8 and
    belong to the module; they and all arrays are valid until the function or the callback that has them returns. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module's file is found and read first, beside the program or where packages install it. Only then GDAL and the
 // module are opened by dlopen, since libraries that GDAL loads stay until the process ends. GDAL's symbols are opened
 // globally, since the module links no library itself.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module that reads maps by GDAL. It is opened when it is first needed: the program does not link GDAL.
 // The libraries stay loaded until the program ends.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygons are triangulated in a plane of two axes, so that corners stay on the grid and the triangulator's tests stay
 // exact. Normals are computed by M. Newell's sum (Sutherland, Sproull and Schumacker, 1974), which any polygon has,
 // flat or not.

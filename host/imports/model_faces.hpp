@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygons in space on the grid of imports/rings.hpp, and their triangles, found in the axis-parallel plane that is
 // closest to theirs. Coordinates must be below 10^9 m; larger ones are reported as a fault.
 #pragma once

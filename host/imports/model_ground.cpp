@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roles follow from slopes, feet from ground surfaces.
 // The outer ring of a face must have corners.
 #include "imports/model_ground.hpp"

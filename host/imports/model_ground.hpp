@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds how a building of a city model stands on the ground: the roles of its surfaces, and the corners that are its
 // feet. A building and its parts are moved together.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Puts the buildings of a city model on the ground of the scene, and makes their meshes.
 // A building and its parts are moved together.
 #include "imports/model_import.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns a city model into meshes: placed on the Earth, set on the ground, triangulated, one mesh per material.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts coordinates of city models to those of the scene.
 // All coordinates of a model must be of one system.
 #include <fmt/format.h>

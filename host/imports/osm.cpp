@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads buildings of OpenStreetMap files, XML or PBF, by libosmium, whose assembler makes areas of ways and
 // multipolygons. Objects may come in any order and in several versions; the last counts. The file bounds the memory.
 #include <fmt/format.h>

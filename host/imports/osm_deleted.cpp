@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the text once more with expat if it contains the words.
 // Entities are not expanded: libosmium refuses a file that declares one.
 #include "imports/osm_deleted.hpp"

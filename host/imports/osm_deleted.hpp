@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds objects that an editor has deleted: a file saved by JOSM keeps them, with action='delete', until they are
 // uploaded. libosmium does not read that attribute.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches for the names of the two attributes, since the text is long and exponents are rare.
 #include "imports/osm_exponents.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks coordinates of OSM XML in scientific notation: libosmium reads 5e60 as 0 or as any other place, since it
 // multiplies beyond 64 bits without a check.
 #pragma once

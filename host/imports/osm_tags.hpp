@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides by tags which objects of OpenStreetMap are built.
 // Keys are those of https://wiki.openstreetmap.org/wiki/Map_features.
 #pragma once

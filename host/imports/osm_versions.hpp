@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects of OpenStreetMap by id, the last version of each: histories and change files contain several.
 // The last version has the highest number; of equal numbers, it is the later one in the file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules are one function each, in the order of plan_city().
 // Most footprints should be small beside the map, so that sorted boxes find which footprints lie inside others quickly.
 #include "imports/plan.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides which solids stand where: footprints are checked, courtyards cut out, outlines replaced by their parts.
 // Footprints that are not built are counted with their reason.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects maps by PROJ.
 #include "imports/projecting.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts maps with longitude and latitude in degrees to the coordinates of the scene.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests rings exactly. Crossings are found by a sweep over the edges sorted by their lower x.
 // fault() checks sizes before any product can overflow.
 #include "imports/rings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygons on a grid of 1/1024 m: every test of sides, crossings and containment is exact in 64-bit integers.
 // Coordinates must be below 2^24 grid units (16 km), which float32 meshes hold exactly, and rings within max_size.
 #pragma once

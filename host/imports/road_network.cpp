@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads networks by pugixml, which neither recurses nor expands entities.
 // Networks have the form of net_file.xsd: <net><edge><lane shape="x,y[,z] ...">.
 #include "imports/road_network.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the lanes of a SUMO network as streets.
 #pragma once
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes prisms: a floor, walls around every ring, a roof; vertices are shared, so that every edge has two faces.
 // Names of objects are those of the map, as far as Mitsuba's ids allow.
 #include "imports/scene_files.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns solids into meshes, and writes the files of a scene: Mitsuba XML and meshes/*.ply, as in Sionna RT's scenes.
 // Polygons must have their triangles, as plan_city() returns them.
 #pragma once

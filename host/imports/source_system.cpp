@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recognises codes of systems in all the spellings that files have, and makes PROJ's objects for them.
 // The text is not trusted: only a code of digits reaches PROJ.
 #include "imports/source_system.hpp"

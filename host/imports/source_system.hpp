@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coordinate system that a city model names, and the conversion of its coordinates to longitude and latitude, by
 // PROJ and its database. Files do not agree on which axis comes first, so their content decides.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds a graph of corners and walls. At each corner the two walls that form the straightest pair are connected, then
 // the next two.
 #include "imports/straight_walls.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Straightens walls of maps with coarse coordinates: a corner that lies beside a wall only because of rounding is moved
 // onto it. Rings are in metres, and corners that buildings share must be exactly equal.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads SUMO's polygons (.poly.xml) and the <location> of its networks.
 // The text is not trusted: pugixml neither recurses nor expands entities.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Posts of the raster become vertices: nothing is resampled, so the error at the posts is the whole error. A cell of
 // the raster must be a parallelogram in the scene, to good accuracy.
 #include "imports/terrain.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ground that follows a raster of heights: a mesh in the coordinates of the scene, and the height at any place.
 #pragma once
 #include <glm/vec3.hpp>

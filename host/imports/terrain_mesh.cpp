@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stores half-edges: edge e goes from corners_[e] to the next corner of its triangle, twins_[e] is the same edge of the
 // neighbouring triangle. Coordinates are below 2^14, so that tests of sides and circles are exact in 64 bits.
 #include "imports/terrain_mesh.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Approximates heights on a grid by few triangles: posts are added where the mesh has the largest error, until no error
 // exceeds a limit (M. Garland and P. Heckbert, "Fast polygonal approximation of terrains and height fields",
 // CMU-CS-95-181, 1995). Triangles are Delaunay's.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bridges are those of D. Eberly, "Triangulation by Ear Clipping" (2002), but each to the nearest visible corner; ears
 // are those of G. Meisters, "Polygons have ears" (1975). The time grows as the square of the number of corners.
 #include "imports/triangulate.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangulates polygons with holes: holes are joined to the outline by bridges, then ears are clipped.
 // It is exact: the triangles cover the polygon once, use only its corners, and none is flat.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads vector maps in the formats of GDAL.
 #pragma once
 #include <string>

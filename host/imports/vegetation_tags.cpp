@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Heights above 100 m and crowns wider than 50 m count as mistakes.
 // Degrees are converted to metres by a sphere: a crown may be wrong by half a percent of its size.
 #include "imports/vegetation_tags.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes prisms of leaves for trees and woods of OpenStreetMap, from their tags and from defaults where tags are
 // missing. Keys are those of https://wiki.openstreetmap.org/wiki/Tag:natural=tree.
 #pragma once

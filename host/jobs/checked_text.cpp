@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hash covers all text before the comma of the key.
 #include "jobs/checked_text.hpp"
 #include <fmt/format.h>

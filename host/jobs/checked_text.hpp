@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON objects with a hash of their own text as the last key, "check", so that damage can be detected.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A claim is a hard link to the process's own file: link() is atomic, on network file systems too, and a claim is never
 // seen half written. A process without a file of its own is dead.
 #include "jobs/claims.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tasks that processes of one job share; one of them does each task. DIR/shards/TASK.claim.N names the process that
 // took it; only one process can create a file of that name. If the claimant is dead, another process makes claim N + 1,
 // until most_attempts processes have died over a task. Claims are never removed while the job runs.

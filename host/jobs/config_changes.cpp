@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads only what echoed_config() writes: headings, comments, and KEY = VALUE on a line.
 // Values are compared as text, since each value is written in one way only.
 #include "jobs/config_changes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the differences between two configurations, key by key, for a message that names them.
 #pragma once
 #include <string>

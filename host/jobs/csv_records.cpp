@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines without a quote, which are nearly all, are split by memchr.
 #include "jobs/csv_records.hpp"
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads records of a CSV file by RFC 4180, from blocks that contain whole records.
 #pragma once
 #include <filesystem>

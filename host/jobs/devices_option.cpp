@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Affinity is the only mechanism: TBB sizes its pool by it, and PoCL is also told the number of cores.
 // This is for Linux only.
 #include "jobs/devices_option.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --devices: the devices that a run is spread over, and the choice of one for each rank.
 // All devices of a run are of one kind, CPU or GPU, since the kind is part of a run's identity.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop over units and their frames.
 // catch_interrupts() must have been called, so that an interrupt ends the frame in progress at its next step.
 #include "jobs/drive.hpp"

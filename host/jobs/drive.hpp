@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs in units, which are shards of frames or blocks of transmitters: each is written to disk, so that memory does not
 // grow, a killed run can continue, and any number of processes can share it (jobs/units.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files are recognised by their names, and temporary ones by OUTPUT.PROCESS.tmp, as PendingFile names them.
 // Nobody may add files meanwhile.
 #include "jobs/earlier_run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds and removes what an earlier run left in the folder of the outputs.
 // It touches only names that this program gives; all other files stay.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reserves DIR/shards for this process: makes it if missing, and puts this process's file into it
 // (jobs/process_files.hpp). A folder made here is removed again if nothing was put into it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses --frames and reports what is wrong with it.
 // There must be a frame.
 #include "jobs/frame_range.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --frames: the frames of a run that are computed.
 // Frames are numbered from 0; ranges include both ends.
 #pragma once

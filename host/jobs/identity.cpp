@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hashes the configuration without its places, and the contents of its inputs.
 #include "jobs/identity.hpp"
 #include <fmt/format.h>

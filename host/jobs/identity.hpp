@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tells which run the parts in a folder belong to.
 #pragma once
 #include "jobs/frame_range.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The signal handler sets a flag and reports it by write(), which a handler may call, and does nothing else.
 // SA_RESETHAND restores the default action, so that a second signal ends the process.
 #include "jobs/interrupt.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ctrl-C: the first one asks the run to stop after its current step, the second one ends it at once.
 // A process has one such request, which is never withdrawn.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All cores handle blocks of rows, which are then joined in order: memory holds two numbers per row and a sum per pair,
 // and the result does not depend on the number of cores. Columns are found by their names.
 #include "jobs/link_statistics.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of a run's links for its closing report, read from its links.csv, whichever processes wrote the parts.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gathers the description of a simulation for the outputs.
 // It is in this folder because the output folder does not know simulations.
 #include <fmt/format.h>

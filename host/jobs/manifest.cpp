@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts to and from JSON. A line counts once it has its line end.
 // Only this program writes manifests, so a line that is not understood is an error.
 #include "jobs/manifest.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The manifests of a run, DIR/shards/manifest*.jsonl: one line of JSON per finished shard, appended when its files are
 // in place. Each process writes its own manifest. A line that a killed run left incomplete is skipped.
 #pragma once

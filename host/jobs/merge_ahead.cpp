@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A unit is finished once a manifest lists it: files alone may have been left by a killed process.
 // Half of the cores compress, at the lowest priority; the host's part of a frame on a GPU takes one or two.
 #include "jobs/merge_ahead.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Does the part of a merge that is possible before the last unit is finished: for finished units without a gap from the
 // first one on, it finds the tables of their files and compresses their rows. All of this is in the memory of this
 // process, so nothing is left if it ends; another process that merges then starts from the beginning.

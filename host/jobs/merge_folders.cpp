@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds gaps among the frames that the run was asked for, or among its blocks.
 // If two parts hold the same unit, they must agree, and the first that is found is taken.
 #include "jobs/merge_folders.hpp"

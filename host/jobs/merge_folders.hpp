@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merges folders with parts of one run, written on any machines: `wavetracer merge`.
 // It needs no device and none of the run's input files. Parts are files from elsewhere: everything in them is checked.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames follow each other; blocks share one frame, so its row is taken once and the paths that it points to are added
 // up. Disk syncs and the text of the links run beside the rest, which is limited by HDF5's one thread.
 #include "jobs/merge_outputs.hpp"

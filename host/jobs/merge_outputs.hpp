@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merges the parts of a run into its outputs, for Shards and `wavetracer merge`.
 // At most one block of rows is in memory.
 #pragma once

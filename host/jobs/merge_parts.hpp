@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files from which the outputs of a run are made.
 // These are names only: nothing is opened here.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The record is one line of a manifest, with a unit that is the whole run and whose files are the outputs.
 #include "jobs/merged_record.hpp"
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DIR/shards/merged.json says that the outputs in DIR hold a complete run, whose shards were removed once that was
 // proved. It stays with run.json, so that --resume knows that the run is complete.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON files of a line, and /proc for the processes of this machine.
 // Linux only: start times and namespaces of processes come from /proc.
 #include "jobs/process_files.hpp"

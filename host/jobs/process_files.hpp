@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processes that write into the folder of a run: each has a file process_NAME in DIR/shards, which says who it is
 // and is touched regularly. Processes of one job (ranks) share a folder; those of different jobs must not. On its own
 // host, a process is alive if its id and start time are those of a running one; on other hosts, if its file was touched

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bar is one line that is overwritten with spaces and carriage returns, which every terminal knows.
 // Outputs that are no terminal only get whole lines.
 #include "jobs/progress.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows progress on stderr: lines, and the state of a task: a bar on a terminal, otherwise a line now and then.
 // NO_COLOR (https://no-color.org) suppresses escape sequences.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads variables of launchers, as their documentation describes them.
 // A batch script that starts the program without srun has variables of Slurm, but no step: that is one process.
 #include "jobs/ranks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds which of several processes of one run this is: from variables of Open MPI, PMI, Slurm, or of `run --devices`
 // itself. No MPI library is needed, since processes only share a folder.
 #pragma once

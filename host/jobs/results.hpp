@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of a run: sums over its frames, statistics of its links, and its files.
 #pragma once
 #include <filesystem>

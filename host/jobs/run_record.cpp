@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts to and from JSON.
 // Only the number of vehicles is kept, since summary.json has nothing else of them.
 #include "jobs/run_record.hpp"

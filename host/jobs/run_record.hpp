@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DIR/shards/run.json: the facts about a run beyond its frames, so that `wavetracer merge` can write summary.json
 // without a device, the scene, or the configuration's files.
 #pragma once

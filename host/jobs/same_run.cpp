@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // run.json, the record of the run that wrote the shards, has its configuration and inputs, so that messages can name
 // them.
 #include "jobs/same_run.hpp"

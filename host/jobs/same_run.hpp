@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks whether a folder of shards belongs to the run that was asked for.
 #pragma once
 #include <filesystem>

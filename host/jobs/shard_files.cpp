@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that were just written are read from the system's cache.
 #include "jobs/shard_files.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files on the disk that a manifest's lines list: their state when they were written, and damage since.
 #pragma once
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of writes makes it safe to be killed at any time: files of a shard come first, then its line in the
 // manifest. A file that no manifest lists is garbage; one that is listed is complete. If two manifests list a unit,
 // both parts are equal.

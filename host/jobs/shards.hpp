@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run on disk, unit by unit: shards of frames (or blocks of transmitters) while it runs, and at the end the same
 // outputs as those of a run that is written at once. DIR/shards holds UNIT.h5, .csv and with output.waypoints
 // .waypoints.h5, each a paths.h5, links.csv or waypoints.h5 of its frames, run.json, and the manifests of the processes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Repeats of a frame must agree: a device with different answers cannot be trusted. But with a quantised cache, chance
 // decides which of two similar rays answers for both.
 // The first repeat is part of the median, as every frame of a drive is.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solves frames of a run, repeated as --repeat says. A repeat solves all frames of a unit again, the first one without
 // earlier results, so each repeat finds what a run without repeats finds. An interrupt ends a frame between two steps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses posix_spawn, and one pipe per child for its messages.
 // Children are in process groups of their own, so that Ctrl-C on the terminal reaches them once, through the parent.
 #include "jobs/start.hpp"

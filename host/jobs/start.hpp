@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // run --devices and --processes: one child process per device, of this same program, which share the run as ranks do.
 // The parent computes nothing: it passes on messages and Ctrl-C, and reports how the children ended. A message that all
 // of them print, such as one about a mistake in the configuration, is printed once.

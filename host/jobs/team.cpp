@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Processes that share a folder. One of them prepares it, all take units, one of them leads and merges: each role is a
 // claim (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
 #include "jobs/team.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that drive.cpp and team.cpp share: units of a task are computed and written.
 // Only these two include it.
 #pragma once

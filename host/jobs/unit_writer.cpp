@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One thread alone calls HDF5 until it has finished.
 // Objects that a Run refers to must not change while frames are computed.
 #include "jobs/unit_writer.hpp"

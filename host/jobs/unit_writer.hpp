@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the units of a run, frame by frame, while the next frames are computed.
 #pragma once
 #include <condition_variable>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // This is arithmetic only: a run may have 2^32 frames, so units are never listed.
 // first <= last and shard_frames > 0.
 #include "jobs/units.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The units into which a run is cut, so that any number of processes can share it: shards of frames, or, for a run of
 // one frame, blocks of transmitters. The cut depends on the configuration and --frames alone, never on the processes.
 #pragma once

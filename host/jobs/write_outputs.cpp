@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the files frame by frame, then lets all of them appear together.
 #include <chrono>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of wavetracer.h, except for the columns: they are thin, and no exception leaves them.
 // The caller must follow the header: no object is used after it was given back.
 #include <unistd.h>

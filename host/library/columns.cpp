@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The columns of wavetracer.h: each is a row of a table, whose type and width follow from the vector that holds it.
 // Vectors of glm and of std::complex must be their numbers side by side.
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of wavetracer.h about the elements of arrays.
 #include <algorithm>
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Defines the opaque types of wavetracer.h, and the one place where exceptions become errors.
 // wavetracer_run_frame fills a frame once; after that it is only read.
 #pragma once

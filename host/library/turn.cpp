@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Threads and processes of the C interface.
 // No thread may begin to use a simulation that is being closed.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines are written directly: a frame of a hundred vehicles has some 10^5 numbers, and building a JSON tree of them
 // would be a waste. Paths and links must be sorted by transmitter and receiver, as Paths promises.
 #include "live/answer.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the messages of the server: one line of JSON per message, newline included; docs/live.md has the schema.
 // Doubles are printed with enough digits to read back to the same bits; values that are not finite are null.
 #pragma once

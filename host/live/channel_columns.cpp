@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns are sent as they are in memory, without conversion. The machine must be little-endian, as the tags say.
 #include "live/channel_columns.hpp"
 

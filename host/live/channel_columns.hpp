@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the channels of a frame as columns in CBOR (RFC 8949): one map, whose columns are typed arrays (RFC 8746),
 // which numpy and others read without a copy. docs/live.md lists the keys.
 #pragma once

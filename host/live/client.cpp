@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Buffers are bounded: the input by max_message_bytes and one read, the output by max_queue_bytes and one answer. If a
 // client sends faster than it reads answers, the server stops reading from it, so that TCP itself slows it down.
 #include "live/client.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One connection: it turns bytes into lines and answers into bytes, and has limits of size, rate and time.
 // The socket must be non-blocking. This class does not know the meaning of lines.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sockets are used as in W. R. Stevens, UNIX Network Programming, vol. 1, chapters 4, 15 and 16.
 // A Unix socket is bound under a umask, so that it is private from the first moment.
 #include "live/endpoint.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place where a server listens: unix:PATH or tcp:ADDRESS:PORT, with numeric addresses, so that no name server is
 // asked. It uses POSIX sockets. Descriptors are closed on exec and are non-blocking.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every object is read by a list of its keys, so that an unknown key is refused with the nearest name.
 #include "live/message.hpp"
 

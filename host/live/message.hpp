@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses messages of clients: one line of JSON becomes a checked struct; docs/live.md has the schema.
 // The text is not trusted: anything that is no message of the protocol throws.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // nlohmann's parser reports events, and values are built here: with its callback it would build them itself, and take
 // time that grows as the square of the number of objects in an array.
 #include "live/message_json.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the JSON of a message from an untrusted client: whatever exceeds a limit is refused while it is read.
 #pragma once
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides the order in which things are checked, opened and made.
 // Clients that connect while the kernels compile wait in the listener's queue.
 #include "live/serve.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs `wavetracer serve`, without its command line: where to listen, who may connect, then the server until it is told
 // to stop. The caller must handle signals.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // poll() watches the listener, the solver's eventfd and the clients; then every client with a message is handled. Each
 // round looks at all clients, so there should be few.
 #include "live/server.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The protocol: who may send, what is answered, whose frame is solved next. One thread handles sockets, one solves, and
 // one reads long messages, so that no client waits for another one's data. The simulation must have [[live_vehicle]],
 // and must not be used by other code meanwhile.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors of poses are the client's, other errors cost the frame, and errors of the device end the server.
 #include "live/solver.hpp"
 

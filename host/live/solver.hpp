@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solves one frame at a time on its own thread, for the client that the server chooses, and turns every failure into an
 // answer. Jobs are given and taken by one thread, that of the sockets; no other thread may use the simulation
 // meanwhile.

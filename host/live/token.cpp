@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads no more of the file than a token may have.
 // It assumes POSIX permissions.
 #include "live/token.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The secret that clients must send if users of other machines can connect.
 // The file must be readable by its owner only, like keys of ssh.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A thread that does jobs one after the other, in the order in which they came, and an eventfd that wakes poll() for
 // each finished job. Jobs are given and taken by one thread, that of the sockets.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the polygons of all features of a vector map by OGR.
 // Curves become lines, collections become their polygons; heights of points are not used here.
 #include <cpl_error.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sets GDAL up for files that are not trusted: quiet, without network.
 // There is one thread, as the program converts one map at a time.
 #include "maps/module.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that the files of the module share: GDAL is opened once, its errors become texts, coordinate systems.
 // Only GDAL's C interface is used.
 #pragma once

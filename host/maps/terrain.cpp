@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads heights of a raster around places by GDAL: its first band, in metres.
 // Posts are the middles of pixels, as in GDAL's geotransform.
 #include <cpl_error.h>

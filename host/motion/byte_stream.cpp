@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads chunks through zlib, whose gz functions pass plain files through unchanged.
 // zlib verifies the length of a gzip stream and its checksum.
 #include "motion/byte_stream.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file as a sequence of chunks, plain or gzip, recognised by content and not by name.
 // It holds one chunk at a time, so that files of gigabytes can be read.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines are recognised by their beginnings; other lines of a recording are skipped.
 // An actor keeps its number; its box, if known, may come anywhere in the text.
 #include "motion/carla.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads recordings of CARLA as text, which client.show_recorder_file_info(file, show_all=True) returns.
 // Lengths in it are Unreal's: centimetres, y to the right; angles in degrees. Sizes are in it only if the recording was
 // started with additional_data=True.

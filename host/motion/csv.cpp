@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads CSV row by row; a header names the columns, which may be in any order.
 #include "motion/csv.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits lines into cells.
 #include "motion/csv_rows.hpp"
 

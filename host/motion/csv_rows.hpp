@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads values separated by commas, or by another character, row by row; blank lines and comments are skipped. The
 // format is RFC 4180 without line breaks in quotes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns are found by their names in the header; those of the log come in blocks, one for each vehicle that is
 // present.
 // Names of entities must be unique, as OpenSCENARIO demands.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads trajectories that esmini writes: its CSV log (--csv_logger) and its recording as text (dat2csv).
 // Both give positions of OpenSCENARIO's reference point, the middle of the rear axle on the ground. The log says where
 // the bounding box is relative to it; the recording does not. Angles are right-handed: a positive pitch is nose down.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns XML elements of FCD into samples, as fcd_samples.hpp says.
 #include "motion/fcd.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads SUMO's floating car data: XML, one <timestep> after the other, each with its vehicles, persons and containers;
 // or CSV, a row for each of them, as SUMO's xml2csv.py and newer releases of SUMO write it. See read.hpp for the
 // format; it holds one chunk of the file and the samples, never the document.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A row has the cells of its timestep, and those of one vehicle, person or container, or of a vehicle with a rider.
 // Columns may be in any order. A row without ids is a timestep without vehicles.
 #include <fmt/format.h>

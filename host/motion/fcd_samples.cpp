@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads FCD as SUMO writes it ("FCDOutput" of its documentation, fcd_file.xsd).
 // Texts are not trusted: every number is checked.
 #include "motion/fcd_samples.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the data of vehicles, persons and containers in SUMO's floating car data, as XML or CSV. A file must have one
 // run, with its timesteps in order.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the samples of all tracks by time and then by track.
 // Times that agree to a microsecond are one timestep.
 #include "motion/fcd_writer.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes trajectories as SUMO does (FCD), for other tools and for read.hpp.
 // Steps must be longer than a microsecond. Types are written by name: a reader must know their sizes.
 #pragma once

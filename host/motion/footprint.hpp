@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts the reference point of another program to the centre of the footprint of a vehicle.
 // Roll is ignored.
 #pragma once

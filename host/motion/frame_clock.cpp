@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times of frames are computed by multiplication, never by summing steps, so that even the millionth frame has the
 // right time.
 #include "motion/frame_clock.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The times of frames, and the vehicles that are present in each.
 // Trajectories must be finished: tracks in order of their first sample.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads tracks of GPS receivers: GPX 1.0 and 1.1.
 #pragma once
 #include <compare>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses with std::from_chars and the checks that a trajectory file needs.
 // NaN and infinity do not count as numbers here.
 #include "motion/input_text.hpp"

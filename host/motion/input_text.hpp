@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses text of trajectory files as numbers, and makes their error messages: file, line, what is wrong.
 // The decimal point is that of the C locale, whatever the locale of the program is.
 #pragma once

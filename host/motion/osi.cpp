@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // protozero reads the fields in any order; other fields are skipped.
 // One message at a time is in memory.
 #include "motion/osi.hpp"

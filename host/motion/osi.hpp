@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads traces of the ASAM Open Simulation Interface (.osi): GroundTruth or SensorView messages of version 3, each
 // after its length as four bytes, the lowest first. Plain or gzip.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ASAM Open Simulation Interface 3.8.0: the numbers of the fields that are read (osi_common, osi_object,
 // osi_groundtruth and osi_sensorview.proto), and its classes of vehicles.
 // Numbers never change between versions 3.x; fields of newer versions are skipped.

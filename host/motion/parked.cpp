@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header names the columns; each row is a place.
 #include "motion/parked.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads places of parked vehicles: CSV with a header that names the columns, in any order: x, y (m) are needed; z (m),
 // yaw (degrees counter-clockwise from +x) and type are optional, and their cells may be empty. Plain or gzip.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interpolates position, yaw and pitch by cubic Hermite polynomials, each with its derivative.
 // Differences of positions should be small beside the positions: sums are written as sample plus difference.
 #include "motion/pose.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses between the samples of a track: they are smooth, and equal the samples at their times.
 // The track must be finished: every value of its samples is given, and its segments are set.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the reader of a file by its first bytes.
 // XML begins with '<' after blanks and a byte order mark, and CSV files do not.
 #include "motion/read.hpp"

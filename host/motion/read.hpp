@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trajectories from files (SUMO FCD, GPX, CSV, OSI, esmini, CARLA) and from waypoints, complete and in a fixed order.
 // Throws InputError with file, line and what to do; Trajectories::warnings says what was left out or assumed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits chunks into lines.
 #include "motion/text_lines.hpp"
 

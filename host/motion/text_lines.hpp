@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a file line by line: lines end with LF or CRLF, a byte order mark is skipped.
 // A line of more than a megabyte is an error: such a file is no table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects samples into tracks, and puts tracks into their final order.
 // Samples with the same id belong to one vehicle.
 #include "motion/track_builder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects the samples of a file, and makes Trajectories of them at its end.
 // Samples are in file coordinates while it collects; those of one vehicle must come in order of time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorts tracks, cuts segments, and computes headings and velocities from differences of positions, for samples at any
 // spacing.
 #include "motion/track_motion.hpp"

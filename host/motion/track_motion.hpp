@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completes what files leave out: order, segments, headings, centres, velocities. The functions must be called in this
 // order, once per track, and set_order() once. Tracks have at least one sample and strictly increasing times; all but
 // set_order() need scene coordinates.

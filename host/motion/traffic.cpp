@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulates cars that follow one another along lanes and reserve crossings, step by step.
 // A vehicle belongs to the lane it came from until its centre has crossed; all braking obeys one limit.
 #include "motion/traffic.hpp"

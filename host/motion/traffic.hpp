@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulates traffic: vehicles that drive the streets of a generated city, on the right.
 // The same options give the same drive on every platform: choices are integers, states change by + - * / and sqrt only.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometry of lanes and turns: straight lines and quarter circles that begin and end at the edges of a crossing.
 // Only poses use trigonometry: the decisions of the simulation are the same on every platform.
 #include "motion/traffic_streets.hpp"

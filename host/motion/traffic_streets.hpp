@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lanes of a grid of streets: their places, their connections at crossings, and the poses along them.
 // Traffic keeps to the right; every street has one lane each way. A lane begins where it leaves a crossing.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The motion of vehicles: tracks of samples in scene coordinates, grouped by vehicle type.
 // Yaw is counter-clockwise from +x, pitch is positive nose up; a vehicle looks along +x of its own frame, z is up.
 #pragma once

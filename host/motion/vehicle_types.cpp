@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUMO's table of vehicle classes: "Vehicle Type Parameter Defaults" of its documentation, as of SUMO 1.18. Digits at
 // the end of a word, and characters other than letters, only number or separate the words of a name.
 #include "motion/vehicle_types.hpp"

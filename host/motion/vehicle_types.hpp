@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes of vehicles by the name of their type, because FCD files hold names only.
 // A type without a size from the user is assumed to be named after its vehicle class.
 #pragma once

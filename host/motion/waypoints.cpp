@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes tracks of waypoints: only positions and times are given, everything else follows from them.
 // Positions are in scene coordinates; gaps are intended, so no track is cut.
 #include <fmt/format.h>

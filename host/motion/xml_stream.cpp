@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns the callbacks of expat into virtual functions.
 // expat may report a few more events after it was stopped.
 #include "motion/xml_stream.hpp"

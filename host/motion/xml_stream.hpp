@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads an XML file through expat, chunk by chunk: elements, texts and comments as they come, with line numbers for
 // messages. Exceptions must not cross expat, which is C: a callback stores its exception and stops the parser.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The counts of a CacheSummary that add up over frames, with the names they have in summary.json and in manifests.
 // Values that describe the table (entries, used, bytes, entries_by_hits) are not added: those of the last frame are
 // kept.

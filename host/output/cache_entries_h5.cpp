@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes cache_entries.h5: one table, /cache_entries, a row per entry that holds a segment.
 // A. Zhdanov, TU Munich, 2014, section 6.3.1, prints such a file: element, times of its operations, hits.
 #include "output/cache_entries_h5.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_entries.h5: the entries of the ray cache's table after each frame, for study (output.cache_entries).
 // cache_entries_h5.cpp lists the layout, with the same words that the file contains.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts in both directions with the same list of counts.
 // The cache must be on: otherwise there is nothing to write.
 #include "output/cache_json.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of a ray cache as JSON: the part that summary.json and the lines of a manifest share.
 #pragma once
 #include <nlohmann/json.hpp>

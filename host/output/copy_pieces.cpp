@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each part is one task with its own block of memory.
 // The processor must be little-endian, as OpenCL devices and their hosts are.
 #include "output/copy_pieces.hpp"

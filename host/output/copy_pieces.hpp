@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies rows of many files into one without the HDF5 library: plain bytes, on all cores.
 #pragma once
 #include <cstdint>

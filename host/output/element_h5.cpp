@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each file has one table, except responses.h5, whose rows belong to links: links have different numbers of antennas.
 #include "output/element_h5.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes responses.h5, beams.h5 and carriers.h5: the channels of links between elements of arrays and at more than one
 // carrier. element_h5.cpp lists the layouts, with the same words that the files contain.
 #pragma once

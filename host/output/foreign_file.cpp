@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A request is a record and the name of a dataset; an answer is the bytes of its values.
 // Rows come in blocks, so the child holds one block, and reads the next one while this process takes the last.
 #include "output/foreign_file.hpp"

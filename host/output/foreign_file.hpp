@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads an HDF5 file that is not trusted: a child process opens and reads it (limited_child.hpp), so a file that
 // crashes the library ends the child, not this process.
 // Every function throws RuntimeError with the dataset's path and what is wrong with it, or InputError that names the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each kind of file has a function that appends a frame to it.
 // HDF5 is not thread safe: only one thread may add and finish.
 #include "output/frame_files.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the outputs of consecutive frames, frame by frame: the HDF5 files of the run, then links.csv.
 // Memory holds only the totals of the frames.
 #pragma once

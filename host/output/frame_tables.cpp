@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each HDF5 output has a temporary file, OUTPUT.rows, which is one part with a piece per frame and table
 // (table_layout.hpp). The processor must be little-endian, as files are.
 #include "output/frame_tables.hpp"

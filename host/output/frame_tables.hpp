@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of an HDF5 output that grow with frames, written one frame at a time: rows go to a temporary file first,
 // and to their final places once their number is known. Memory holds no frame.
 #pragma once

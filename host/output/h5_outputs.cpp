@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Holds the table of HDF5 outputs.
 #include "output/h5_outputs.hpp"
 #include <array>

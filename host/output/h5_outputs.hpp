@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The HDF5 files of a run: the name of each, whole and in shards, and the functions that make it from a run and its
 // frames.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The few HDF5 operations that the outputs need; each is checked and closes what it opened.
 // Strings are stored as variable-length UTF-8, so that a config text may exceed the 64 KiB of a fixed attribute.
 #include "output/hdf5.hpp"

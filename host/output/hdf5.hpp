@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The HDF5 C library with C++ lifetimes and exceptions; this is the only header that includes hdf5.h.
 // Files are built in memory, or on disk in space that was reserved before: HDF5 1.10 may crash if the disk becomes
 // full.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every size that a file states is compared with the stored data before memory is allocated for it.
 // Only the library undoes filters.
 #include "output/hdf5_read.hpp"

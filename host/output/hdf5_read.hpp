@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads datasets of a file that is not trusted: shapes and types are checked before memory is allocated for them.
 // The library crashes on some damaged files in spite of all checks, so this runs in a child process (foreign_file.hpp).
 // Throws RuntimeError with the dataset's path and what is wrong with it.

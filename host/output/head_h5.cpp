@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies by value and in the order of names, so that the bytes of a copy depend on the content alone.
 // H5Ocopy would keep traces of how its source was written.
 #include "output/head_h5.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The head of an HDF5 output: its attributes, and the groups that do not grow with frames.
 // It is written in the same way whether it comes from a run or from a part of a run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files are compared by the keys that name them, which are the same for a copy of the configuration on another machine.
 #include "output/inputs.hpp"
 #include <fmt/format.h>

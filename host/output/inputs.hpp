@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the list of a run's input files, and finds differences between the lists of two runs.
 // The places of files do not matter; their contents do.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses a pair of sockets. A request is its length and its bytes; an answer is a series of messages: data, names of
 // files, and at its end "done" or an error. The limits are the address space, which bounds the library's allocations,
 // and a timer of processor time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A child process for work that may crash: reading files from elsewhere with a library that damaged files can crash. It
 // lives as long as this object, answers one request at a time, and has limits of memory and of time per request. POSIX
 // only. The child is a copy of this process by fork(), without its other threads: it must use no device, and no library

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the figures of radio/links.hpp as comma-separated text, sorted by frame, transmitter, receiver.
 // One frame at a time is in memory.
 #include "output/links_csv.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes links.csv: one row per frame and link, including links without a path.
 // RFC 4180 with a header row and "\n" line ends; numbers are the shortest text that reads back to the same double.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Returns the median of repeated timings, in the same way for every report of this program.
 // There must be at least one value.
 #pragma once

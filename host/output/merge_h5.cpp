@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the parts once, one of them open at a time. HDF5 copies no row: it has one thread, and
 // would take a second for each gigabyte. Parts are not trusted: each must have the datasets of the first, with equal
 // shapes except for their rows.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merges files of consecutive frames into one: the groups that grow with frames.
 // Rows are copied instead of using a virtual dataset, because HDF5 silently fills in values for parts that it cannot
 // open: missing parts, or more parts than a process may have open files (measured with 1500 of them).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each chunk is one task, which knows the pieces that its rows come from.
 // A failure ends this work for good without a message: writing the file meets the same disk, and reports the error.
 #include "output/packed_ahead.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compresses chunks of tables that still grow, before their file can be begun: the place of a chunk in a file depends
 // on everything before it. They are kept in a hidden scratch file. Nothing depends on this work: a chunk that is
 // missing, because there was no time or no space, is compressed when the file is written.

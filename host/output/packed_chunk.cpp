@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses zlib, and a loop for the shuffle.
 #include "output/packed_chunk.hpp"
 #include <zlib.h>

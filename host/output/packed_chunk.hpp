@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a chunk of a compressed table as every reader of HDF5 understands it: the shuffle filter, then deflate.
 #pragma once
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pipeline handles the chunks: stages that call HDF5 run on one thread, the others on all cores.
 // The last chunk of a table is padded with zeros, as HDF5 requires.
 #include "output/packed_rows.hpp"

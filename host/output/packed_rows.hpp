@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Copies rows of many files into one, as copy_pieces() does, and also into compressed tables (output.compression). All
 // cores compress, chunk by chunk, in the format of every HDF5 reader: the shuffle filter, then deflate.
 #pragma once

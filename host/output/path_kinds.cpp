@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A path's interactions are joined as bits; the last row of interaction_kinds that has one of them decides.
 #include "output/path_kinds.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts paths of each kind. A path counts once, by its most special interaction: scattered if it scatters anywhere,
 // else diffracted, else transmitted, else reflected; a path without interactions is line of sight.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Handles the links of a frame one after the other; of equally strong paths the earlier one is written.
 #include "output/path_limits.hpp"
 #include <algorithm>

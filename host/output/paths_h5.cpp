@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes paths.h5: /paths (one row per path) and /vertices (compressed rows); world_h5.cpp writes the world around
 // them. Every dataset has its units and meaning in attributes; the root has the conventions, the config and the
 // versions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes paths.h5: every path of a run with its vertices, the world around it, and all that is needed to read them
 // without wavetracer. paths_h5.cpp and world_h5.cpp list the layout, dataset by dataset, with the same words that the
 // file contains.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses binary search; a file stays open as long as successive pieces come from it.
 // Pieces must not overlap.
 #include "output/row_source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads rows that lie in pieces in many files, by their target place.
 #pragma once
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // There is one rule: without line of sight, most of the power may come around edges.
 #include "output/run_advice.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Suggests settings from the results of a run, for its summary.
 // It uses the record of a run alone, so that merged runs get the same text.
 #pragma once

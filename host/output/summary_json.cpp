@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds summary.json; keys keep this order, so that two summaries compare line by line.
 // Undefined numbers (a rate without a time) are null.
 #include "output/summary_json.hpp"

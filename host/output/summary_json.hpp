@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // summary.json: the run, its device, the amount of work, and the time of each stage.
 // Counts are sums over the frames, those of the ray cache too; seconds of a frame's stages are medians over the frames.
 #pragma once

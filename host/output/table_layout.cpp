@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // HDF5 makes the tables and says where their rows belong; it copies no row, as it has one thread.
 // Space is reserved before HDF5 writes, since it may crash if a disk becomes full.
 #include "output/table_layout.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of an HDF5 output that grow with frames, and their one layout in the file: the head, then the groups in
 // their order, then the tables of each by name. So equal contents give equal bytes, whoever wrote the parts.
 #pragma once

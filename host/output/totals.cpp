@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds up over frames and over shards of frames, which must be added in the order of frames.
 #include "output/totals.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums over the frames of a run: the figures of summary.json and of a shard's line in the manifest.
 // Times are kept one by one, because medians cannot be added.
 #pragma once

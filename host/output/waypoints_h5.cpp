@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes waypoints.h5: one table, /waypoints, a row per waypoint.
 // Kinds are the numbers of WaypointKind; positions are those of the scene file.
 #include "output/waypoints_h5.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // waypoints.h5: points of sampled rays, for study and pictures (output.waypoints).
 // waypoints_h5.cpp lists the layout, with the same words that the file contains.
 #pragma once

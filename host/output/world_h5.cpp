@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes datasets of fixed and moving objects of the world. An end that is absent from a frame has NaN for a position.
 // Every frame must have all ends and instances of the run.
 #include "output/world_h5.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the world into paths.h5: /transmitters, /receivers and /instances, and the positions of all of them in each
 // frame. Positions are in file coordinates.
 #pragma once

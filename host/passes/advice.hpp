@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Advice for errors about a buffer that is larger than the device allows: it names the keys that its length depends on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bitonic_sort: a stable sort of any number of keys by Batcher's network; one launch where they fit into one block. It
 // serves for small n, and as the baseline that the thesis compared with; from some blocks on radix_sort is faster.
 #pragma once

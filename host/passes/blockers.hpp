@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The triangles that hid solved paths in earlier frames (kernels/lib/blockers.clh): occlusion stores them, solve tests
 // them first. They do not change which paths are found; they are worth their memory where frames follow each other.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/bounces.cl.
 // A work-item takes one ray.
 #include "passes/bounces.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bounces: all segments of the rays of a queue in one launch, where nothing else happens to the queue between two
 // depths. It enters the same sequences as trace, scan and interact, one depth after the other.
 #pragma once

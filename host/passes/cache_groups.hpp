@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_groups: the rays of one key that the ray cache did not answer are a group, of which one ray is traced. It needs
 // a labelled queue, see label_rays, and room for it.
 #pragma once

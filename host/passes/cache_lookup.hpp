@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_lookup: rays of a queue that the ray cache can answer get their hit; the others are marked for tracing. It
 // needs a labelled queue, see label_rays.
 #pragma once

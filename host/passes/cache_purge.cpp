@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/cache_purge.cl.
 // A work-item takes a run of entries; regions are the second dimension.
 #include "passes/cache_purge.hpp"

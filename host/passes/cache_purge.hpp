@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_purge: removes entries that were not used since a given frame, in a pass of its own.
 // No other kernel may use the table meanwhile.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/cache_store.cl.
 // A work-item takes a run of missed rays.
 #include "passes/cache_store.hpp"

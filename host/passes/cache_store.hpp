@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_store: puts traced hits into the ray cache, and back into the hits of the whole queue. It needs labelled
 // queues, see label_rays.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes, limits and layout of the ray cache's tables.
 // Regions are equal shares of cache.buffer_size; the remainder is not allocated.
 #include "passes/cache_table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory of a ray cache on the device, one region per transmitter, and the definitions that its kernels are built
 // with. The contents of heads and used depend on the kind: see kernels/lib/cache_*.clh.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/candidates.cl.
 // A work-item takes one sequence (CPUs), or a work-group several together.
 #include "passes/candidates.hpp"

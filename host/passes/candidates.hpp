@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // candidates: pairs of sequences and receivers that may have a path, after two conservative rejections.
 // The list grows until it holds all of them.
 #pragma once

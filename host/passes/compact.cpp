@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/compact.cl.
 // It checks its arguments, since callers name ranges of planes.
 #include "passes/compact.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compact: the indices of the words that are not WT_NONE, in order: those of rays that hit, or of lanes that live.
 // Between its two operations the block counts are scanned (see scan), which also gives the number of indices.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The expected length of a list is a quarter more than recent frames had, plus a thousand: work-items that find nothing
 // to do cost less than a wait.
 #include "passes/counters.hpp"

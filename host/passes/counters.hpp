@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // counters: the counts of the kernels of a frame, and the lengths of the lists that they make. The host reads the
 // length of a list where it cannot know it before. Where frames follow each other it foresees the length from the last
 // frames, with room to spare. A pass is launched for that many elements, its kernel finds the true length on the device

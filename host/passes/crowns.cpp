@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/crowns.cl.
 // The host knows the number of rows, so nothing is read back.
 #include "passes/crowns.hpp"

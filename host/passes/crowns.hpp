@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // crowns: rows of paths transmitter - cell - receiver, for the cells of vegetation that scatters. Rays do not see
 // leaves, so every link meets every cell. The rows are a list of their own, which occlusion and visible take like that
 // of solve.

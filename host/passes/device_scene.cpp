@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Upload of the static scene: trees by host/accel, surfaces as the records of wavetracer/device/records.h.
 // Stack sizes follow from the trees, in steps, so that scenes of similar size share compiled kernels.
 #include "passes/device_scene.hpp"

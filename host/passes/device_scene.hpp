@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene on the device: acceleration structures in every form that this kind of device may trace, and surfaces in
 // float and double; place adds those of instances to the static ones. simulation/hit_finder.cpp chooses the form.
 #pragma once

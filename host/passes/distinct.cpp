@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/distinct.cl.
 // One row per work-item; two rows per visible path where links have one the other way.
 #include "passes/distinct.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // distinct: the rows of a frame's paths, made of the visible ones: with reversed twins, each path once, in the order of
 // links, delays and surfaces. It has three kernels; the keys are sorted between the first two.
 #pragma once

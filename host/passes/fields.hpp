@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fields: delays, angles, coefficients and Doppler shifts of the paths of a frame, on the device, and their columns on
 // the host. docs/method.md has the physics, wavetracer/device/path_field.h the code, with which the host computes the
 // same bits (radio/fields.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // gather_rays: copies rays of a queue into another, permuted or selected. It needs two queues of one capacity, the
 // second with no more planes than the first.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/generate_rays.cl.
 // The queue must have room: the frame loop sizes its batches.
 #include "passes/generate_rays.hpp"

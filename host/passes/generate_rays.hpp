@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // generate_rays: writes launch rays of one transmitter into a queue; the direction is a pure function of the launch
 // index. They come in launch order, or in an order given as a list of launch indices.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists that kernels append to and count: the pass runs, the host asks for the length, and if the list was too small,
 // makes it larger and runs the pass again. A kernel must count beyond the capacity, but write nothing there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // interact: rays that hit enter their prefix into the trie and go on, reflected and compacted in order; if a queue for
 // transmitted rays is given, they also go straight through the surface. hits.block_hits must have been scanned.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // label_rays: launched rays get their sample, their transmitter, and the note that they have left nothing yet. It needs
 // queues with WT_RAY_LABELLED_PLANES.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The constants of the maps from launch index to direction (wavetracer/device/directions.h), for kernels that evaluate
 // them. Every user of a launch derives the same numbers from the same configuration.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table is the inverse of the share of directions above z; the share is summed up on a grid that is fine at the
 // horizon.
 #include "passes/launch_heights.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of the launch "horizon": they say how its directions spread from the zenith (z = 1) to the nadir (z = -1).
 // wt_cylinder_to_heights of wavetracer/device/direction_maps.h reads them.
 #pragma once

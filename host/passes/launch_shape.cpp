@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ranges of launches.
 // Work-groups are spread evenly over the dimensions: 2 x 2 x 2 for 8, 4 x 2 x 2 for 16.
 #include "passes/launch_shape.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape of a launch: one, two or three dimensions, row by row or along Hilbert curves (kernels/lib/launch.clh). It
 // serves the thesis' experiment of section 3.1; results do not depend on it.
 #pragma once

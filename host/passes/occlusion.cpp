@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/occlusion.cl.
 // First legs are tested first, then all others.
 #include "passes/occlusion.hpp"

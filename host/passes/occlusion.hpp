@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // occlusion: marks solved paths that have an obstructed leg.
 // kernels/lib/leg.clh has the rule.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // order_keys: sort keys of rays, by the direction only or by direction and origin; they have 32 bits, of which the
 // lowest launch_bits() or queue_bits() count. Keys of launch rays need no rays: they come from the launch indices.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // path_groups: the geometrical waves that the paths of a frame belong to, on the device, and the groups of paths that
 // follow from them, on the host. wavetracer/device/path_groups.h says which waves these are.
 #pragma once

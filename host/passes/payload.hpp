@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data that a sort moves along with its keys. The sorts share it, since they do not include each other.
 #pragma once
 

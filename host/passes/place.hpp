@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // place: puts vehicles into the scene of a frame: their surfaces for the exact solve, and a top-level tree over the
 // instances. The trees of the models are built once; a frame uploads 160 bytes per instance, and 128 more where the
 // host builds the tree over them.

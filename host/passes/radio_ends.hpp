@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transmitters and receivers on the device: double4 records (position, instance), and receivers as float planes for the
 // conservative rejection. Where paths are sought from both ends, receivers that do not send launch rays, too: they are
 // called listeners. Positions are recentred metres; the instance is that of the vehicle that carries the end, -1

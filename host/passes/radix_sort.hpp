@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radix_sort: a stable sort of 32- or 64-bit keys by a range of their bits, with a 32-bit word per key or without. It
 // needs one in-order queue: nothing is read back between the passes, and the device skips digits that are the same in
 // all keys.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ray queues and hit lists: planes of 32-bit words, see wavetracer/device/records.h.
 // Capacities are padded, so that 16-wide kernels may read and write past the last ray without leaving a plane.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Room for records that a device writes and the host reads in each frame.
 #pragma once
 #include "gpu/gpu.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // receive: finds rays that pass receivers within a radius, the thesis' way of reception. The list grows until it holds
 // them. It needs labelled queues (see label_rays).
 #pragma once

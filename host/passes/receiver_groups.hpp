@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receivers in groups of 16 that are close together, each in its box: receivers that a sequence surely does not reach
 // are skipped group by group (candidates on CPUs).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/refine.cl.
 // A work-item takes one sample or slot.
 #include "passes/refine.hpp"

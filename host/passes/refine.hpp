@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // refine: selects the samples of a launch that are worth four more each, and makes those four. Sequences are counted
 // over all levels of a launch, so those that are met often are soon not refined any more.
 #pragma once

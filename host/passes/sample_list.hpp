@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The samples of one level of a refined launch: each is a cell of the sphere of directions and a launcher. They are in
 // the order of the launchers, then along the curve of the cells. The list also says where each sample ended.
 #pragma once

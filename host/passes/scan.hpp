@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scan: exclusive prefix sums of block counts, in place, and their total. It is one launch where few work-items
 // suffice, else two: the sums of chunks, then each chunk from the sum before it.
 #pragma once

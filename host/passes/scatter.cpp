@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/scatter.cl.
 // All tiles of a surface may serve the same receivers, so the rows are counted before any is written.
 #include "passes/scatter.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scatter: rows of paths transmitter - tile - receiver, for the tiles of surfaces that a transmitter's rays saw
 // directly. The rows are a list of their own, which occlusion and visible take like that of solve.
 #pragma once

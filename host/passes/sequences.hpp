@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sequences: the set of distinct sequences of all transmitters, as a trie on the device; it grows when it is full.
 // A node's id is its slot, so ids change when the table grows: only nodes() may hold one across regrow().
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/solve.cl.
 // One candidate per work-item.
 #include "passes/solve.hpp"

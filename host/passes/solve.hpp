@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solve: exact reflection points of candidates by the image method, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once

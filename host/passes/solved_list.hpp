@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solved candidates on the device: solve produces them, occlusion marks them, and visible selects from them. The layout
 // is wt_solved in wavetracer/device/records.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sorts cross at one block of the bitonic one (passes/tuning.hpp), which is one launch and needs no temporary
 // memory.
 #include "passes/sort.hpp"

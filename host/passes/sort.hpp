@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sort: the permutation that sorts 32-bit keys, stable; bitonic for few keys, radix for many.
 // The two sorts together, at the crossover that bench_sort measures.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of the wedges and tiles that steps of solved paths name, for the passes that check legs (kernels/lib/leg.clh).
 #pragma once
 #include "gpu/gpu.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A list grows to a quarter more than is asked for, as far as the device allows.
 #include "passes/tile_rows.hpp"
 

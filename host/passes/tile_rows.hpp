@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The number of paths by tiles or cells that a device can hold.
 #pragma once
 #include <cstdint>

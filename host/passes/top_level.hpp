@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // top_level: the top-level tree over the instances of a frame, built on the device from their records there.
 // The host only gives it their number, and nothing is read back. Keys are sorted between its two halves.
 #pragma once

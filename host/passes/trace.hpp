@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace: nearest hits of a queue of rays, and the hits of every block of rays; in launches of any shape.
 // At equal distances the lower primitive counts, so shapes, devices and trees all give the same hits.
 #pragma once

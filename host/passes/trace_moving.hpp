@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace_moving: replaces hits of the static scene by those of instances that come before them. It needs a scene with
 // instances (passes/place.hpp), and hits by a Trace of Scope::fixed.
 #pragma once

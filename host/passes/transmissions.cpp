@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/transmissions.cl.
 // One path per work-item.
 #include "passes/transmissions.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path. It
 // replaces occlusion: it marks paths that pass more surfaces than they may, or an opaque one.
 #pragma once

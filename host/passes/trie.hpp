@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The set of sequences as kernels take it: a trie whose slots are its nodes, and the data of each slot.
 // passes/sequences.hpp makes it; see also kernels/lib/trie.clh.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One table that says how kernels are launched: every choice between CPUs and GPUs that changes time and no result. A
 // comment with figures says where they were measured; rows without one were chosen by reasoning and not measured.
 // bench_kernels, bench_sort, bench_trace and bench_cache show the effect of a changed row. Passes whose work-items do

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uploads tables of a frame to buffers that later frames use again.
 #pragma once
 #include <cstring>

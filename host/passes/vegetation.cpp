@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/vegetation.cl.
 // A work-item takes one path; the tree is over the boxes of volumes, which never move.
 #include "passes/vegetation.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // vegetation: the lengths of visible paths inside of each kind of vegetation of the scene. It is made where a scene has
 // any. Rays and exact paths do not depend on it: leaves neither turn nor stop a wave.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/visible.cl.
 // A work-item takes one solved path.
 #include "passes/visible.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visible: the solved paths that occlusion has left, as a list of their own, a fraction of all solved paths: those of
 // all kinds, one after the other. The list grows until it holds them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/waypoints.cl.
 // One ray per work-item.
 #include "passes/waypoints.hpp"

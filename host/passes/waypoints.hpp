@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // waypoints: the places where rays start and end, segment by segment, one row per sample. It needs labelled queues (see
 // label_rays), and every depth of a batch must pass once, in order.
 #pragma once

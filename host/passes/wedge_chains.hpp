@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_chains: paths over several edges, a few of each link: the chains of edges that strings between its ends touch
 // when they are pulled tight over the roofs. The list grows until it holds them; a path may be in it several times.
 #pragma once

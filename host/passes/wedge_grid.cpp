@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Edges are visited twice: first counted, then entered.
 #include "passes/wedge_grid.hpp"
 

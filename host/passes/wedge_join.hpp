@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_join: candidates of diffracted paths, from prefixes of both ends that see one wedge; with wedge_pairs also from
 // those that see a wedge each. The list grows until it holds them, or as far as it may: then the caller asks for them
 // in parts.

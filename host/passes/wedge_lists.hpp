@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lists that the passes of diffracted paths hand on: the wedges of the world, and the prefixes that see them.
 // Layouts are wt_wedge and wt_wedge_prefix in wavetracer/device/records.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/wedge_pairs.cl.
 #include "passes/wedge_pairs.hpp"
 

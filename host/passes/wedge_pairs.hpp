@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_pairs: candidates of paths over two wedges. Pairs that static surfaces surely hide from each other are left
 // out, which loses no path (wedge_sight).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/wedge_prefixes.cl.
 // A work-item takes one node of the trie, then one prefix.
 #include "passes/wedge_prefixes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_prefixes: the wedges that the prefixes of all ends see, and the places from which their images look at them.
 // The list grows until it holds them.
 #pragma once

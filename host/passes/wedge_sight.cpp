@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/wedge_sight.cl.
 // One prefix per work-item.
 #include "passes/wedge_sight.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_sight: the pieces of edges that the prefixes may see, past their last mirror and past static surfaces that
 // surely hide them (kernels/lib/sight.clh). No path is lost by it; moving surfaces hide nothing here.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/wedge_solve.cl.
 // One candidate per work-item.
 #include "passes/wedge_solve.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_solve: exact points of diffracted paths, on their edges and in their surfaces, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedges: all wedges of the world on the device, those of instances at their places in a frame, and the surfaces that
 // they bound. Static ones come first, then those of each instance as Instance::first_wedge says.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours span the gains of all cells except the brightest and darkest percent, which would hide the differences of the
 // others. Receivers of a grid must be at their places: a grid does not move.
 #include "plots/coverage_plot.hpp"

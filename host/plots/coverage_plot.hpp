@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plots coverage: the path gain at every receiver of a grid in one frame, as an image over the walls of the scene.
 #pragma once
 #include <cstdint>

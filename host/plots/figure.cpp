@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes are those of a screen; vector formats use 96 pixels per inch, and PNG has twice the pixels, so that it prints
 // well. It needs gnuplot 5.2 or later with cairo terminals, as in Debian's gnuplot-nox.
 #include "plots/figure.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A figure: its data as CSV, a gnuplot script that draws them, and the picture, side by side in one folder.
 // The script reads only the data beside it, so a user can change it and run it again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starts a child process in the folder of the script; gnuplot's messages go to standard error.
 // It needs POSIX with posix_spawn_file_actions_addchdir_np.
 #include "plots/gnuplot.hpp"

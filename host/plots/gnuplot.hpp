@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // gnuplot as a program: colours that all pictures share, quoting for its scripts, and running one.
 // Scripts only name files of their own folder, so that the folder can be moved and the script run again.
 #pragma once

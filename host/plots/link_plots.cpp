@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data are written as doubles that read back the same; units are changed in the scripts alone.
 // Weak points are drawn first, so that strong ones lie on top.
 #include "plots/link_plots.hpp"

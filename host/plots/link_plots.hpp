@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the figures of links, one function each, from the result of link_series().
 // Each series must have at least one path.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The run is read twice, first to find the strongest links, then to read those; once if a link is named. Links and
 // paths of a frame must be sorted, as runs write them; links are sorted again, since a file may differ.
 #include "plots/link_series.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data of link plots: a few links over all frames, and every path of the first of them.
 // A run is read one frame at a time; only shown data are kept.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A figure that was asked for and cannot be made is an error; one that was not asked for and does not suit is skipped.
 // Names of grids are those of the run's configuration.
 #include "plots/plots.hpp"

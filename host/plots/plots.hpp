@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plots a run: chooses suitable figures and draws them.
 // The scene is drawn if it can still be loaded.
 #pragma once

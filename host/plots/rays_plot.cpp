@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of one ray follow each other, sorted by depth.
 // Colours are those of the page: the first segments are the darkest.
 #include "plots/rays_plot.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plots sampled rays (waypoints.h5) of one frame from above: their segments, and the centroid of their hits at each
 // segment.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Equations have the numbers of the recommendations; f is in GHz and attenuations are in dB/km, up to air_at.
 // theta = 300 / T; e is the partial pressure of water vapour in hPa.
 #include "radio/air.hpp"

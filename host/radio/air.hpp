@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Losses of waves in air per metre: rain (ITU-R P.838-3), fog (P.840-8), oxygen and water vapour (P.676-13, line by
 // line). The weather is the same everywhere.
 #pragma once

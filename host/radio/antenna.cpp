@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The antenna of a radio end: pattern, slant, orientation.
 // The host computes cosines and sines of slants and orientations once, and sends them to every device.
 #include "radio/antenna.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The antenna of a radio end: an element pattern, one or two ports, turned into the global frame.
 // Everything is per port: ports of one antenna share place and pattern and differ in polarisation.
 // wavetracer/device/antenna.h computes fields, here as on devices.

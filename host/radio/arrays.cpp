@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements of ends, and the frequencies and times of responses: these follow from the configuration alone.
 #include "wavetracer/arrays.hpp"
 

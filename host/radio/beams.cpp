@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements differ only by phase and spreading, so ports are taken as a whole: the power of a path over its ports, times
 // the result of the beams for its elements. Links are computed on all cores.
 #include "radio/beams.hpp"

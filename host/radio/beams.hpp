@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The gains of the beams of two ends, over the paths between them.
 #pragma once
 #include <map>

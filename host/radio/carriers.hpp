@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The carriers of a configuration.
 #pragma once
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A centre is inside if a short leg that leaves it upwards is: the same rule as for the losses of paths inside.
 #include "radio/cells.hpp"
 

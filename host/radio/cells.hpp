@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cells of vegetation that scatters: its volumes are cut along their axes into boxes whose sides are at most as long as
 // trace.tile_m, and boxes whose centre is inside are cells. They share the volume evenly, so all of it counts even if
 // they are few. A centre that is also in an earlier volume is no cell of this one. Cells of the world are numbered

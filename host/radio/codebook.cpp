@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Codebooks by formula and from files.
 #include "radio/codebook.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beams of arrays: the weights with which the signals of elements are added up. The powers of a beam's weights add up
 // to 1. A beam points in the same direction when it sends and when it receives: the channel between two beams is the
 // sum over elements of w_rx h w_tx, without a conjugate.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Physical constants of the radio side, SI units.
 // The speed of light is that in vacuum: delays are lengths divided by it.
 #pragma once

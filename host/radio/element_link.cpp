@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes of mirrors and lines of edges are those of the scene at their places in the frame; they pass through the
 // vertices of the path.
 #include "radio/element_link.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elements of the two ends of a link in a frame, and its paths between every two of them.
 #pragma once
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients and responses between elements are computed pair by pair, so every sum is made in the order of the
 // paths, on whichever core.
 #include "radio/element_responses.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The responses of all links of a frame, as [response] asks for them.
 #pragma once
 #include "wavetracer/arrays.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Materials of all scenes are in one list, part after part; surfaces of the world point into it.
 #include "radio/field_tables.hpp"
 

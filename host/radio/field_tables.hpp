@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data of a world and its radio ends that fields need, as the tables that wavetracer/device/path_field.h reads:
 // they are made once, and the same for every frame, except for the places of the ends.
 #pragma once

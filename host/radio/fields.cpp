@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows are made as on devices, in the order of links; then they are computed row by row, on all cores.
 #include "radio/fields.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From exact path geometry to propagation paths: delays, angles and coefficients, in double on the host. The code is
 // the same as on devices (wavetracer/device/path_field.h), row by row. It is the reference that devices are tested
 // against, and it evaluates paths that come from elsewhere. Results do not depend on the number of threads.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The spectral lines of oxygen and water vapour: Recommendation ITU-R P.676-13, Annex 1, Tables 1 and 2.
 // f0 in GHz, then a1 to a6 or b1 to b6, in the units of the tables.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Groups of a link are distinguished by a 64-bit hash of their steps: of 10,000 groups two have the same hash once in
 // 10^11 links.
 #include "radio/group_numbers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of groups of paths (wavetracer/paths.hpp), from the waves that each path belongs to.
 #pragma once
 #include <span>

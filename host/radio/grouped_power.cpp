@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Most paths are whole groups: their powers need no phase, and keep all their bits.
 #include "radio/grouped_power.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power of a link: fields of one group are added with their phases, then powers of groups (wavetracer/paths.hpp).
 #pragma once
 #include <complex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The warning about paths that were left out.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The link budget: received power and signal-to-noise ratio of a link from its path gain.
 // Noise is thermal, k T B at T = 290 K (IEEE's standard noise temperature), raised by the receiver's noise figure.
 #pragma once

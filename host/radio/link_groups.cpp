@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows grouped by link: two stable counting sorts, by receiver and then by transmitter.
 // The time is linear, and so short that one core suffices.
 #include "radio/link_groups.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of paths grouped by the link that they belong to.
 // Ends must be numbered from 0 without large gaps: each has a counter.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures of a link from its paths, in two passes so that spreads keep their digits beside long delays.
 // Rows and links must be sorted; they are walked once, side by side.
 #include "radio/links.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures of a link: the result of all paths between one transmitter and one receiver.
 // Powers are summed over pairs of ports. docs/formats.md has the formula of each figure.
 #pragma once

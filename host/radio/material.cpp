@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The complex relative permittivity of a radio material at a frequency.
 // Coefficients and range were validated where the material was made.
 #include "radio/material.hpp"

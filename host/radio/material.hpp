@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The complex relative permittivity of a radio material at a frequency (ITU-R P.2040, equations 14 and 28 to 29).
 // Time convention exp(+j 2 pi f t): a lossy material has a negative imaginary part.
 #pragma once

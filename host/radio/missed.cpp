@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Horvitz and Thompson's estimate (J. Am. Stat. Assoc. 47, 1952): a path that was found with a chance p stands for 1 /
 // p paths, itself included. The number of quarters of the launch that found a path tells its chance. Frames of a drive
 // see nearly the same, so their counts make a mean frame, and not a larger sample.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A wave loses least straight through a slab. Materials that no surface uses are not asked for.
 #include "radio/opacity.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces that no wave passes: half spaces, metals, thick walls of lossy materials. Loss through a slab must grow
 // with the angle of incidence.
 #pragma once

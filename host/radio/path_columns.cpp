@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All cores take part: most of the time is spent on pages that are touched first.
 #include "radio/path_columns.hpp"
 

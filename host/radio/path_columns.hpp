@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths as columns, from the records that fields write.
 #pragma once
 #include <cstdint>

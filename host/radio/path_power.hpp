@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The power of a path, its phase, and the end of the rows of its link, whose fields are added.
 #pragma once
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Far-field patterns of antenna elements in their own frame: boresight +x, dipoles along z.
 // A field is the amplitude relative to that of an isotropic antenna: its squared length is the gain, as a ratio. The
 // closed forms are in wavetracer/device/antenna.h; all except that of TR 38.901 are patterns of lossless antennas.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antenna patterns read from a CSV grid; the format is documented at load_pattern.
 // Angles may have at most six decimals: the grid is compared in whole micro-degrees.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // These loops let compilers take several elements at a time: real and imaginary parts are apart, and there are no
 // branches.
 #include "radio/response_sum.hpp"

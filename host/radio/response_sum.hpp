@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sum over paths of a exp(-j 2 pi f delay) for some pairs of elements, all frequencies, and several coefficients a
 // of each path: one for each time and pair of ports.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffuse scattering by a tile of a rough surface, the effective roughness model: V. Degli-Esposti, F. Fuschini,
 // E. M. Vitucci, G. Falciasecca, "Measurement and Modelling of Scattering From Buildings", IEEE Trans. AP 55(1), 2007.
 #pragma once

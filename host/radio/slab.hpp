@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reflection and transmission of a plane wave at a single-layer slab in free space (ITU-R P.2040-3, section 2.2.2).
 // TE: the electric field is normal to the plane of incidence; TM: it lies in that plane.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions, their angles and their spherical unit vectors.
 // theta is the angle from +z, phi that from +x towards +y; at the poles, where phi is free, phi is 0.
 #pragma once

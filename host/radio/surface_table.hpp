@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces by their numbers in the world, and their places at an instant.
 #pragma once
 #include <glm/geometric.hpp>

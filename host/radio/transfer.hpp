@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transverse field of a wave along a path: a 2 x 2 matrix in a basis that travels with the wave.
 // It is for plane waves at plane surfaces; spreading and antennas are left to the caller. The arithmetic is that of
 // wavetracer/device/transfer.h.

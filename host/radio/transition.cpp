@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same code as on devices: wavetracer/device/transition.h.
 #include "radio/transition.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lengths come from unfolding: about an edge, both sides of a path turn into one plane without a change of length
 // (Fermat).
 #include "radio/unfolded_path.hpp"

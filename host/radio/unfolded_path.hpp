@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A path between points near those that it was solved for. Its mirrors are unfolded, so it is straight except at the
 // edges and tiles that bend it. Its mirrors are planes, and its edges are lines that go on beyond their ends: whether a
 // point is hidden is not tested.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many phases at once: exp(-j 2 pi turns), after whole turns are removed. There are no branches or tables, so that
 // compilers compute several at a time; the error is below 5e-15.
 #pragma once

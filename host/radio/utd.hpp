@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The uniform theory of diffraction at a straight wedge: R. Kouyoumjian and P. Pathak, Proc. IEEE 62(11), 1974, with
 // faces of any material. On Keller's cone the direction of travel keeps its angle with the edge.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kinds of vegetation are the materials of volumes, in the order in which volumes first use them. For A_m: A_1 = 1.37
 // dB and alpha = 0.42 were measured in a mixed wood near St. Petersburg from 106 to 2118 MHz, 0.18 dB and 0.752 in a
 // deciduous one near Mulhouse from 900 to 1800 MHz; outside of these ranges the law is extrapolated.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Losses of waves in vegetation (ITU-R P.833-10, section 2.1), and the volumes of a scene as fields and devices read
 // them. host/scene/volumes.hpp makes them.
 #pragma once

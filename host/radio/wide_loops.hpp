@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops over columns of numbers, compiled for AVX2 as well as for the processor that the build is for; the processor
 // decides once which of the two runs. Their results have the same bits: sums keep their order, and contraction is off.
 // Real and imaginary parts must be apart, and there must be no branches inside.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface or wedge that a number of the world means: those of the static scene come first, then those of each
 // instance, in the order of its model (Instance::first_surface, first_wedge). The table is flat: worlds have thousands
 // of moving surfaces, and it is read for every vertex of every path.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces, wedges and instances of a world in the form that devices have, placed in a frame on the host. Numbers are
 // those of the world: those of the static scene, then those of each instance in the order of its model.
 #pragma once

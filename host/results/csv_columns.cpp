@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A quote begins or ends a quoted part, wherever it stands: within one, commas and line ends are text.
 // A doubled quote ends a part and begins the next, so it needs no special rule where its text does not matter.
 #include "results/csv_columns.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads columns of numbers of a CSV file by RFC 4180, found by their names in the header row.
 // The text comes in pieces of any size, so memory grows with the rows and not with the file.
 #pragma once

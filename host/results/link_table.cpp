@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A line of links.csv is a row of /links, in the same order; another number of lines means another run.
 // Fields that are no numbers become NaN.
 #include "results/link_table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads links.csv of a run. It has more than paths.h5: all paths, including those that output limits have left out of
 // the file, and the power that rays have missed.
 #pragma once

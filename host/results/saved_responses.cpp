@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Links and their offsets are checked and kept at opening; rows are read by frame.
 #include "results/saved_responses.hpp"
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the responses.h5 of a run, one frame at a time ([response]).
 // The file is not trusted: everything is checked before it is used.
 #pragma once

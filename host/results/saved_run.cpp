@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Offsets and indices of the file are checked once, at opening or with the frame that uses them.
 // Only one thread may use it: the child that reads answers one request at a time.
 #include "results/saved_run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the results of a run: paths.h5 of a folder, one frame at a time. Viewer, plots and exports read runs through
 // it. The file is not trusted: everything is checked before it is used.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns are read by frame; the frames of rows are checked and kept at opening.
 // Only one thread may use it, as for SavedRun.
 #include "results/saved_waypoints.hpp"

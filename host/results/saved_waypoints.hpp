@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the waypoints.h5 of a run, one frame at a time: points of sampled rays (output.waypoints). The file is not
 // trusted: everything is checked before it is used.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The configuration's paths must be absolute, as runs write them.
 // Vehicles are matched by their id, because a run of a part of the frames lists the same vehicles.
 #include "results/saved_world.hpp"

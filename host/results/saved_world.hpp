@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads the city and the vehicles of a run again from the files that its configuration names.
 // The files may have changed or gone: pictures are then drawn without the missing objects, and a warning says so.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles that share an edge are joined in a union-find forest; the lowest triangle of a set comes first.
 // It assumes the edges of a built scene, whose faces are indices of its triangles.
 #include "scene/bodies.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds bodies: sets of triangles that are connected by shared edges.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The side follows from the corners of neighbouring faces that lie off the surface's plane.
 #include "scene/body_sides.hpp"
 

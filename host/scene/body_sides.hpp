@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tells on which side of its plane a surface has the body that it bounds.
 #pragma once
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds a Scene in steps: gather, recentre, weld, clean, flatten, connect, cut covered faces, find wedges. Every step
 // is deterministic and sequential; a million triangles take a few seconds.
 #include "scene/build_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds a Scene from raw meshes: recentred, welded and cleaned, with surfaces and edges.
 // It assumes coordinates in metres with z up (units and axes are converted before), and one resolved material per mesh.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The city generator: it decides which building stands where. Random numbers are PCG32 (O'Neill 2014) with integer
 // ranges only. Each block draws from its own stream, so a block keeps its buildings when the city grows.
 #include "scene/city.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generates a city: blocks between straight streets, buildings of several shapes, roofs and ITU materials.
 // The same options give the same bytes on every platform: all choices are integers, all coordinates multiples of 1/8 m.
 #pragma once

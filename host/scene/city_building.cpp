@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes closed solids of buildings: extruded cells of a footprint, or a rectangle under a gable.
 // Faces wind counter-clockwise seen from outside; neighbouring faces share their corners exactly.
 #include "scene/city_building.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Buildings that the city generator places: closed solids on an integer grid of 1/8 m.
 // Coordinates must be below 2^20 grid units (131 km), so that float32 holds them exactly.
 #pragma once

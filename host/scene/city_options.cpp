@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses the options of `wavetracer scene city` and of the keys scene.generate and trajectories.generate.
 // Options are separated by blanks; values hold no blanks.
 #include <fmt/format.h>

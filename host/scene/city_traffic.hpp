@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of a generated city's traffic: one text of options serves scene.generate and trajectories.generate.
 // Vehicles drive on the streets of a city with the same options.
 #pragma once

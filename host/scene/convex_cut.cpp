@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clips by Sutherland and Hodgman (1974), and keeps the outer part as well.
 #include "scene/convex_cut.hpp"
 

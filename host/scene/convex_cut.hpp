@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts convex polygons by lines of their plane. All is in double and in space, so no coordinates of the plane are
 // needed.
 #pragma once

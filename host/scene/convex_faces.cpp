@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A surface is convex without holes if its triangles do not overlap and fill the hull of their corners.
 #include "scene/convex_faces.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces that are convex polygons without holes, stored as half planes whose intersection they are. Such a surface
 // hides one convex set from another if it hides all corners of the one from all corners of the other.
 #pragma once

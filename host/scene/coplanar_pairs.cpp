@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two grids are used: one of surfaces, to find the few that may overlap, and one of the triangles of those.
 #include "scene/coplanar_pairs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds triangles of different materials that lie on each other in one plane, such as those of a road drawn on the
 // ground.
 #pragma once

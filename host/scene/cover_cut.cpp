@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cover nearest to the middle of a piece cuts it into up to three pieces beside the cover. Each piece goes on with
 // only those covers that reach its side of the lines, so that each cover meets few pieces.
 #include "scene/cover_cut.hpp"

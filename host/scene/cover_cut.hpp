@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the parts of a triangle that other triangles of its plane do not cover.
 #pragma once
 #include <array>

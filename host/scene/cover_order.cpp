@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces are joined over the free edges that flat_neighbours.hpp finds along each other.
 #include "scene/cover_order.hpp"
 

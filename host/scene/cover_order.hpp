@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides which of two surfaces of one plane covers the other: the smaller one does, such as a road drawn on the ground
 // or a door drawn on a wall. If their areas agree in six digits, it is the one whose material comes first in the
 // alphabet.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces are handled from the largest that covers others to the smallest, so that a plane is handed on from one to
 // the next.
 #include "scene/cover_planes.hpp"

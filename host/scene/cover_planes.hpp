@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gives surfaces that lie in one plane, up to the rounding of their corners, the same plane.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the warnings about areas where surfaces of two materials share one plane.
 #pragma once
 #include <cstdint>

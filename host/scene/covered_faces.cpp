@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // For each triangle, the list of those that cover it is made from the pairs; the uncovered pieces then replace the
 // triangle.
 #include "scene/covered_faces.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides areas where surfaces of several materials share one plane: each area is given to one of them, whatever their
 // order in the file.
 #pragma once

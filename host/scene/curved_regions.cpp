@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The quadratic surface is a polynomial of the two coordinates in the plane, fitted by normal equations.
 #include "scene/curved_regions.hpp"
 

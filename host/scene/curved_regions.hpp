@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distinguishes a plane with noise from a piece of a curved surface (rule 5 of flat_regions.hpp).
 #pragma once
 #include <vector>

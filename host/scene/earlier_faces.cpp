@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Candidates come from a grid over the triangles. Two triangles of one plane overlap if no side of either separates
 // them.
 #include "scene/earlier_faces.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds triangles that scatter and lie on other triangles that scatter. Where several triangles of one plane overlap,
 // only the first of them scatters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Joints are the welded ends and crossings of edges; each edge is then cut at the joints that lie on it.
 // Edges and joints are compared within the cells of a grid, so the work is that of neighbours.
 #include "scene/edge_pieces.hpp"

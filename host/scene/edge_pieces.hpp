@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts edges of the mesh where they touch or cross others, so that meshes that are not welded along an edge share its
 // pieces. It needs Scene::edges with Edge::flat; flat edges have no pieces.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A union-find forest over both sides of all surfaces.
 #include "scene/face_planes.hpp"
 

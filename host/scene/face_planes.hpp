@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds which surfaces make up one plane: those of a roof in pieces that are not welded, of two materials, or of
 // several houses. A wave between two edges of that plane runs along it, whichever of its surfaces it ends on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums are taken over the vertices in their order, which decides their last bits.
 #include "scene/flat_mesh.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mesh in which flat regions are searched, and such a region; all steps of the search use them (flat_regions.hpp).
 #pragma once
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Free edges are cut where they touch, as for diffraction (edge_pieces.hpp); two of them that share a piece overlap.
 #include "scene/flat_neighbours.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds triangles that continue one another, over edges of the mesh or where free edges run along each other.
 #pragma once
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A region grows in rounds. Each round adds triangles that lie within the tolerance of the current plane and not much
 // farther away than the region is wide, since the plane of a small triangle says little about far places; then the
 // plane is fitted anew.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds regions of a mesh that are one plane within a tolerance, which were planes before their coordinates were
 // rounded or measured. The mesh must be welded and have its edges (host/scene/topology.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A vertex takes the shortest move onto several planes by Gram and Schmidt: each step goes along the part of the next
 // normal that is perpendicular to those before, so it leaves no plane that was reached.
 #include "scene/flatten.hpp"

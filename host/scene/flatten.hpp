@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves vertices onto the planes that they were on before their coordinates were rounded or measured. The mesh must be
 // welded and have its edges; surfaces are found afterwards (host/scene/topology.hpp).
 #pragma once

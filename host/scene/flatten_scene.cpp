@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes tolerances of vertices and writes messages for the user.
 #include "scene/flatten_scene.hpp"
 

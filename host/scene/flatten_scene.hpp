@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The step of build_scene() that puts vertices onto their planes.
 #pragma once
 #include <array>

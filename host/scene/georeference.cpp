@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects by PROJ and reads the JSON file beside a scene.
 // Projection strings come from unknown files, so only plain projections of PROJ are allowed, and none that opens other
 // files.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place of a scene on the Earth: georeference.json beside the scene file. The imports write it, and commands that
 // read or print degrees use it. PROJ projects; PROJ strings need no database.
 #pragma once

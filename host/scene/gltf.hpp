@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF 2.0: the triangles of its default scene, in the frame of the file, materials by name only.
 #pragma once
 #include "scene/gltf_file.hpp"

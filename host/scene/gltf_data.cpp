@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers are little endian (glTF 2.0, section 3.6.2.1).
 #include "scene/gltf_data.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a glTF 2.0 file: buffers, buffer views and accessors (section 3.6), including sparse and normalised
 // ones. The file is not trusted: every access is bounds checked, and no count takes more memory than the file has
 // bytes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // draco 1.5: a decoded mesh has points, and attributes that points are mapped to.
 #include "scene/gltf_draco.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes meshes that KHR_draco_mesh_compression compressed, with Google's library.
 #pragma once
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of https://github.com/KhronosGroup/glTF/tree/main/extensions, as of 2025.
 #include "scene/gltf_extensions.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The glTF extensions that are read, and those that change nothing in a scene.
 #pragma once
 #include <string>

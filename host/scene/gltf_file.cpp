@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads GLB: glTF 2.0, section 4.4. Version 1 has its JSON in the same place, and refers to nodes by name where version
 // 2 uses numbers.
 #include "scene/gltf_file.hpp"

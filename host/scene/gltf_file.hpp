@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The JSON and the binary data of a glTF file, with the checks that are needed before memory is allocated for its
 // content. The file is not trusted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // See glTF 2.0, sections 3.7.2 (meshes), 3.7.3 (skins) and 3.7.2.2 (morph targets).
 #include "scene/gltf_meshes.hpp"
 

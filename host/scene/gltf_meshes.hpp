@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Primitives of glTF 2.0 meshes as triangles: modes, indices, morph targets, skins and KHR_draco_mesh_compression.
 #pragma once
 #include <cstdint>

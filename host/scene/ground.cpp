@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles seen from above are kept in the cells of a grid with one layer.
 // Neighbouring triangles decide with the same numbers on which side of their edge a place lies, so no place falls
 // between them.

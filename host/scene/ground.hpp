@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The height of the ground of a scene, from which heights "above the ground" are measured.
 // It copies what it needs from the scene.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sheets are found by joining surfaces; lines downwards find what lies below.
 #include "scene/ground_rims.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds free edges that are the rim of a ground, at the border of the map. The scene is a part of the world: the real
 // ground continues beyond the rim, so the rim does not diffract. Names of objects do not matter.
 #pragma once

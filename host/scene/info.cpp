@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report of `wavetracer scene info`.
 // Positions are in file coordinates, as users know them; counts are those after cleaning.
 #include "scene/info.hpp"

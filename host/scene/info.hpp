@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Describes a loaded scene as text for people.
 // The Scene comes from load.hpp; only sums are computed.
 #pragma once

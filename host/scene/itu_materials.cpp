@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of Recommendation ITU-R P.2040-4 (09/2025), which contains that of P.2040-3 (08/2023) with the same values.
 // It was checked against two transcriptions by others: NVlabs/sionna-rt, src/sionna/rt/radio_materials/itu.py, and
 // jeertmans/DiffeRT, differt/src/differt/em/_material.py.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The materials of Recommendation ITU-R P.2040, Table 3: laws by name, edition and frequency range. The ranges are
 // those that the laws were measured in.
 #pragma once

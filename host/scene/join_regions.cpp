@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A queue orders pairs by the root mean square of the heights over their common plane, which follows from sums alone;
 // only when a pair is taken from it are the tolerances of all vertices checked.
 #include "scene/join_regions.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Joins neighbouring flat regions that are one plane within the tolerance (rule 3 of flat_regions.hpp).
 #pragma once
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the reader of a file, and applies the units and axes of the configuration.
 // The content counts before the suffix, so a renamed file loads, and a wrong file is named correctly in the message.
 #include "scene/load.hpp"

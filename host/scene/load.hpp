@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads scenes: one call turns a configuration or a file into a Scene that is ready to trace.
 // File names are absolute or relative to the working folder (the config parser makes them absolute).
 #pragma once

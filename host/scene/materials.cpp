@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resolves material names: alias, then configuration, then file, then the ITU table.
 // Names of [[material]] must be unique; a second one of the same name is an error.
 #include "scene/materials.hpp"

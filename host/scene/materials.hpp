@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Radio materials: what a material name of a scene file means under a configuration.
 // Frequency matters only where one name has several laws: the one whose range contains it is taken.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mitsuba 3 XML: shapes of type ply, obj, rectangle, cube, merge, shapegroup and instance with to_world.
 #include "scene/mitsuba.hpp"
 

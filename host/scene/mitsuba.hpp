@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mitsuba 3 XML scenes, the format of Sionna RT: meshes with transforms and radio materials; cameras and lights are
 // skipped. Assumes file names relative to the XML file.
 #pragma once

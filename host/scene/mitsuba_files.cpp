@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows the rules of Mitsuba's own parser: a parameter keeps the first value that it is given, the longest name that
 // fits wins, and includes nest at most 15 deep.
 #include "scene/mitsuba_files.hpp"

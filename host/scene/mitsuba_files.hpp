@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elements of a Mitsuba scene file and of the files that it includes, as Mitsuba 3.5 reads them: <default>
 // parameters replaced, camelCase names of files of version < 2 renamed, <include> and <path> followed.
 // The files are not trusted; every message names file and line.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bsdf may hold others, as twosided does: going down, the first radio bsdf is the material.
 #include "scene/mitsuba_materials.hpp"
 

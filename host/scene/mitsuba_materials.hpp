@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the <bsdf> elements of a Mitsuba scene as radio materials, by id. Radio bsdfs are those of Sionna RT 1.x
 // (itu-radio-material, radio-material); for any other bsdf only the outermost id counts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tags are those of Mitsuba 3.5 (src/core/xml.cpp).
 #include "scene/mitsuba_properties.hpp"
 

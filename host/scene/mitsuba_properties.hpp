@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks the properties of a Mitsuba element: children that have a name and a value.
 // Like Mitsuba, it refuses a property that no code asks for, as it may be a misspelt one that matters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Applies Mitsuba's transform operations: translate, scale, rotate, matrix, lookat. The first one in the file acts
 // first. Numbers are separated by blanks or commas, as Mitsuba writes and reads them.
 #include "scene/mitsuba_transform.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a Mitsuba <transform>: its operations are composed in the order of the file.
 // Transforms must be affine: the last row of a matrix must be 0 0 0 1.
 #pragma once

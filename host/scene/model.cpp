@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads OBJ and glTF 1.0 through assimp. Node transforms are applied here, in double.
 // Vertices are left as assimp reads them, one per corner: welding is one step for all formats (weld.hpp) with its own
 // tolerance.

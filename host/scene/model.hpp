@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ and glTF models: meshes in the frame of the file's root, materials by name only. OBJ and glTF 1.0 are read by
 // assimp, which keeps coordinates as float32: a warning says so where that costs over 1 mm.
 #pragma once

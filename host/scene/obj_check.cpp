@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statements as in "Advanced Visualizer", appendix B1 (Wavefront Technologies, 1990s).
 #include "scene/obj_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds statements of an OBJ file that assimp ignores silently: unknown statements, curves, lines, points.
 #pragma once
 #include <filesystem>

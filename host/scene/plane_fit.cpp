@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The normal is the eigenvector of the covariance with the least eigenvalue, by Jacobi's rotations: they keep small
 // eigenvalues accurate, and three or four sweeps are enough for a 3 x 3 matrix.
 #include "scene/plane_fit.hpp"

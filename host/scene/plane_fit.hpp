@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fits least-squares planes to weighted points, from sums that can be extended and joined.
 // Points must be within some kilometres of the reference point about which the sums are taken.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The mesh in the body of a PLY file, as its header describes it.
 #include "scene/ply.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY meshes: a reader of every dialect (ascii, binary of either byte order, any property types), and a writer of one.
 // Files are not trusted: counts are checked against the file's size before memory is allocated.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of ascii files are separated by blanks of any kind, including line ends.
 #include "scene/ply_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The body of a PLY file: the values after its header, in file order.
 // Assumes IEEE 754 numbers on a little or big endian host; every access to the file is bounds checked.
 #pragma once

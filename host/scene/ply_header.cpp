@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PLY file, after G. Turk, "The PLY polygon file format" (1994), with the type names that later tools
 // added (int8, float32, ...). Assumes lines that end in \n or \r\n.
 #include "scene/ply_header.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PLY file: which elements the body holds, in which order and types.
 // Assumes nothing about the text: every line that is not understood is an error with its number.
 #pragma once

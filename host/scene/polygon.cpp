@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits polygons into triangles, by fans and by ear clipping (G. Meisters, "Polygons have ears", 1975).
 // It works in 3D with Newell's normal as the sign of every turn, so no projection has to be chosen.
 #include "scene/polygon.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits polygons into triangles: a fan where the polygon is convex, ears where it is not.
 // Polygons must be simple (no self-intersection) and planar up to noise; there are no holes.
 #pragma once

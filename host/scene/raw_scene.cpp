@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes how coarse the coordinates of a file are.
 #include "scene/raw_scene.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The result of a reader: meshes and material definitions as they are in the file, not yet welded or resolved.
 // Coordinates are double, in file units and file axes; indices are valid and coordinates finite once a reader returns.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves the border between flat regions to the line where their planes meet (rule 4 of flat_regions.hpp).
 #pragma once
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The grid halves its cells until memory would grow; lists are sorted by counting.
 // A line is cut into layers of cells, a layer into rows, and a row into cells.
 #include "scene/scene_grid.hpp"

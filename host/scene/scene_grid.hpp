@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A uniform grid over a scene, and lists of the items in its cells.
 // Positions must be finite and within the boxes that the grid was made for.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faces are found by probing beside the middle of a piece, sectors by sorting angles.
 // Planes are those of surfaces, so slivers of a wall do not turn its faces.
 #include "scene/scene_wedges.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds where waves diffract: fills Scene::wedges from the edges of the mesh.
 // The Scene must be complete except for its wedges: surfaces, edges and Edge::flat.
 #pragma once

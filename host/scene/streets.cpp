@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streets are straight lines from edge to edge of the grid, see CityOptions.
 #include "scene/streets.hpp"
 

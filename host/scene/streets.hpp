@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streets as lines with a width, for pictures only: no ray meets them.
 #pragma once
 #include <glm/vec3.hpp>

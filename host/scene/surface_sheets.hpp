@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sheets: sets of surfaces that touch along edges, such as a ground of many triangles. Up is z.
 #pragma once
 #include <cstdint>

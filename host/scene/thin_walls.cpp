@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strips first, then pairs in the order of triangles; then the numbers of vertices close up.
 #include "scene/thin_walls.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walls that are thinner than edges can be told apart: both sides become one sheet, whose rims diffract.
 // Assumes welded vertices.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Halves the longest side (M. Rivara, Int. J. Numer. Methods Eng. 20, 1984), which makes no thin tiles of good
 // triangles: no angle falls below half of the smallest one (I. Rosenberg and F. Stenger, Math. Comp. 29, 1975).
 #include "scene/tiles.hpp"

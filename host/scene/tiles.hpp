@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiles of the surfaces that scatter diffusely: triangles, halved along their longest side until none is longer than
 // trace.tile_m. Numbered through a world like surfaces: the static scene's first, then those of each instance.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds edges by sorting, surfaces by growing from the largest triangle.
 // A surface's plane is that of its seed, or the plane that its vertices were moved onto. It does not change while the
 // surface grows, so a chain of small bends cannot drift into a curve.

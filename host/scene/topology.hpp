@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds edges of the welded mesh, and the planar surfaces that its triangles form.
 // Scene::vertices and Scene::triangles must be final: welded, without degenerate or duplicate triangles.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorts boxes into the grid and follows lines through it.
 #include "scene/triangle_grid.hpp"
 

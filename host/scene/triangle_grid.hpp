@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The triangles of a scene, sorted into the cells of a grid: it finds the triangles that a line meets, and those near a
 // place. Coordinates must be recentred, and triangles must not change; the scene must outlive this object.
 #pragma once

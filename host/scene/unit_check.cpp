@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mountains are as high as houses in millimetres, but few of their triangles are upright, and none of those is a
 // kilometre high.
 #include "scene/unit_check.hpp"

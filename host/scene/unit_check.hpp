@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks whether a scene can be in metres: in files in millimetres, houses are kilometres high.
 #pragma once
 #include <string>

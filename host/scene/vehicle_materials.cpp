@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Thin panes and panels are slabs of their own thickness; people are half spaces, since nothing gets through. For
 // human_skin, power laws were fitted to the Cole-Cole model within 0.13 dB of its reflection at normal incidence.
 #include "scene/vehicle_materials.hpp"

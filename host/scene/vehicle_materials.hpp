@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Materials of vehicles and people, which Recommendation ITU-R P.2040 does not have.
 // Assumes nothing about a scene; the ranges are those that the sources give.
 #pragma once

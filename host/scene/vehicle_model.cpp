@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A body consists of parts. A part is a side view extended over the width of the vehicle, or a view from above extended
 // over some of its height: one list of corners defines all faces. Corners of a roof may be farther inside than the
 // others; the window line below them is level, so that sides stay planar.

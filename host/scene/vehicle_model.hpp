@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies of vehicles made by this program: closed, low-poly, with planar faces of ITU metal; people are of human_skin.
 // x points ahead, y to the left, z up; the origin is on the ground below the centre of the vehicle.
 #pragma once

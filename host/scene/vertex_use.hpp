@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the vertices that triangles of a scene use.
 #pragma once
 #include <cstdint>

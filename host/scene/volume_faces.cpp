@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles with the same three corners form a group. Three sets of faces are tried in turn to close the mesh: one of
 // every group; those that are left when opposite ones cancel; and one of every group with an odd number of triangles.
 #include "scene/volume_faces.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the outside of a closed mesh, even if the file has some triangles more than once.
 #pragma once
 #include <cstdint>

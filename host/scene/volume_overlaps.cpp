@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boxes are swept along x: each is compared with those that have begun and not ended.
 #include "scene/volume_overlaps.hpp"
 

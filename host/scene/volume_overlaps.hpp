@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes that share space. Space within several volumes belongs to the first of them (wavetracer/device/volumes.h).
 #pragma once
 #include <cstdint>

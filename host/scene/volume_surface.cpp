@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A shape that is no mesh is made of rings about the z axis of the unit cube, square or round, from bottom to top. A
 // ring of radius zero is a pole, whose triangles without area are left out.
 #include "scene/volume_surface.hpp"

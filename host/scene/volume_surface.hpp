@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces of volumes as triangles, for drawing them and for scattering off them.
 #pragma once
 #include <array>

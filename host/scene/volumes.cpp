@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sign of the volume of a closed part tells which side of its triangles is outside.
 #include "scene/volumes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes of vegetation: those of the configuration, and closed meshes whose material is vegetation. Where volumes
 // overlap, the space counts once (volume_overlaps.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows grow from their longest piece and keep its line, so that a chain of small bends cannot drift into a curve.
 #include "scene/wedge_rows.hpp"
 

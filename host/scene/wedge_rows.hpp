@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Joins wedges that follow one another on a line.
 // Pieces of edges must lie between numbered joints, each once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Welds with a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
 // 3.4 on average, so that no pair is split by a border. Groups are kept in a forest.
 #include "scene/weld.hpp"

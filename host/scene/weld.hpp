@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Welding merges vertices of all meshes that are the same point of the world.
 // Coordinates must be finite and below about 10^9 tolerances times 10^6 (whole cells must fit into 63 bits).
 #pragma once

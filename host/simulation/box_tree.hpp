@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the boxes that a point is in or near: a binary tree over boxes that do not move, halved at the median of its
 // longest axis. It is built once, and searched for every antenna of every frame.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depths of entries come from a walk over the trees of the chained tables; in the other kinds a search has one step. In
 // a tree that races of the thesis' table have damaged, the walk may meet an entry twice: its first depth counts.
 #include "simulation/cache_entries.hpp"

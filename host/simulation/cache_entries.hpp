@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Entries of a ray cache's table, read back with the depth at which a search meets each.
 #pragma once
 #include "passes/cache_table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The host reads each count of rays once: the missed ones and, with groups, the leaders and those that were refused. A
 // group's hit is shared by the rules of a look-up, so it may be refused with a quantised key, and never with an exact
 // one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays that a ray cache has not answered: each is traced, or with cache.innerframe one of each group of equal keys.
 // Traced segments go into the table, and hits to the whole queue.
 #pragma once

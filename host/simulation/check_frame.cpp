@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sequences and points are compared with constants, since only additions, products, quotients and roots compute them.
 // Fields are compared with the host's: their tables may depend on the library of the machine.
 #include "simulation/check_frame.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of a small frame: its set of sequences, its paths and their fields, and the answers of a ray cache.
 #pragma once
 #include <vector>

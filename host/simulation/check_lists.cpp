@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys repeat, so that a sort that is not stable is found.
 #include "simulation/check_lists.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of the passes on lists of words, against the host's own: sorts and prefix sums.
 #pragma once
 #include "gpu/gpu.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers for checks: the same on every machine and in every run.
 #pragma once
 #include <cstdint>

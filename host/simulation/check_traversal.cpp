@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The host decides in double. A ray that passes an edge within a tenth of a millimetre, which float32 cannot decide,
 // does not count.
 #include "simulation/check_traversal.hpp"

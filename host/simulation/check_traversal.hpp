@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of traversal: rays through the scene on the device, against every triangle on the host.
 #pragma once
 #include "simulation/check_result.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places have odd digits, so that no ray meets an edge and no two paths are equally long.
 #include "simulation/check_world.hpp"
 

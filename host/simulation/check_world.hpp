@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The small world in which devices are checked: two houses, a screen, a rough wall and two vehicles on a square.
 // Its numbers are written out. Right angles and ratios of 3, 4 and 5 need no function whose last bit depends on the
 // library of a machine, so its paths have the same bits everywhere.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The features in words, in the order of a path.
 #include "simulation/checked_features.hpp"
 

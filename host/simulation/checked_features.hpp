@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The features of a run that choose its kernels; they are checked on its device.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single kernels are checked first, so that a later failure has another cause.
 #include "simulation/device_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The check of a device: its results for a small world are compared with known ones.
 #pragma once
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Context::recall knows device, driver and platform; its subject has everything else that the result depends on.
 #include "simulation/device_proof.hpp"
 

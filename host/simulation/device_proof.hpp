@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The proof of a device before it is used: it has passed the checks of device_check.hpp, now or in an earlier start.
 #pragma once
 #include <span>

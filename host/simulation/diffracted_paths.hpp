@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The passes of diffracted paths: prefixes of both ends are sorted by the wedges that they see, joined there, and
 // solved. No ray need hit an edge: a ray that meets a face says that its prefix sees the wedges of that face. Both ends
 // of every link must have launched, and place must have run.

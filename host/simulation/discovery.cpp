@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs batches of a launch, and levels of a refined one, through the wavefront loop.
 #include "simulation/discovery.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Discovery: launches rays from every transmitter and collects the distinct sequences of surfaces that they meet.
 // Launches are cut into batches, which limit the memory for any number of rays; a batch whose sequences do not fit
 // grows the set and is traced again.

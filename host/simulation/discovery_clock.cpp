@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times of frames are multiples of a step, so an interval may end a rounding error before a frame. Vehicles and
 // transmitters must keep their numbers from frame to frame.
 #include "simulation/discovery_clock.hpp"

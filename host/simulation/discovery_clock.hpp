@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides which frames launch rays: all of them, or those that trace.discover_every_s chooses.
 #pragma once
 #include <cstdint>

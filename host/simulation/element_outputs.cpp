@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outputs are only made if the configuration asks for them.
 #include "simulation/element_outputs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The outputs of a frame between the elements of arrays: responses ([response]) and gains of beams (array.codebook).
 #pragma once
 #include <optional>

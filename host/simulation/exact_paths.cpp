@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry decides: this chooses the passes that a configuration needs, and one of the two that check legs.
 #include "simulation/exact_paths.hpp"
 

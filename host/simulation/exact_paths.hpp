@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The passes that lead from the results of rays to paths; the frame calls them in their order (frame.cpp).
 // Each kind of path has its candidates and its solve; legs, visibility and merging are the same for all.
 #pragma once

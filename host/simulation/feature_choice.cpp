@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // There is one rule for each feature; the reason is a text for the user, and names the key to change. Materials and
 // edges of vehicles count like those of the scene.
 #include "simulation/feature_choice.hpp"

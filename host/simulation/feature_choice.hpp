@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the features that a run computes: those that the configuration asks for and that the scene needs. A feature
 // that is off makes no pass, runs no kernel and takes no memory.
 #pragma once

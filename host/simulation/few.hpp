@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first few texts of a list, then the number of the others, for warnings.
 #pragma once
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The passes run in their order; only the numbers of rows are read between them.
 #include "simulation/finished_paths.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From visible paths to the rows of a frame, on the device until they are finished: reversed twins and distinct rows in
 // their order, then fields, and one read of the columns. The reversed twin of a path belongs to the link the other way,
 // if both ends send and receive: a path in one direction is also a path in the other. A transmitter and a receiver that

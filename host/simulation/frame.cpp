@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays discover, geometry decides: see docs/architecture.md. A line's comment names the passes that it runs.
 #include "simulation/frame.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frame: the list of passes that turn poses into paths, in the order of the table in docs/architecture.md.
 // Frames of one setup share its set of sequences and its ray cache, so they are solved one after the other.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seconds of device stages come from the profile of the context, which starts at zero with the frame.
 #include "simulation/frame_account.hpp"
 

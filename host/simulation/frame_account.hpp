@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The account of a frame, apart from its list of passes: counts, seconds and warnings.
 #pragma once
 #include "base/stopwatch.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The observer of a frame, which may cancel it: see Simulation::observe().
 // Long passes report their progress between launches; nothing here waits for the device.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces rays; in launches of another shape a later pass counts their hits.
 #include "simulation/hit_finder.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the hits of rays: by tracing, or with a ray cache that is asked first (RayCache). The run chooses one of them.
 #pragma once
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frames that every device computes alike, bit for bit: the number of their paths, and hashes of them. There is one
 // row for each set of features, by CheckedFeatures::frame(). The test `device_check` prints the right rows.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A launch: the ends that send rays, their directions, and the counts of its discovery. Launches are values: they say
 // what is traced, not how.
 #pragma once

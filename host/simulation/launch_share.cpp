@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shares of the directions, and the numbers of rays in full launches.
 #include "simulation/launch_share.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The directions that a frame launches: all of them in a cold frame, a share of them in the frames after it; fewer from
 // listeners than from transmitters.
 #pragma once

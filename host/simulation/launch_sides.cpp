@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes are tested in double within the box of their surface. A box is larger than its surface: an unneeded launch
 // costs rays, but never a path.
 #include "simulation/launch_sides.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launches from antennas on surfaces. In float32 the start of a ray may be behind a surface that the antenna stands on,
 // or just in front of it; paths are decided in double, where a surface closer than 0.1 mm does not hide an antenna
 // (kernels/lib/legs.clh). So such an antenna launches from both sides of the surface, a step beside it.

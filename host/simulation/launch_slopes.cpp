@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Height differences are counted in half octaves and their shares in eighths. So tables depend only on numbers of
 // links, not on their order, and there are few: launchers share them, and so do frames.
 #include "simulation/launch_slopes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions of the launch "horizon": its rays go to the slopes that paths can have. Walls are vertical, so a path
 // keeps its slope at every wall: it climbs the difference of its ends' heights, or falls to the ground and rises from
 // there, over its unfolded horizontal length L. With L anywhere up to the reach R of the scene, the density of slopes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Windows are computed in double, with + - * / sqrt and the angles of elementary.h, so they are the same on every host.
 #include "simulation/launch_windows.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launches from antennas far outside of the scene: drones, platforms in the stratosphere, satellites, sites beside it.
 // Few of all their directions meet anything, so their rays go through a window: the part of the sphere in which the
 // scene and the vehicles appear. If all rays left the world, the frame could not even say that something is missed.

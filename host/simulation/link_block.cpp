@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A block is cut by transmitter and receiver. The whole frame decides whether a launcher sends or listens, which sets
 // its number of rays.
 #include "simulation/link_block.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The links of some of a frame's transmitters and receivers: their paths are the same, bit for bit, as in the whole
 // frame. The rays of all ends that may find a link are needed, so these ends launch as in the whole frame.
 #pragma once

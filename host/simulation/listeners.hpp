@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ends that launch rays: transmitters of wanted links and, if paths are met from both ends, their receivers. An end
 // that sends and receives launches once; a receiver that does not send is a listener, an origin of its own.
 #pragma once

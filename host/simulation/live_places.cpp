@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places of vehicles, and their velocities. All errors in poses are found before the traffic changes. Poses must be of
 // one instant and from one source.
 #include "simulation/live_places.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places of a live world: one per possible vehicle, grouped by type, and the place of each vehicle of a client.
 // Instances and ends are made once, so a new vehicle takes a free place.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the direct line of a link with the static scene and the vehicles of the frame, in double. That line shows
 // the effect of transmission; the other mechanisms are only known to be possible.
 #include "simulation/missing_paths.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Says in words why links of a frame have no path: what their direct lines meet first, and which mechanism might lead
 // around it. The states must be those with which the frame was solved.
 #pragma once

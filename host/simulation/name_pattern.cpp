@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Matching goes back to one place only: the last * has to be tried again, since it can take the characters of earlier
 // ones. There are few patterns; the nearest name is only looked for when a mistake is reported.
 #include "simulation/name_pattern.hpp"

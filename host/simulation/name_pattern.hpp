@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names by pattern: * matches any text, also an empty one, ? matches one character; all other characters match
 // themselves.
 // Characters are bytes, which suits names in ASCII.

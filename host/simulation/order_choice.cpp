@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sample of the frame's own rays is traced in every order, with the time of the sort; the best of two warm runs
 // counts. Ray counts are rounded to powers of two: a million rays and a million and a half have the same best order.
 #include "simulation/order_choice.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of rays for order.method = "auto": the fastest on this device, for this scene, directions and ray count.
 // Paths do not depend on the order, so the choice changes only the time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts degrees and heights above the ground into file coordinates. Latitudes and longitudes are within their
 // ranges, since the configuration was checked.
 #include "simulation/place_finder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places that the configuration gives in degrees, by the scene's georeference, or as heights above its ground. Both are
 // only made when they are needed.
 #pragma once

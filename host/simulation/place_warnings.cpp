@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every end is checked once, at its place in the first frame; receivers of grids are counted, not named. A body around
 // both ends of a link is a room, which is normal; a body around one end only gets a warning.
 #include "simulation/place_warnings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warnings about ends and vehicles at places that cannot be intended: inside of houses, below the ground, far outside.
 // They come before anything is traced, and name a few of each kind and then the number of the others.
 #pragma once

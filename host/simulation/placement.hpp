@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances at their places in a frame: their surfaces and the tree over them, which the host builds if they are few
 // and a GPU if they are many. Hits do not depend on which of them built it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The host keeps stamps and evicts; the device answers. The host reads two numbers at each depth: the rays that were
 // not answered, and (in the caller) those that hit; with cache.innerframe one or two more.
 #include "simulation/ray_cache.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray cache in a frame: it answers rays of a depth, traces the others, and keeps their hits; each transmitter has a
 // region. Entries contain hits on the static scene only (cache.scope = "static"), or on everything, as in the thesis
 // ("all").

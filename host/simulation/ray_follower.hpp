@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An observer of rays besides the set of sequences, batch by batch and depth by depth. This one records nothing;
 // RayTrails records receptions and waypoints.
 #pragma once

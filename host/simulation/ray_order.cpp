@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the plan of an order, and joins keys, sort and gather in one call. Launches are sorted before their rays exist:
 // generate_rays then writes them in order, and no ray has to be moved.
 #include "simulation/ray_order.hpp"

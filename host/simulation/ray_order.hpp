@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Orders of rays: the plan that the configuration asks for, and the sorting that follows it, at launch and before later
 // depths. Only the time of a frame depends on them, not its result.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launches are sorted before their rays exist, so that no ray has to be moved.
 #include "simulation/ray_source.hpp"
 

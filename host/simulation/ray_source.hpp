@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The source of rays: it gives the directions of a launch in the order of the configuration, and labels rays if a later
 // pass needs to know their transmitters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chosen samples are spread evenly over the launch indices of their transmitter. All samples of a batch leave waypoints
 // on the device; the host reads those of chosen and of received samples.
 #include "simulation/ray_trails.hpp"

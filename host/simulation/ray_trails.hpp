@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records of rays besides their sequences: the receivers that they pass (trace.reception = "sphere"), and the waypoints
 // of some of them (output.waypoints).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The launch knows the share of sequences that were met once; the frame knows which quarters of the launch found its
 // paths. If the launch warns, the frame may show that nothing is lost.
 #include "simulation/recall_warning.hpp"

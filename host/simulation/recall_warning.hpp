@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warnings about launches: "auto" that ended before it reached trace.recall, and launches of which few rays met
 // anything.
 #pragma once

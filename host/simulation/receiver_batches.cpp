@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of a transmitter are those of the batches in their order, since batches are ranges of receivers. All batches
 // must be of one frame, with the same ends.
 #include "simulation/receiver_batches.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame whose receivers launch rays is computed in batches of receivers. The sequences that a receiver's rays have
 // found are kept until its paths are known, so memory grows with the number of receivers, as in coverage maps with
 // diffraction. The rays of a receiver only lead to paths of its own links, so the frame is the same, bit for bit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes receivers one by one, in the order of their names. Borders are finite, since the configuration's fields are.
 #include "simulation/receiver_grid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes receivers of [[receiver_grid]]: one at the middle of each square cell, called NAME/IX,IY, row by row with IX
 // first. Receivers inside of buildings stay, so that a grid is complete; no path leads to them.
 #pragma once

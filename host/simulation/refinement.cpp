@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the levels of refine, with compaction of the samples that are worth four more. All samples of a level are
 // counted before any is tested, so the launch does not depend on batches.
 #include "simulation/refinement.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A launch that grows where it still finds something: the loop over the levels of refine. Good and Turing (I. J. Good,
 // Biometrika 40, 1953): the share of sequences met once estimates the share that was not met yet.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each value follows from those before it.
 #include "simulation/run_plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan of a run: everything that is known before any device is asked, as one value that is made of the
 // configuration and the scene.
 #pragma once

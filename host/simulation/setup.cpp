@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a setup, each made of the plan and of parts before it.
 #include "simulation/setup.hpp"
 

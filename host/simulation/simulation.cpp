@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulation: the public interface of setup and frames.
 #include "wavetracer/simulation.hpp"
 

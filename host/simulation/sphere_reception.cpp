@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receptions of a batch are grouped by node and receiver. The nearest of each group is compared with those of other
 // batches by its surfaces, since nodes get new numbers when the set of sequences grows.
 #include "simulation/sphere_reception.hpp"

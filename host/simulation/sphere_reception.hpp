@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis' method of reception: a receiver is a sphere, and a ray that passes through it makes a path, without a
 // solve. Among the rays of one sequence the one that passes nearest is kept; its path goes over its own points to the
 // receiver's centre. A ray that passes at distance b makes it too long by about b^2 r1 / (2 r2 (r1 + r2)), where r1 and

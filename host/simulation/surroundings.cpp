@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows lines through the grid of the scene's triangles. Lines that count crossings are a little oblique, so that
 // they seldom meet an edge, where two triangles or none would count.
 #include "simulation/surroundings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surroundings of a place in the static scene: the closed body that holds it, the ground below, the surface that it
 // is on, and the triangles that a line meets. They serve warnings and explanations; rays of the simulation are traced
 // elsewhere. Coordinates are recentred; the scene must outlive this.

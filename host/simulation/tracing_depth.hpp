@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The depth of tracing, in one place: the lengths of paths, sequences and rays that a configuration asks for.
 #pragma once
 #include <algorithm>

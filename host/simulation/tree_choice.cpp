@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spatial splits gain up to a sixth of the tracing time in one city and lose in another, although their costs by the
 // surface area heuristic hardly differ. So both trees are traced.
 #include "simulation/tree_choice.hpp"

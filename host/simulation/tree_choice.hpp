@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses the acceleration tree of the run, with or without spatial splits, by a timed sample of the run's own rays.
 // Hits do not depend on the tree (ties go to the lower primitive), so the choice changes only the time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares vehicles with the static scene, at a number of places that does not grow with the drive. Trajectories are
 // recentred, with positions on the ground.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows have room for the deepest path; shorter ones use the beginning.
 #include "simulation/visible_paths.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The visible paths of the last frame, read back to the host.
 #pragma once
 #include "simulation/setup.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A function that choices by measurement share: the time that discovery takes once it is warm. No other code may use
 // the context's profile meanwhile.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop follows the table of docs/architecture.md, from the sort of a queue to interact.
 #include "simulation/wavefront.hpp"
 

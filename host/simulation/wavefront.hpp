@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows the rays of a batch to their ends: all of them at once where only reflection happens on their way (bounces),
 // else by the wavefront loop, in which all rays take a step together, until none is left. A step is sort, find hits,
 // scan, interact; the host reads one number at each depth, that of the rays that go on. With transmission rays split

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world of a configuration, made once, step by step; then its state at any instant.
 // Tracks are recentred as they are loaded, so that everything here is in coordinates of the recentred scene.
 #include "simulation/world.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The moving world: vehicles, radio ends and links of every frame, from configuration and trajectories.
 // A world without trajectories has one frame, at 0 s. A live world ([[live_vehicle]]) has that frame, without
 // vehicles, and frames of poses that come at run time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames without a vehicle are counted by the first and the last one that has some, not one by one.
 #include "simulation/world_clock.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The times at which a world of moving vehicles is solved, by its configuration and its trajectories.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places are compared exactly: two ends are one because their configuration says so, not because they are near.
 #include "simulation/world_ends.hpp"
 

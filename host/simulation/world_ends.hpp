@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The radio ends of a world: those that stand, those that ride on vehicles, and which of them are one antenna.
 #pragma once
 #include <array>

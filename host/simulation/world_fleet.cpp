@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies are numbered in the order of the tracks, so that a number means the same vehicle in all frames.
 #include "simulation/world_fleet.hpp"
 

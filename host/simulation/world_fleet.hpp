@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vehicles of a world: their tracks, and the bodies of those that have one.
 // Everything is in coordinates of the recentred scene.
 #pragma once

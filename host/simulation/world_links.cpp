@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All pairs of the ends whose names are wanted and that are present, each tested.
 // Made for ends of which thousands are present at once: pairs are counted in millions, and limited.
 #include "simulation/world_links.hpp"

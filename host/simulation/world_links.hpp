@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules that say which transmitter and receiver belong together: by name, kind, vehicle and distance.
 // Assumes that names and carriers of ends never change, only where ends are and whether they are present.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bodies by the names of types, and meshes stretched to sizes.
 // Assumes that SUMO names the type of a vehicle that was changed at run time TYPE@VEHICLE.
 #include "simulation/world_models.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shapes of vehicle types: sizes for the readers of trajectories, bodies for the scene.
 // A type of a trajectory is a [[vehicle_type]], else a class of SUMO, else trajectories.default_type.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that limits positions, whoever gave them: configuration, trajectories, grids.
 // Samples are looked at before curves between them, which could not be computed of infinite ones.
 #include "simulation/world_reach.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest distance of anything from the middle of the scene in a drive, and its limit.
 // Assumes recentred coordinates; messages give those of the files.
 #pragma once

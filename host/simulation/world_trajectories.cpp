@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads, generates and joins trajectories.
 // Assumes that waypoints and generated traffic are in coordinates of the scene file already.
 #include "simulation/world_trajectories.hpp"

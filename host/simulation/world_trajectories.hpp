@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The trajectories of a configuration: those of a file or of generated traffic, those of [[track]] waypoints, and
 // vehicles that are [[parked]].
 // Assumes that file and generate are not both given.

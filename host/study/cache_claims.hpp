@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis' claims about caches, as judges of rows.
 // set_savings() must have run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Predicates on rows of caches at one number of rays in one world, from which claims are made.
 // set_savings() must have run. A row that was not measured confirms nothing.
 #pragma once

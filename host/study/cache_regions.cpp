@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns rows of one region each into a plot, a table and verdicts.
 // Rows are those of add_regions() of cache_study.cpp.
 #include "study/cache_regions.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The regions of a cache's table, one for each transmitter: the patchwork of figures 6.6 and 6.7 of the thesis.
 #pragma once
 #include <string>

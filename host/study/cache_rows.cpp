@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds up stages, and defines the table as a list of columns.
 // A stage that a frame does not need counts as 0.
 #include "study/cache_rows.hpp"

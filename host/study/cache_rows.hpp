@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of studies of caches: one row per drive, setting and number of rays (or depth), and their table. Times
 // are device times of profiling events, averaged over frames; errors are against the same frames without a cache.
 #pragma once

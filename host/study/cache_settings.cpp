@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each setting is a list of keys, with the words of the field table (host/config).
 #include "study/cache_settings.hpp"
 #include <fmt/format.h>

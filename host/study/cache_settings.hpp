@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The caches that the studies compare, by name: the thesis' with its parameters, and ours.
 // A. Zhdanov, TU Munich, 2014, section 6.3. A constant that the thesis does not give says so.
 #pragma once

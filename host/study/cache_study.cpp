@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures point by point: settings in groups that share the device, then the same by depth or by transmitter.
 // Each group drives a drive once; its first frame is cold.
 #include "study/cache_study.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A study of caching: settings measured alternately at several numbers of rays, over the frames of a world.
 // Each is timed and compared, frame by frame, with the first setting, which has no cache and launches the same rays.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world of one frame is traced cold, then warm, again and again; a drive is driven once, and its first frame is cold.
 // Errors are against the first subject, which has no cache.
 #include "study/cache_subjects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Settings of a study while they are measured: one Simulation each, all existing at once, with their frames interleaved
 // so that a slow phase of the machine affects all.
 #pragma once

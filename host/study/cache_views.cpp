@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns rows into plots and tables of numbers.
 // set_savings() must have run.
 #include "study/cache_views.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The content of a figure about a study of caches: its plot, its numbers, and its table if that does not have all
 // columns.
 #pragma once

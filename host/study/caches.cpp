@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures of caches: a view of a study, and the claims on its rows.
 // Figures of one study are made of one measurement, as thesis.cpp does.
 #include "study/cache_claims.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A claim of the thesis: its words, and the condition on rows.
 #pragma once
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pairs by launch index and depth, then computes statistics of the pairs.
 // Sums are of differences of points, so that places far from the origin lose no digits.
 #include "study/coherence.hpp"

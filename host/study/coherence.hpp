@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coherence of tracing results: between frames (equations 6.3 and 6.4 of the thesis) and inside one (equation 3.4). A.
 // Zhdanov, TU Munich, 2014. Two corrections are made: points are paired by ray and bounce, and sums are normalised.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records frame by frame and keeps three: the first, the previous and the current one.
 // Rays of one launch index have one direction in all frames, so that the index pairs them.
 #include "study/coherence_frames.hpp"

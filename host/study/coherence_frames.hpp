@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the hits of rays in one frame of a drive with those of the same rays in another.
 // A. Zhdanov, TU Munich, 2014, section 6.3.2, equation 6.4 and figure 6.13.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces one frame for each map of directions, and judges it in launch order: the order in which rays share launches
 // and packets. A ray that ended leaves a gap, so a lag counts launched rays at every depth.
 #include "study/coherence_rays.hpp"

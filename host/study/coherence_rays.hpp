@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the hit of a ray with those of rays that are launched after it, for each map of directions.
 // A. Zhdanov, TU Munich, 2014, section 3.2.2 and equation 3.4.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Texts about coherence: numbers, a column per depth, and their meaning for the claims.
 // Correlations and shares have two decimals; comparisons with the table must round in the same way.
 #include <fmt/format.h>

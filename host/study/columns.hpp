@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table as a list of columns: each has a name and a function for a row's cell.
 // Cells are separated by commas; none needs quotes. Numbers have six digits: more than a clock is good for.
 #pragma once

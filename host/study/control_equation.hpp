@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The control equation of S. Popov et al., as the thesis quotes it (2.3): |A(e)| |A(l)| = C_E^2 / (P(e) P(l) N). Two
 // clusters, of areas A and probability densities P, share a visibility query; N is the number of paths, and C_E bounds
 // the error. Here one end of a segment is the primitive that it left, which the key always tells apart, and the other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Groups rows of one table.
 // Means of cycles leave the longest and shortest out, as a few operations are interrupted for thousands of times their
 // usual duration. Medians would not work: clocks tick in steps of some twenty cycles.

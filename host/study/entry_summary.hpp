@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of the entries of a ray cache's table (output.cache_entries) for a setting: by their depth in the trees of
 // buckets, by region, and along the table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns entries into tables and plots.
 // A study must have both a setting and its counted twin.
 #include "study/entry_views.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures about the entries of a cache's table: figures 6.2, 6.4 and 6.6 of the thesis.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of experiments, and the configs that they measure.
 // Built-in configs are text, which is read like a file.
 #include "study/experiment.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Experiments beyond the thesis' figures: coherence inside a frame, and the trade-off of the two quantisations of a
 // cache. cache-division and cache-step launch rays along a Hilbert curve, so that the frame without a cache is as fast
 // as possible without a sort.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures 6.14 to 6.18: caches in traffic by hash function, with rays in order and without; orders while the
 // transmitters move.
 // Claims: A. Zhdanov, TU Munich, 2014, section 6.3.2.

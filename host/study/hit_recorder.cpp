@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A batch that is traced again, because its sequences did not fit, records the same hits again.
 // Labels of rays give their samples, in any order of the queues.
 #include "study/hit_recorder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records what every ray of a launch hit, depth by depth, on the host: it follows the rays of a discovery. Rays should
 // be few: planes of the queue are copied at every depth.
 #pragma once

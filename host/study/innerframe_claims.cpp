@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns rows into verdicts.
 // A row that was not measured confirms nothing.
 #include "study/innerframe_claims.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The claims about tracing one ray per group, as predicates on rows: one row for each setting, C_E and number of rays.
 // The first row of a number of rays must have no cache, and set_savings() must have run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coherence inside a frame: of rays with equal keys one is traced, with cells of directions that the control equation
 // gives for a C_E. Every frame finds its table empty, so that it only saves time within itself.
 #include <cmath>

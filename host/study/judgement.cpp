@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns cases into an outcome.
 // One case that holds and one that does not make "in part", whatever the others are.
 #include "study/judgement.hpp"

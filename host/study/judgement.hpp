@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The judgement of a claim: one of five outcomes, and words for what was measured.
 #pragma once
 #include <ostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns rows into phrases. Factors have two decimals.
 // compare() must have set the gains.
 #include "study/order_claims.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis' claims about orders, as predicates on rows; and the words and numbers of their figures.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is small on an
 // axis of four decades. It needs gnuplot 5.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each series has a Simulation; all exist at once, with their frames interleaved.
 // Device memory must hold the queues of all of them.
 #include "study/order_rows.hpp"

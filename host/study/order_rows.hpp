@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures orders of rays: every series at one number of rays, timed alternately so that a slow phase of the machine
 // affects all. The first frame of each series is dropped.
 #pragma once

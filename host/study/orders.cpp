@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures of orders: the time of every series at every number of rays.
 // A frame without a cache, reuse or diffraction launches the rays of its transmitters and no others.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text between tags is escaped here, and nowhere else.
 // Cells must not contain line ends.
 #include "study/page.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes pages of the results of experiments, in HTML and in Markdown: headings, sections, tables, drawings.
 // It only handles strings. SVG is as gnuplot writes it, with its identifiers in quotes and references that begin with
 // #.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Both frames are sorted by link and sequence, then merged like two lists.
 // Sums run in that order, so that equal frames give errors of exactly zero.
 #include "study/path_error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the paths of a frame with those of a reference frame of the same world: lost and spurious ones. Paths are
 // paired by transmitter, receiver and what they touch, in order: surfaces and edges, of the scene or of which vehicle,
 // and the kind of interaction. Both frames must have the same ports.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns ranges into ray counts.
 // Numbers are parsed by std::from_chars, so the locale does not matter.
 #include "study/ray_counts.hpp"

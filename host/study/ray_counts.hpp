@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray counts of a figure: 1, 2 and 5 times every power of ten, and the thesis' 49,000 and 90,000,000.
 // A range selects from them; it does not add its ends.
 #pragma once

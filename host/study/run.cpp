@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures points, then writes files. The table, the script and the report appear together; the plot follows if gnuplot
 // is there. The folder must be writable: the program checks that before it measures.
 #include "study/run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Carries an experiment out: measures point by point, then writes NAME.csv, NAME.gp, NAME.svg and NAME.md to a folder.
 // Nothing else may use the device; other load of the CPU affects all series alike.
 #pragma once

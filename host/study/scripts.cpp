@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each drive has a row of panels, in the order of the figures; the key is on the right.
 // It needs gnuplot 5.
 #include "study/scripts.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plots of experiments: gnuplot scripts NAME.gp that draw NAME.csv into NAME.svg.
 // They only name files of their own folder, so that the folder can be moved and the script run again. They need no
 // device. All functions throw std::logic_error for a column that the table lacks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes series from the methods of wavetracer/order_methods.hpp.
 #include "study/series.hpp"
 #include <algorithm>

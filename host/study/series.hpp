@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One line of a figure: directions of its rays, their order and the shape of the launch. Mnemonics are those of A.
 // Zhdanov, TU Munich, 2014, section 6.2.2, if the method is one of its six.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"

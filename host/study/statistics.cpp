@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses two passes: means, then products of deviations. Values are counted from the first one, so that equal values have
 // deviations of exactly zero.
 #include "study/statistics.hpp"

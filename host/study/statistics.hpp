@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Correlation, autocorrelation and running averages, as in the thesis' equations 3.3, 3.4 and 6.2.
 // A. Zhdanov, TU Munich, 2014. Sums are of deviations from a mean computed before, so offsets do not cost digits.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The progress of a study of caches, and whether it should stop.
 #pragma once
 #include <algorithm>

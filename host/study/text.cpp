@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes tables as text. Cells must not contain line ends; a bar in a cell is escaped.
 // Text is ASCII, so that bytes are columns.
 #include "study/text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The words of an experiment about its measurement: sentences, a verdict on each claim, and the numbers behind them.
 // The report, the terminal and the thesis' page show the same. Numbers are rounded here; comparisons with the table of
 // an experiment must round in the same way.

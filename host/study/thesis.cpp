@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Goes figure by figure: measures or takes the study's rows, writes the files, keeps the section for the page.
 // Requests are made before anything is measured: a mistake of the user in one of them ends the program.
 #include "study/thesis.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page and its picture: strings only.
 // Only the names in a row of the table may need escapes.
 #include <fmt/format.h>

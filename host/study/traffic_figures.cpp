@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures 6.10 to 6.13, and coherence-frames: caches in traffic, whose entries expire by the transmitter's position or
 // by precision; correlation between frames.
 // Claims: A. Zhdanov, TU Munich, 2014, section 6.3.2.

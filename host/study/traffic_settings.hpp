@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the settings that figures in traffic compare, as cache_settings.hpp makes them.
 #pragma once
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes configurations from configurations.
 // The built-in city's traffic is generated with the city's own options.
 #include "study/worlds.hpp"

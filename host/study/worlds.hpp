@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The worlds of experiments whose frames move: the configuration's own drive, traffic in the built-in city, or a
 // configuration without motion whose transmitter is driven.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Base64 by RFC 4648, and the elements around it.
 // In JSON every < is replaced by an escape, which keeps the meaning, because < appears within strings only.
 #include "viewer/blocks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Binary data on a page: little-endian arrays in base64, which the page's data.js reads by name.
 // Values that 16 bits cannot hold are clamped; NaN becomes 0.
 #pragma once

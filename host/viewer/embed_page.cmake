@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUTPUT, a C++ table of the bytes of FILES (paths separated by |) by their names, for host/viewer/page_files.hpp.
 # Run with cmake -P.
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/embed_bytes.cmake)

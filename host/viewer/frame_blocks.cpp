@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each frame is one block: counts, then 4-byte, 2-byte and 1-byte columns, so that all are aligned. Coordinates are
 // float32 relative to the centre, exact to 0.1 mm in a city; angles have 16 bits, 0.006 degrees.
 #include "viewer/frame_blocks.hpp"

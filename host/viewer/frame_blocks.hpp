@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes frames as blocks of a page, with the strongest paths if not all fit, and the gain of every link over time. The
 // run is read twice: the first pass counts, so that memory only grows with the rows that are kept.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A grid begins with a cell 0,0 and ends where the next name is not that of the next cell.
 // If its last row is incomplete, it is no grid: its receivers are then ordinary ends.
 #include "viewer/grid_maps.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receivers that form a grid, as [[receiver_grid]] makes it: the page draws them as a map and not one by one. They are
 // recognised by their names, NAME/IX,IY row by row, so that a run can be read without its configuration.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows are found by their link, because paths and links of a file need not be sorted.
 // Spreads take a second pass over the paths, so that they keep their digits beside long delays.
 #include "viewer/link_rows.hpp"

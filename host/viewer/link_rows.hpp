@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures of a frame's links for the page: those of links.csv, which includes all paths, or, without that file,
 // those of the paths in paths.h5. docs/formats.md defines them.
 #pragma once

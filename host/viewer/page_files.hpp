@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sources of the page, host/viewer/page/*, and three.min.js, as the build embedded them.
 // They do not contain "</script", since each becomes a script element unchanged.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes points of rays, column by column.
 // A ray is one sample of one transmitter: its rows follow each other, sorted by depth.
 #include "viewer/ray_blocks.hpp"

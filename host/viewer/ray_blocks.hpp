@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes sampled rays (waypoints.h5) as blocks of a page.
 #pragma once
 #include <glm/vec3.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles keep their surface, surfaces their material and object, wedges their faces, so that a click can show them.
 // Outlines are the edges that are not flat.
 #include "viewer/scene_blocks.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the city and the models of vehicles as blocks of a page, and the names of their surfaces.
 // Coordinates are relative to the centre that the caller chose.
 #pragma once

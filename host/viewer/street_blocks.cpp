@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A band has two vertices for each point of the centre line: to its left and to its right.
 // At a bend both lie on the line that halves the angle, so that the band keeps its width, at sharp bends approximately.
 #include "viewer/street_blocks.hpp"

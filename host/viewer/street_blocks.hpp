@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes streets as blocks of a page: flat bands of triangles.
 #pragma once
 #include <glm/vec3.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the strongest of very many rows in two passes with bounded memory: first all gains are counted, then rows are
 // kept. Gains are distinguished to 1/100 dB from -400 to 200 dB; of equal ones the first are kept.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Puts the page together: metadata as JSON, blocks in base64, then the sources of the page in the order of their
 // dependencies. Names from files appear in the JSON only, and the page shows them as text, never as markup.
 #include "viewer/view.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes one HTML page of a run that needs no network and opens from the disk: city, vehicles, ends, paths, charts. If
 // not all paths fit, the weakest are left out and counted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antenna arrays: the positions of an end's elements, and the path between every two elements of its ends. A path is
 // solved once, between the centres of the arrays. Its length between two elements follows from its geometry: with
 // radio.wavefront = "spherical" exactly, from the images of the elements in the mirrors of the path and from the edges

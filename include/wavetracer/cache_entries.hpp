@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The entries of the ray cache's table at the end of a frame, one row each (output.cache_entries), for study.
 // Columns of equal length, sorted by frame and slot; only entries that hold a segment have a row.
 #pragma once

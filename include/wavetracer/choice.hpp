@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One of a few words, such as "exact" or "sphere", stored as its number: the type of configuration keys with choices. A
 // word in code is checked by the compiler, and compared as a number; text at run time is converted once, by parse() or
 // named().

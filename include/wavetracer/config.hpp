@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The configuration of a run, one struct per table of the TOML file. Defaults are defined here, each with its reason
 // in the field table (host/config/field_table.cpp), which is what parsing, `validate`, `init` and `--help` are driven
 // by. Where the file says 0 or "auto" for "choose yourself" or "no limit", the member is an optional that is not set.

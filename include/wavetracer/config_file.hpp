@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Config files: TOML text in, a checked Config out, and back. `wavetracer init` explains every key; so does
 // docs/configuration.md. Safe to call from several threads at once.
 #pragma once

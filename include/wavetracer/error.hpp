@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of wavetracer: each class knows the exit code that the program returns for it.
 // A message says what is wrong, where (file, line, element) and what to do about it.
 #pragma once

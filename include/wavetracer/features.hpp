@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The settings of a run's computation: its device, the order of its rays, and the features (interactions) that are on.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The result of a frame: its paths and waypoints, the world that they belong to, counts, seconds and warnings.
 #pragma once
 #include <array>

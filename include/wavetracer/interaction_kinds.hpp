@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kinds of interaction, one row each: all code that numbers, names, counts or colours them uses this table.
 // A new kind needs its code in paths.hpp, its step in device/records.h, its key in config.hpp and a row below.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of one kernel: its share of a profile.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths that frames without rays may lack (trace.discover_every_s), measured when rays are launched again: the paths
 // that the earlier sequences did not give.
 #pragma once

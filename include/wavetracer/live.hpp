@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Live worlds: vehicles whose poses come at run time. They take the places that the configuration has for their type.
 // Positions are in file coordinates, as in trajectories: the centre of the footprint, on the ground.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of the configuration about radio materials.
 // A value that is not given is taken from the library or the scene file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates what the rays of a run have missed, from those rays themselves: docs/method.md, "What was missed". A launch
 // consists of four launches with a quarter of its rays each: the paths that few of them found show how many none has
 // found.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names that radio ends, vehicles and models may have: tables, plots and messages show them on one line.
 #pragma once
 #include <algorithm>

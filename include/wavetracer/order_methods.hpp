@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The orders of rays: one row for each method, used by all code that names, plans or compares methods. The words are
 // those of OrderMethod; the methods with a mnemonic are those of A. Zhdanov, TU Munich, 2014, section 6.2.2.
 #pragma once

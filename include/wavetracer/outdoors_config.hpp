@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of the configuration about media between the ends that attenuate a wave without turning it: the air, and
 // vegetation.
 // Defaults are defined here; the field table (host/config/outdoors_fields.cpp) gives the reason for each.

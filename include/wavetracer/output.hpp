@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of a run and the call that writes them to a folder, as `wavetracer run` does.
 // All frames of one run share their scene, vehicles, radio ends and port counts.
 #pragma once

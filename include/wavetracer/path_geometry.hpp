@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solved, visible paths before fields are computed: the result of the exact geometry. Coordinates are recentred.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Propagation paths of one or more frames: one row per path, vertices in a compressed row layout.
 #pragma once
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waypoints of samples of launched rays, for study and pictures: the points of each ray, even if it led to no path.
 // Columns have equal length and are sorted by frame, tx, sample, depth; hits come before the end of their segment, by
 // receiver.

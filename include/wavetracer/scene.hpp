@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometry of a scene: welded triangles, the planar surfaces that they form, edges and materials.
 // All coordinates are double, in metres, recentred: file coordinate = origin_m + coordinate.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The public entry of libwavetracer: a scene on a device, computed frame by frame.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stages of a frame: every name that FrameResult::seconds may have, and the part of the frame that it belongs to.
 // Device stages are given where kernels are launched and buffers copied, host stages where a stopwatch is read. A stage
 // that is not listed here does not compile, so that sums over the parts of a frame are complete.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* libwavetracer for C99, and for every language that calls C: a configuration in, propagation paths out.
    Assumes 8-bit bytes and IEEE double. For C++ there is wavetracer/wavetracer.hpp.
 

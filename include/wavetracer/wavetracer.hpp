@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All of libwavetracer for C++20: configuration, simulation, paths, outputs. For C there is wavetracer/wavetracer.h.
 // Link wavetracer::wavetracer of find_package(wavetracer); the headers need glm and nothing else.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The moving part of a world at one instant: vehicles as instances of models, and radio ends.
 // Positions are recentred as the scene is (file coordinate = Scene::origin_m + position), in double.
 #pragma once

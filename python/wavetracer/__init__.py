@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Radio channels between moving vehicles by ray tracing on OpenCL.
 
     import wavetracer as wt

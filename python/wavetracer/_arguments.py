@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks arguments of the package's functions at the entry: a message about a wrong type names the function that the
 user has called, not one that it calls."""
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Readers of measurement campaigns: they take files as they are published, and return rows with line numbers."""
 from __future__ import annotations
 

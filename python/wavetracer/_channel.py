@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Impulse responses, frequency responses and taps of the links of a frame, in the shapes of sionna.rt.Paths."""
 from __future__ import annotations
 

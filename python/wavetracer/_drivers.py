@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """OpenCL drivers for machines on which users cannot install one: PoCL from PyPI, and NVIDIA's where it is not listed.
 
 The OpenCL loader takes its drivers from the files *.icd of one folder, /etc/OpenCL/vendors. If there is a driver that

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of links from the columns of their paths, by the formulas of docs/formats.md, and rows picked from columns."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """libwavetracer.so through ctypes: finds it, declares the arguments of its functions, and turns its errors into
 exceptions.
 

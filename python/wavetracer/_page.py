@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page of a run in a notebook: the page that `wavetracer view` makes, shown below the cell."""
 from __future__ import annotations
 

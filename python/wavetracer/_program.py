@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command `wavetracer` of this package: finds the program and starts it with the same drivers."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Progress of frames through tqdm's interface, and Ctrl-C while the library computes."""
 from __future__ import annotations
 

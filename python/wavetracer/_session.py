@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A simulation of the library while it is open; threads use it in turns."""
 from __future__ import annotations
 

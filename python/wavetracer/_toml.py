@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Configurations as TOML text: a dict becomes a file that the program reads, and a value becomes the text after "key
 ="."""
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drives on clusters that others run: Dask (dask.distributed) and Slurm.
 
 A drive is cut into N parts, each of which depends on the configuration alone. Part K is

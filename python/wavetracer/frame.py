@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The results of one frame, as the library has just computed them."""
 from __future__ import annotations
 

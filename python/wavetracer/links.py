@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The ends of links, and the figures of each link: gain, delay, spreads."""
 from __future__ import annotations
 

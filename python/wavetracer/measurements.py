@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compares measurement campaigns with gains that are computed for the same places: `python3 -m
 wavetracer.measurements`.
 

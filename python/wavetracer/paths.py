@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Paths of one frame as NumPy columns, the figures of links, and the channels that paths make."""
 from __future__ import annotations
 

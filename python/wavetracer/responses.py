@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """responses.h5 of a saved run: channels between all antennas of a link, as [response] asked for them."""
 from __future__ import annotations
 

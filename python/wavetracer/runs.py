@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Saved runs: the folder that `wavetracer run` or Simulation.write() has made, opened."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A scene on a device: a configuration in, frames of propagation paths out."""
 from __future__ import annotations
 

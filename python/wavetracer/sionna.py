@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A sionna.rt.Scene as a configuration of wavetracer: geometry, materials, transmitters, receivers and antennas.
 
 A scene of Sionna RT does not remember its file, and its objects may have been moved since; so the meshes are written as

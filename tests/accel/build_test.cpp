@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the builder: structure, limits, cost, determinism, and the soups that break naive builders.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

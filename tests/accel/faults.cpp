@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The structural checks of the oracle: every node and triangle is met, boxes hold what is below them, limits are kept.
 // Assumes that a triangle's primitive is its position in the array.
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the two layouts: their structure, and a reference traversal of each against brute force.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tracing of the oracle. The intersection is S. Woop, C. Benthin, I. Wald: Watertight Ray/Triangle Intersection, JCGT
 // 2013, in double, where float32 vertices make its edge functions nearly exact.
 #include "oracle.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slow, obvious tracer of these tests: watertight intersection in double, brute force, and plain recursion through
 // layouts. It does not depend on how trees were built; it reads the layouts as wavetracer/device/bvh.h defines them.
 #pragma once

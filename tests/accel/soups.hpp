@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangle soups for the tests of the acceleration structures: ordinary ones and those that break builders. Every
 // function is deterministic, with the generator of the standard.
 #pragma once

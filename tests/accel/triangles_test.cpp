@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the conversion from the scene's doubles to float32 triangles.
 #include <doctest/doctest.h>
 

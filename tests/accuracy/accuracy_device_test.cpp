@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Studies of scenes whose answers are known: the image lattice of a box, a screen with an edge. Then the program. Cases
 // that need a device are skipped with a message if there is none.
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The varied settings, the recommended row, and the table, with rows made by hand and without a device.
 #include <doctest/doctest.h>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program on an OpenCL device: devices, a whole run, a wrong --device, an interrupt.
 // The cases are skipped with a message if there is no device.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program without a device: usage, config and input errors, init, validate, scene.
 // Each error must have its exit code, name the place and the fault, and leave no file behind.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Caches of compiled kernels that cannot be written to: PoCL's own, without which it offers no device, and ours. /proc
 // takes no files, not even root's. The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files on the disk between and after runs: files equal byte by byte however the work was shared, inputs that change or
 // move, two runs that want one folder, folders where files should be. The cases are skipped with a message if there is
 // no OpenCL device.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives through the program: a vehicle crosses the room, and the run is interrupted, killed and resumed on its way.
 // The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>

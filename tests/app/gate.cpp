@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A library to load before the program (LD_PRELOAD): its processes wait where a test wants them, until the test lets
 // them go on. So no test depends on how fast a machine is. app/gate.hpp drives it. GATE=FOLDER turns it on. A process
 // that waits has a file FOLDER/waits.PID, and all go on once FOLDER/open is there. GATE_AT=TEXT: a process that gives a

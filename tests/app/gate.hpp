@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gates at which processes of the program wait for the test (see gate.cpp), so that the order of events does not depend
 // on speed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Both sides communicate through files in a folder.
 #include <doctest/doctest.h>
 #include <charconv>

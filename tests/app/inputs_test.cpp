@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `validate` opens every file that a configuration names, by any key, and refuses files of another kind. A key with a
 // file that this test does not know makes it fail.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs on a device that has no memory for the lists of a frame (Gate::at_buffers).
 #include <doctest/doctest.h>
 #include "folders.hpp"

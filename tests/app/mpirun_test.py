@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ranks of mpirun share a run: the data of one process, also after a rank was killed. mpirun_test.py PROGRAM SOURCE GATE
 GATE is the library of gate.cpp, which lets ranks wait.
 Answers 77 (skipped) without mpirun, h5py or an OpenCL device."""

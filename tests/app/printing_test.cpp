@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output of the program arrives, or the exit code says that it did not; an output with the name of a pipe or a device
 // is written there. The shell connects standard output to /dev/full, where every write fails.
 #include <doctest/doctest.h>

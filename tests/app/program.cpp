@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // posix_spawn with stdout and stderr in files, so that nothing can block on a full pipe.
 // It assumes POSIX.
 #include "program.hpp"

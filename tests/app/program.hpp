@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the built program as a user does, and keeps its output.
 // A Folder is a TemporaryFolder whose paths are texts, for command lines.
 #pragma once

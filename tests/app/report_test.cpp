@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The closing report of a run, from invented results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drive that the tests of the program share: a vehicle crosses a room, ten frames a second.
 #pragma once
 #include <fmt/format.h>

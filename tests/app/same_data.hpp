@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that two runs have written the same data, whichever processes computed them.
 // It is for programs of doctest; the HDF5 files are those of the expected run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs that several processes share give the data of one process, bit for bit, for every split and for every process
 // that dies. The cases are skipped with a message if there is no OpenCL device. With mpirun: tests/app/mpirun_test.py.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trajectories through the program: files that are wrong, a generated city with its drive, and every configuration that
 // comes with the program. The cases are skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // [[array]], [response] and several carriers: accepted and refused values, the places of errors, and reading back.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray cache, reception spheres and waypoints in config files: accepted and refused values, and the places of
 // errors. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>

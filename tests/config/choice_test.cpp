@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys with choices, and keys for which 0 or a word means "not set": every word of every key is read, kept and written
 // back unchanged.
 #include <doctest/doctest.h>

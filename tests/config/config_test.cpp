@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Config files: accepted values, the message of each kind of mistake, and that --set behaves as the file does. The
 // texts are written here by hand; positions are counted in them, not computed by the parser.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The field table and what is made of it: the contract's keys, init, help, the resolved config, spelling hints. It does
 // not use the parser's internals: texts go in, Configs and texts come out.
 #include "config/field_table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // [[receiver_grid]]: accepted and refused values, the places of errors, and that a resolved config reads back the same.
 // Texts are written here by hand; lines and columns are counted in them.
 #include <doctest/doctest.h>

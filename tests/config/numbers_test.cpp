@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meaningless numbers are refused where they appear: every key that takes numbers has bounds.
 #include <doctest/doctest.h>
 

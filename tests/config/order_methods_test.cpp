@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of orders against the words of order.method.
 #include "wavetracer/order_methods.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // [air], [[vegetation]] and materials of vegetation: read, written back, and carriers that the recommendations do not
 // know.
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of config files: the shortest texts that parse, and the message that refuses a text.
 #pragma once
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of moving worlds: accepted and refused values, the places of errors, and that a resolved config reads
 // back. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `wavetracer convert` on the command line: formats by name and by suffix, frames by number, and its messages for
 // unknown ones.
 #include <doctest/doctest.h>

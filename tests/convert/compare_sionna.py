@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The same ends in the same scene, traced by Sionna RT and exported from wavetracer: same shapes, same conventions.
 Run as compare_sionna.py PROGRAM OUTPUT; answers 77, "skipped", where sionna-rt or its LLVM is missing."""
 import os

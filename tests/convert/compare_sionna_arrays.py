@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Channels between the elements of panels, by Sionna RT (synthetic arrays: plane waves) and from wavetracer's responses.
 Run as compare_sionna_arrays.py PROGRAM OUTPUT; answers 77, "skipped", where sionna-rt or its LLVM is missing."""
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exporters called from C++: their results, warnings and errors; and their small helpers. It leaves the invented
 // runs in the build folder, for the scripts that read the formats.
 #include "convert/convert.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The exports of geometry: our own loader reads them back, then VTK, trimesh and PROJ do what ParaView, Blender and
 # Google Earth would. To be included by CMakeLists.txt.
 set(here ${CMAKE_CURRENT_LIST_DIR})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks a .glb against the rules of glTF 2.0 byte by byte, and its nodes and animation against paths.h5.
 Run as glb_check.py FOLDER, which holds run/, one.glb and drive.glb; answers 77, "skipped", without NumPy or h5py."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Loads a .glb with trimesh, as users do, and compares areas and extents with the scene that VTK's export holds.
 Run as glb_trimesh.py FOLDER, which holds one.glb, drive.glb and vtk/; answers 77, "skipped", without trimesh."""
 import os

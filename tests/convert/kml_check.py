@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parses drive.kml strictly and compares its places with paths.h5 by PROJ, to a millimetre on the ground.
 Run as kml_check.py FOLDER, which holds run/ and drive.kml; answers 77, "skipped", without pyproj or h5py."""
 import os

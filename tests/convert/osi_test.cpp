@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The osi export read back as trajectories: the same vehicles at the same times and places.
 #include <doctest/doctest.h>
 #include <cmath>

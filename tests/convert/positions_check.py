@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Positions in degrees of ends, tracks, grids and GPX files, through a run and back to the earth by pyproj, to a
 millimetre. Run as positions_check.py PROGRAM FOLDER; answers 77, "skipped", without pyproj or h5py."""
 import json

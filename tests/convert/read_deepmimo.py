@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The deepmimo export loaded by DeepMIMO itself: its arrays and its OFDM channels against paths.h5.
 Run as read_deepmimo.py PROGRAM RUN OUTPUT; answers 77, "skipped", where the package is missing."""
 import os

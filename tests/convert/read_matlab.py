@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The matlab export against paths.h5: header and attributes by h5py, values by mat73, a reader of MATLAB's files.
 Run as read_matlab.py PROGRAM RUN OUTPUT; without mat73 the values are compared through h5py alone."""
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The ns3 export read as ns-3's QdChannelModel reads it, and the channel that it would form against h(f) of paths.h5.
 Run as read_ns3.py PROGRAM RUN OUTPUT. The reader is strict where the model would misread in silence."""
 import glob

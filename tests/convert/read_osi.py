@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the osi export with ASAM's own bindings, and compares it with the poses of paths.h5.
 Run as read_osi.py PROGRAM RUN OUTPUT; answers 77, "skipped", where h5py or osi3 is missing (PyPI: osi-python)."""
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Responses of a run in every export that has them, and against the channel that paths.h5 makes of the centres.
 Run as read_responses.py PROGRAM RUN OUTPUT, RUN of configs/arrays.toml; answers 77, "skipped", without h5py."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The sionna export against paths.h5: shapes, values, padding, and the channel as Sionna RT's cfr() defines it.
 Run as read_sionna.py PROGRAM RUN OUTPUT."""
 from reading import OUTPUT, Truth, convert, np

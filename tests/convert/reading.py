@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Helpers that the tests of exports share: paths.h5 by h5py, and a run of the program. Assumes that the script is
 called with the program, the folder of a run, and a folder to write to."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the folder of `convert --to vtk` with VTK's own readers, and compares it with paths.h5 as h5py reads it.
 Run as vtk_check.py FOLDER, which holds run/ and vtk/; answers 77, "skipped", where VTK or h5py is not installed."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the examples of docs/formats.md as they stand there: the conversions, then every block of Python.
 Run as vtk_glb_kml_docs.py PROGRAM RUN ARRAYS OUTPUT; a block whose package is missing is skipped, and said so."""
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths are straight lines with made-up points along them; places of vehicles and ends are those of the world.
 #include "vtk_glb_kml_run.hpp"
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run for the tests of the exports of geometry, made without a device: four frames of a small city, a car with an
 // antenna that drives through all of them, a truck that is there in two, and names that XML must escape.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exports of geometry: what our own loader reads back, and what they refuse. The files stay in the build folder,
 // where vtk_check.py, glb_check.py and kml_check.py read them as other programs do.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pages and tables of measurements are what bench/report.py makes of bench/results, and follow them.
 
 Usage: generated_test.py SOURCE. In a copy of the tree a row that is replaced, a number that is typed and a page that is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every link of the documents leads to a file and a heading that exist, and every page is linked from another one.
 
 Usage: links_test.py SOURCE. The site takes lists and tables only after an empty line; that is checked as well.

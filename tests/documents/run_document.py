@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the commands of a document as a reader would: every ```sh and ```python block, in the order of the page.
 
     run_document.py DOCUMENT --program WAVETRACER --configs FOLDER --examples FOLDER --package FOLDER --shared-object FILE

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The site of the documents is made without a warning, and its search knows the pages.
 
 Usage: site_test.py SOURCE. Exits with 77 where MkDocs is not in build/site/environment (`./dev test` and `./dev site` put it there).

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tells whether two devices have computed the same paths: all datasets of two paths.h5 must be the same bytes.
 
 usage: same_paths.py PATHS_H5 PATHS_H5

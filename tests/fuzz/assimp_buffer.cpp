@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // assimp fills a buffer of 16 MiB for each OBJ file, however short: 75 inputs a second. Here that buffer is the same 8
 // KiB of memory, mapped 2048 times, so that filling it stays in the cache. Inputs are shorter than that (`./dev fuzz`).
 #include <sys/mman.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The children of LimitedChild, in which the HDF5 library may crash: that is no finding, and no child may take long.
 // Each input must have its own process: whether the library crashes depends on the content of memory, so only a copy of
 // this process behaves as this process would.

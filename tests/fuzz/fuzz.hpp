@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every fuzz target includes this: the input as a file in memory, and the errors that are valid answers.
 // A target ends with a crash for anything else: another exception, a fault, a leak, too much memory or time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: recordings of CARLA as text.
 #include "fuzz/fuzz.hpp"
 #include "motion/carla.hpp"

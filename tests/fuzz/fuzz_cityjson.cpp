@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: CityJSON, up to the meshes of its buildings. No file is written.
 #include "fuzz/fuzz.hpp"
 #include "imports/model_import.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: codebooks of beams.
 #include "fuzz/fuzz.hpp"
 #include "radio/codebook.hpp"

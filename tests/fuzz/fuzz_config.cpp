@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: configurations, from TOML text to checked values and back to text.
 // An accepted configuration must be accepted again after it was written out.
 #include "fuzz/fuzz.hpp"

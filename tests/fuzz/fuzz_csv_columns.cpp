@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: columns of a CSV file. The result must not depend on where pieces end.
 #include <cstdlib>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: the address that a server listens at, and the file of its token. No socket is opened.
 #include "fuzz/fuzz.hpp"
 #include "live/endpoint.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: files of esmini; the text decides between log and recording.
 #include "fuzz/fuzz.hpp"
 #include "motion/esmini.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: georeference.json beside a scene, and its projection in both directions.
 #include <glm/vec2.hpp>
 #include "fuzz/fuzz.hpp"

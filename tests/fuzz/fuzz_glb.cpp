@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: glTF models, those of version 1.0 through assimp and compressed ones through draco, as Debian builds
 // both.
 #include "fuzz/fuzz.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: manifests of the parts of a run. An accepted manifest must be accepted again after it was written out.
 #include "fuzz/fuzz.hpp"
 #include "jobs/manifest.hpp"

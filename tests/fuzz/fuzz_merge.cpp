@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library may crash in a separate
 // process: see LimitedChild.
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: messages of live clients, which may be refused by a ProtocolError and by nothing else.
 #include "fuzz/fuzz.hpp"
 #include "live/message.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: Mitsuba XML scenes. Meshes that they name do not exist, except the file itself.
 #include "fuzz/fuzz.hpp"
 #include "scene/mitsuba.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: OBJ models through assimp, whose own code is as Debian builds it.
 #include "fuzz/fuzz.hpp"
 #include "scene/model.hpp"

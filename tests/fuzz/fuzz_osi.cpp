@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: traces of OSI.
 #include "fuzz/fuzz.hpp"
 #include "motion/osi.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: maps of OpenStreetMap, XML or PBF, up to the meshes of their buildings. No file is written.
 #include "fuzz/fuzz.hpp"
 #include "imports/map.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: files of parked vehicles.
 #include "fuzz/fuzz.hpp"
 #include "motion/parked.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: antenna patterns.
 #include "fuzz/fuzz.hpp"
 #include "radio/pattern.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: PLY meshes of every dialect.
 #include "fuzz/fuzz.hpp"
 #include "scene/ply.hpp"

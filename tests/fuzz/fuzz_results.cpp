@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: paths.h5 as view, plot, convert and merge read it. The HDF5 library may crash in a separate process: see
 // LimitedChild.
 #include "fuzz/children.hpp"

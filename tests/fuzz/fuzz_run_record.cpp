@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: run.json, the facts about a run for `wavetracer merge`.
 #include "fuzz/fuzz.hpp"
 #include "jobs/run_record.hpp"

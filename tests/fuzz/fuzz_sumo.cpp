@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: polygons of SUMO, up to the meshes of their buildings, and the <location> of its networks.
 // No file is written.
 #include "fuzz/fuzz.hpp"

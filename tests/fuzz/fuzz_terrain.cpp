@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: rasters of heights that GDAL opens, up to the mesh of the ground.
 #include <cstdlib>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: trajectories, SUMO FCD, GPX and CSV, plain or gzip; the content decides.
 #include "fuzz/fuzz.hpp"
 #include "motion/read.hpp"

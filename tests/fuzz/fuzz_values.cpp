@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: well-formed containers whose numbers and lengths come from the input, as view, plot and convert read
 // them. An input is a row of patches, 11 bytes each: the dataset, the element (16 bits), its value; of datasets from
 // 128 on the value's first byte is the number of rows instead. A reader of datasets in memory replaces

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fuzz target: maps of the formats that GDAL opens, up to the meshes of their buildings. No file is written. GDAL
 // itself is not instrumented: the target searches faults in how this program handles its answers. The fuzzer only uses
 // formats of the corpus; the test of the corpus has all of GDAL.

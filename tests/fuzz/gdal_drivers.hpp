@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps only the GDAL drivers of a target's corpus. GDAL asks all two hundred of them about an input, which takes most
 // of the time, and none of that is code of this program.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feeds files to a fuzz target, each once, without a fuzzer: replay_NAME FILE|FOLDER...
 // A fault ends the process: reaching the end is the test.
 #include <cstdint>

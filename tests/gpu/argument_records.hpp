@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records that kernels take by value, with their fields: a part of the list of device_records.hpp.
 #pragma once
 #include <cstddef>

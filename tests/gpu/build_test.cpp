@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of programs: definitions, build errors that point to file and line, and the cache on disk with real binaries.
 // Uses the default device, Oclgrind's where the test runs under it.
 #include <doctest/doctest.h>

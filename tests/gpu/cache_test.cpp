@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the program cache on disk: nothing but the exact file of the exact key is ever taken.
 // No device is needed: the payload is any string.
 #include "gpu/cache.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the choice of a device by text, on invented machines.
 // No device is needed.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of buffers, launches and profiles on a device.
 // Uses the default device, Oclgrind's where the test runs under it.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every record of the headers that host and device share, with its fields, as the host's compiler lays them out.
 // tests/gpu/layout_test.cpp compares the list with the headers' own text, so that nothing is left out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every record of the headers that host and device share has the same size and the same offsets on both.
 // The records and fields are read from the text of the headers, so that none is missing in the table
 // (device_records.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of kernels/lib/memory_order.clh: what work-items do at once is counted on the host.
 // Small enough for Oclgrind; on a real device the same kernels run with more work-items.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests of the embedded sources and of include expansion: every line must still know its file and number.
 // No device is needed.
 #include "gpu/source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Temporary objects of tests: a folder, an environment variable, a folder of kernels. They are not thread-safe, as the
 // environment is not.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bent surfaces, by microradians or by half a turn, inwards and outwards: the total field must not jump where the
 // reflection of one face ends and that of the other begins, nor where a corner reflects once more.
 #include <glm/trigonometric.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hard suite: geometry and numbers at their limits, each case with its known answer.
 // A case measures the difference between the program, run through Simulation, and that answer; the test and bench_hard
 // share them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drive in steps of 1 mm into the shadow: the direct path ends at the edge of a screen, others continue, and each
 // changes its delay from frame to frame by its Doppler shift.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Energy: the reflection and transmission of a slab, the scattering of a rough plate into all directions, and its
 // mirrored wave. Coefficients are the gains of paths, divided by those of free space.
 #include "hard/responses.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Large coordinates and long ways: a scene at UTM coordinates, paths of 14 km.
 // Coordinates are multiples of 1/64 m, so that moving a scene by whole metres causes no rounding.
 #include "hard/responses.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two-ray ground: figures that were computed elsewhere, grazing at 1e-6 rad, and grounds of 10 km, also made of
 // slivers. Grounds are half spaces; "conductor" has 1e18 S/m and reflects with -1.
 #include "hard/responses.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Half planes: knife edges against the exact Fresnel integral, and needle wedges, which become one as their angle goes
 // to zero. Other edges of the screen are so far away that their diffraction is below the tolerance.
 #include <glm/trigonometric.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every case of the hard suite must hold.
 // Each topic is a subcase; bench_hard prints all measurements.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Deep chains of reflections with closed forms: parallel plates, and a room.
 // Lengths are those of the lattice of images.
 #include "hard/responses.hpp"

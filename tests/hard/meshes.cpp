@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes that float32 and welding find hard: slivers, walls in one plane, walls 1 mm apart, T-junctions.
 // Expected numbers of paths are counted by hand, lengths are those of images.
 #include "hard/responses.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the hard suite: fields of links summed over their paths, kinds of paths, errors in decibels. Ends have two
 // ports each, V and H, as config_of makes them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The total field across the shadow boundaries of free-standing wedges and screens: it must not jump.
 // Float32 is off by up to 0.03 mm where a ray passes an edge, so receivers stand closer than that as well.
 #include <glm/trigonometric.hpp>

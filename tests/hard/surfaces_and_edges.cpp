@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas at singular places: on a face, an edge, a corner, on each other, and on both ends of a link. The rule: an
 // antenna on a surface is not hidden by it and not reflected there, so the wave counts once.
 #include "hard/responses.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks that two builds of wavetracer write the same files: for changes of structure, which change no result.
 
 usage: compare_builds.py BEFORE AFTER [--only TEXT] [--exports-of-all]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The rules of the house that a program can check.
 
 usage: house.py SOURCE format|names|sizes|types|kernels|english|project|licence
@@ -205,7 +206,7 @@ def comments(lines, mark):
     """(number of the first line, text) of every comment: lines of comments that follow each other are one."""
     block, begin = [], 0
     for number, line in enumerate([*lines, ""], 1):
-        alone = re.match(rf"\s*(?:{mark}+|/\*)\s?(.*)", line)
+        alone = re.match(rf"\s*(?:{mark}(?!##)|/\*)\s?(.*)", line)  # ### is a heading in a text
         if alone and not (mark == "#" and line.startswith("#!")):
             begin = begin if block else number
             block.append(alone[1].strip())

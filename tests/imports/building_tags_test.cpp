@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tags as people write them, against lengths and rules written down by hand.
 #include "imports/building_tags.hpp"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A small town in CityGML 2.0, held to the official schemas and turned into CityJSON 1.1 by CitySmith and into 2.0 by
 cjio, reprojected by cjio, imported by `wavetracer convert`: every scene must be the same town, its meshes closed
 (trimesh), its volumes those of closed forms, its place that of pyproj.

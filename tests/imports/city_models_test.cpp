@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties that city models of both formats share: triangles of faces, coordinate systems, and messages about broken
 // files.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // City models as texts, put together from pieces: a house with a gable roof in CityJSON, a cube in CityGML.
 #pragma once
 #include <fmt/format.h>

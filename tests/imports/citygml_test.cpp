@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CityGML: every way to write a ring and to link surfaces gives the same cube.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

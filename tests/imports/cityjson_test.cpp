@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CityJSON against closed forms: a house with a gable roof, parts and levels of detail, roles and materials.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

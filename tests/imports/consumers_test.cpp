@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programs of users: osmium turns .osm into .pbf, netconvert and polyconvert make SUMO's network and polygons of
 // the same map. All must give the same city. If a program is missing, its case is skipped.
 #include <doctest/doctest.h>

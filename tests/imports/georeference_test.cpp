@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projections against coordinates that are known: the definition of UTM, lengths of a degree, a round trip.
 #include "scene/georeference.hpp"
 

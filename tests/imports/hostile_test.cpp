@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damaged files of every kind end in an InputError or in a scene, and in nothing else.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

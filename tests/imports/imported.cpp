@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Degrees of nodes come from a spherical formula that is independent of PROJ: exact to 1e-5 over a hundred metres.
 #include "imported.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small maps written for the tests, imported into a temporary folder and loaded like any scene.
 // Maps are in metres about MAP_ORIGIN; nodes of OSM are rounded to 1e-7 degrees, which is 11 mm.
 #pragma once

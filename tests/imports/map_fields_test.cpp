@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields of vector maps by their names, and their meaning.
 #include "map_files.hpp"
 

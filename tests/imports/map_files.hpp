@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vector maps written for the tests of GDAL, in degrees about a middle, and their import.
 // Without the module or the programs of GDAL (Debian: gdal-bin) has_gdal() says so.
 #pragma once

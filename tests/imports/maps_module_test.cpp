@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program without the maps module, with another version of it, or in a wheel, where it must not be opened.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps and terrain by GDAL: files that ogr2ogr and gdal_translate wrote, compared with the data that were put into
 // them. Without the module or the programs (Debian: gdal-bin) the cases say so and are skipped.
 #include <doctest/doctest.h>

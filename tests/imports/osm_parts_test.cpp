@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outlines and their parts: parts that fill an outline replace it, parts that hardly fill it stand on it. Heights come
 // from tags.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenStreetMap texts compared with areas, volumes and heights that are known. Nodes are rounded to 11 mm.
 #include <doctest/doctest.h>
 

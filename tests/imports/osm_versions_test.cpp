@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects that no longer exist: deleted in an editor, or in the last of several versions that a file contains.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Road networks: the one that comes with the program, and small ones with every fault.
 #include "imports/road_network.hpp"
 #include "folders.hpp"

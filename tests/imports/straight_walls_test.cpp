@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corners that rounding has put beside a wall are moved onto it; walls that bend by more than rounding stay.
 #include "imports/straight_walls.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUMO's polygons against exact areas and volumes: their decimals are on the grid of the import.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The mesh of a terrain against brute force: every post in every triangle.
 #include "imports/terrain_mesh.hpp"
 

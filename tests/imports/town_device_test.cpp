@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // configs/sumo in its two commands: SUMO's vehicles stay in the streets, the houses are those of the polygons, and
 // paths are found. The folder is copied first, since SUMO writes beside its configuration. The test is skipped without
 // sumo or a device.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygons with holes against closed forms: areas, no overlap, every border edge once, faults by name.
 #include "imports/triangulate.hpp"
 

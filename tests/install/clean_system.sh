@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the Debian package in a separate minimal Debian 12, and uses it there as a user would.
 # Usage, as root: clean_system.sh PACKAGE.deb FOLDER MIRROR. debootstrap makes FOLDER if it is missing, and it is kept;
 # MIRROR is the address of a Debian archive. Needs debootstrap and some 700 MB.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs, builds the examples of docs/examples against the installed files, runs them, and checks their output. It
 # expects BUILD, SOURCE, WORK and VERSION; it stops at the first step that fails.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names the keys in which two configurations differ.
 #include "jobs/config_changes.hpp"
 #include <doctest/doctest.h>

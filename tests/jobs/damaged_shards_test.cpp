@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bytes of shards that changed since they were written are noticed before anything is merged.
 // Frames are invented; the bytes are changed by hand.
 #include <doctest/doctest.h>

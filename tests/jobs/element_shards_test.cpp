@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Responses, beams and carriers in shards: merged, they are those of a run that is written whole, byte by byte.
 #include <doctest/doctest.h>
 #include "jobs/merge_folders.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --frames: every form, and every mistake with its advice.
 // Neither the program nor a device is needed.
 #include "jobs/frame_range.hpp"

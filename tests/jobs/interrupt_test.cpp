@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks the messages of an interrupt about files, in a separate process: before and after they have got their final
 // names.
 #include "jobs/interrupt.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of links from a links.csv that is written by hand.
 #include "jobs/link_statistics.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A merge that began before the last shard was there, against one that did not: the same bytes from every state.
 #include "jobs/merge_ahead.hpp"
 #include <doctest/doctest.h>

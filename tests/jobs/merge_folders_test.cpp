@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a run in several folders make the outputs of the whole run, or an error that names what is wrong.
 // Frames are made up; parts are cut by hand.
 #include "jobs/merge_folders.hpp"

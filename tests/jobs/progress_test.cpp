@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elapsed time, rate and time left, compared with a clock and a division.
 #include "jobs/progress.hpp"
 #include <doctest/doctest.h>

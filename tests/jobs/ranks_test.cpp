@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ranks from the variables of launchers, and --shard.
 // Variables are those of Open MPI 4, MPICH's Hydra and Slurm 22.
 #include "jobs/ranks.hpp"

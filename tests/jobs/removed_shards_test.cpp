@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shards are removed once the outputs were proved to contain them, and not before; a later run knows that the run is
 // complete.
 #include <doctest/doctest.h>

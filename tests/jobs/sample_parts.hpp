@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of shards: the run that they belong to, its cuts, and the names of the files in a folder.
 #pragma once
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drive that is written in shards reads as one that is written at once, whatever happened between its shards. Frames
 // are invented; the program's own drives are tested in tests/app.
 #include "jobs/shards.hpp"

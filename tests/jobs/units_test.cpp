@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cut of a run, and the assignment of its parts: units, process files, claims.
 // Processes are this one, a child of it that has ended, and invented ones of another machine.
 #include "jobs/units.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // curves: points to codes along a space-filling curve, and codes to points; component d of point i is word
 // d * stride + i. The host names the curve by WT_ENCODE, WT_DECODE and WT_DIMENSIONS, and WT_LANES points a work-item;
 // level is that of Hilbert curves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Host side of curves.cl beside it.
 // The curves and their shapes are named here once; curves.cl has a pair of functions for each name.
 #include "kernels/curves.hpp"

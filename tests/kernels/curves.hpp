@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // curves: points to codes along a space-filling curve and back: morton2, morton3, morton5, hilbert2, hilbert3. Points
 // are planes of words: component d of point i is points[d * stride + i]. Elements after the count are not touched.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the arithmetic of a device: chains of fused multiplies and adds, 8 of which are independent of each other,
 // and nothing that memory could slow down. WT_SCALAR is float or double, WT_LANES 1 or the lanes of a vector of OpenCL.
 // Assumes a global size that is a multiple of the local one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that only tests and benchmarks run: the ray cache's table under operations whose outcome a host can check.
 // Keys are numbers. A key, and the value stored under it, are functions of its number and of the frame of writing, so
 // that an answer that is torn, of another key or of another frame is detected. Global sizes may exceed the work.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that only tests run: keys, hashes and buckets of rays on the device.
 // Each ray has three words: cells, hash, and tag above bucket.
 #include "wavetracer/device/cache.h"

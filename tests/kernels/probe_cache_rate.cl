@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that only bench_cache runs: operations of a ray cache's table per second, and the limit of memory. Questions
 // are arrays, read in order, one per work-item. All are about region 0.
 #include "probe_question.clh"

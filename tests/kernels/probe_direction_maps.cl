@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that only tests run: the maps of wavetracer/device/direction_maps.h, whose results a host compares with its
 // own. Planes of n words or floats, component d of element i at d * n + i; n is a multiple of WT_LANES, 1 or 16.
 #include "wavetracer/device/direction_maps.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels that only tests run: each uses kernels/lib/memory_order.clh in a way whose outcome a host can count.
 // Assumes buffers cleared by the host; global sizes may exceed `count`.
 #include "lib/memory_order.clh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The open-addressed table as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 and C.3), with its
 // faults. bench_cache and the tests of lib/cache_open.clh compare with it; the program does not use it.
 // Atomics have the orders of lib/memory_order.clh, which the listing leaves to chance. Assumes cleared nodes, position

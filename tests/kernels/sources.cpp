@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Registers the kernels of this folder with those that are built into the library, before main begins.
 #include "gpu/source.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The C interface from C99: a frame against closed forms, errors and misuse, files, two simulations in one process.
    Usage: test_c_api FOLDER, which is written to. Says each check that fails; exits 1 if any did. */
 #include <math.h>

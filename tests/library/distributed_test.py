@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """wavetracer.distributed: a drive on a Dask cluster of two workers, one of which is killed in the middle, and as a job
 array of Slurm, are the bytes that one process writes. distributed_test.py PROGRAM SOURCE
 Answers 77 (skipped) without dask.distributed or an OpenCL device."""

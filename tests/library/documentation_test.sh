@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Tests man pages, which man reads without a warning, completions, which bash answers with, and the reference, which
 # must be up to date. Usage: documentation_test.sh PROGRAM SOURCE_FOLDER FOLDER
 set -euo pipefail

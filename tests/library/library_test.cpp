@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C++ interface through the shared library: configurations, errors that are caught by their class, threads.
 // Links nothing of wavetracer but libwavetracer.so.
 #include <doctest/doctest.h>

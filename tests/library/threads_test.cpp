@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C interface from several threads and in forked processes, as wavetracer.h says: turns, observers, and the rights
 // of a forked process.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Worlds that no road has: vehicles that come and go at random, stand in each other, on walls and on the ground, clocks
 that run back. Every frame is answered, by channels or by an error that says what is wrong, and the server goes on.
 Assumes an OpenCL device."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The clients of docs/examples against one server: what the C++ one prints is what the Python one reads, in both
 encodings, at the same poses and between them. Assumes an OpenCL device."""
 import os

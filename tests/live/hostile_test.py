@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Clients as they should not be: each is refused or dropped as docs/live.md says, and the server goes on.
 Assumes an OpenCL device."""
 import json

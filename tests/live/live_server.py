@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Starts `wavetracer serve` for a test, and talks to it line by line.
 Assumes the program as the first argument of the test and the source folder as the second."""
 import json

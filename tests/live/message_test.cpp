@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages of clients without a socket: which are accepted, and which are refused with which code.
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page of a live world: there before the first frame, of the newest frame, loaded again by the browser, and gone
 from nothing when it cannot be written. Assumes an OpenCL device; the browser's part needs Chromium."""
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Live worlds without a socket: the same channels as a drive of the same poses, places, speeds, and refused messages.
 // The oracle of channels is run_frame() on tracks; that of Doppler shifts the closed form of a line of sight.
 #include <doctest/doctest.h>

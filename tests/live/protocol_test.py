@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The protocol over real sockets: the channels of `wavetracer run` at the same poses, both kinds of sockets, two clients
 at once, step by step and free-running, a server that starts again.
 Assumes an OpenCL device; results are compared between two runs of the program on that device."""

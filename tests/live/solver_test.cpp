@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An error while a frame is solved costs its client, that frame, or the server. Nothing is solved here.
 #include "live/solver.hpp"
 

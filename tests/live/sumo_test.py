@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """docs/examples/sumo_live.py follows a real SUMO: poses against SUMO's own FCD of the same run, lines of sight against
 Friis' equation. Answers 77, "skipped", where there is no SUMO. Assumes an OpenCL device."""
 import json

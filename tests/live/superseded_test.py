@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tests the effect of a message on those that wait: newer frames of a free-running client, times between frames, errors
 among them, bye and a closed direction. Every message is answered or counted. Assumes an OpenCL device; how many frames
 are skipped depends on it, and no test on how many."""

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CSV: columns in any order, optional columns, line ends and quotes, and the errors with file and line.
 // Yaw is mathematical here and the position is the centre, unlike in FCD.
 #include <cmath>

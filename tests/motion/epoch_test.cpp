@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times as seconds since 1970, which doubles keep to 0.24 us: every reader gives the frames that it gives for times
 // from zero, and a frame at the time of a sample shows that sample.
 #include <cmath>

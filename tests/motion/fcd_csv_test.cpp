@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUMO's FCD as CSV gives what the same FCD gives as XML. The texts are in the forms of xml2csv.py and of SUMO itself.
 #include "motion_files.hpp"
 

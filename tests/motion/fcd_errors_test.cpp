@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUMO FCD that is broken: every fault is an InputError with file, line and advice.
 // Line numbers are counted by hand: fcd() of motion_files.hpp puts the first timestep into line 3.
 #include "motion_files.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUMO FCD: its conventions by hand-computed numbers, what it may leave out, gzip by content, and bounded memory.
 // Files are written here as SUMO writes them.
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock of frames: counts and times despite rounding, and who is present in which order.
 // Times of files are decimal, so k * step rarely hits them to the last bit.
 #include "motion/frame_clock.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small trajectory files for the tests of motion/: gzip, and FCD around samples.
 // Assumes a writable folder for temporary files.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traces of OSI: those that ASAM's own bindings wrote (files/make_osi.py), and messages of our own that are wrong. The
 // closed form of that drive is a circle of 20 m at 10 m/s, nose down by 0.1 rad.
 #include "motion/osi.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of parked vehicles: columns in any order, optional columns, and errors with file and line.
 #include "motion/parked.hpp"
 #include "folders.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses between samples: the samples' own at their times, continuous, and with rates that are their derivatives.
 // Derivatives are checked by central differences, orientations by turning vectors.
 #include "motion/pose.hpp"

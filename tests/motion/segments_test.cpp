@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Appearing, vanishing, gaps and jumps: where a vehicle is absent, and the messages about it.
 // The bounds are those of read.hpp: 1.5 steps; 1.5 v t + 5 m + 5 m/s^2 t^2.
 #include "motion/pose.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated traffic: no two vehicles touch, all keep to the right, motion is smooth, the same everywhere; FCD and back.
 // Overlap is tested by separating axes of the vehicles' rectangles, streets by their formula in traffic_streets.hpp.
 #include "motion/traffic.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of vehicle types to sizes.
 // Sizes are those of SUMO's documentation.
 #include "motion/vehicle_types.hpp"

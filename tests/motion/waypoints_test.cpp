@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Waypoints: tracks of positions alone, with stops, corners and climbs.
 // Positions are in scene coordinates; nothing is cut however far apart waypoints are.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of summary.json about a ray cache: sums over frames, whether they were written at once, in shards or
 // resumed. The counts of a frame are invented: frame n has (k + 1) n of the k-th.
 #include <doctest/doctest.h>

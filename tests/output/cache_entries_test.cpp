@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_entries.h5 as a reader finds it: every column of every frame in order, and no rows at all.
 #include <doctest/doctest.h>
 #include <cmath>

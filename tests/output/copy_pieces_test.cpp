@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bytes of many files are copied into one and compared with the same done in memory; impossible copies are refused.
 #include "output/copy_pieces.hpp"
 #include <doctest/doctest.h>

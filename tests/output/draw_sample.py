@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Draws the street canyon of tests/reference with the paths of its reference lists, and counts what was drawn.
 Run as draw_sample.py SOURCE_FOLDER OUTPUT_FOLDER; answers 77, "skipped", where numpy or h5py are not installed."""
 import json

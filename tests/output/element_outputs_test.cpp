@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // responses.h5, beams.h5 and carriers.h5 as a reader finds them, and the best beams in links.csv.
 #include <doctest/doctest.h>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // If outputs cannot be written, the error names the file and nothing partial is left behind.
 // The file size limit of the process simulates a full disk: it fails writes in the same places.
 #include <doctest/doctest.h>

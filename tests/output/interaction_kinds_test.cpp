@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of interactions against what is written by hand beside it: the documents and the drawing program. The page
 // of the viewer has no names of its own.
 #include <doctest/doctest.h>

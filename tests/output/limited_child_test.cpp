@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A child that answers, fails, crashes, takes too much memory or time: each gives an answer or an error of its class,
 // and the parent process continues.
 #include "output/limited_child.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of several links.csv in one, and the proof that they are there.
 #include "output/links_csv.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of summary.json about missed paths: it is the same whether frames were written at once, in shards or in
 // blocks. Counts of a frame are invented.
 #include <doctest/doctest.h>

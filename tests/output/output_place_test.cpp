@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outputs with the name of a link, a pipe, a device, a socket or a disk: the existing object is kept.
 // Devices are nodes of the test's own, never those of /dev; if no node can be made, that part is skipped.
 #include "base/output_place.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A reader finds the data that write_outputs() has written: paths.h5 through the C library, links.csv and summary.json.
 // Leaves its sample under tests/output/sample of the build folder, for the tests that read it from Python.
 #include "wavetracer/output.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chunks that were compressed before the file was begun, compared with the file that is written without them.
 #include "output/packed_ahead.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compressed tables against the same tables uncompressed, as the library reads both; and what a proof does not let
 // pass.
 #include "output/packed_rows.hpp"

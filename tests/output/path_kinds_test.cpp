@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths by their most special interaction: every mixture, and sums over the shards of a drive.
 #include "output/path_kinds.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits of output leave paths out, and these are counted wherever they may be missed.
 // The sample's paths are so few that the remaining ones are known by hand.
 #include "output/path_limits.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads the sample of the output tests with h5py, as a user would; expects the formulas of sample_run.cpp.
 Run as read_paths.py FOLDER; answers 77, "skipped", where h5py is not installed."""
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads HDF5 files with plain calls of the C library, so that a fault of the project's own wrapper cannot hide itself.
 // Assumes that what is asked for is there.
 #pragma once

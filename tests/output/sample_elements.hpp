@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Invented values between elements in frames of the sample run: simple functions of frame, link and row.
 #pragma once
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds the sample run: path i has depth i, delay 1e-7 (i + 1) s and so on, see path_row().
 // Transmitters have one port, receivers two.
 #include "output/sample_run.hpp"

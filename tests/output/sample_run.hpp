@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small made-up run for the output tests: two frames, two ends a side, two vehicles, five paths, mixed ports.
 // Its values are simple functions of the row, which read_paths.py computes again.
 #pragma once

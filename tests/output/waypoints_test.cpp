@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // waypoints.h5 as a reader finds it: every column of every frame in order, frames without waypoints, no frame at all.
 #include <doctest/doctest.h>
 #include "output/reader.hpp"

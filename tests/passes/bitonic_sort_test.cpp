@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bitonic_sort against std::stable_sort: both forms, every payload, lengths around powers of two and blocks. Blocks are
 // small, so that a few hundred keys already need every launch.
 #include "passes/bitonic_sort.hpp"

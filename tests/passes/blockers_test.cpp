@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blockers: a surface that hid a path before is tested first, and the same paths are visible as without it, for all
 // motions of the ends and all contents of the table.
 #include "passes/blockers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bounces: the same sequences, quarters, ages, ends and counts as the loop of trace, scan and interact, in a moving
 // world, for any number of interactions; and an overflow that is reported.
 #include "passes/bounces.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chained table: many work-items at once; then the host checks the memory.
 // It is small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <doctest/doctest.h>

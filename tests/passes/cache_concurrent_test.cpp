@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The concurrent table: every operation together with every other, one entry per key, holes, full regions, whole keys.
 // Small enough for Oclgrind; the same with many more operations is in large_cache_test.cpp.
 #include <set>

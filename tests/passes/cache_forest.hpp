@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chained table, and its trees in memory as the host reads them: number of nodes, their order, their buckets. The
 // surface of a ray follows from the primitive that it left, see surface_of.
 #pragma once

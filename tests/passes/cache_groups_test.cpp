@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Groups of rays of one key, compared with groups that the host finds by comparing every two rays.
 // The division must be small, so that random rays share keys.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Key, hashes and mapping of the ray cache (include/wavetracer/device/cache.h) against 128-bit arithmetic and loops
 // over bits, and the thesis' own versions (thesis_cache.hpp).
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cache_lookup and cache_store on every kind of table: rays of a room against a model on the host, keys, and hits. If
 // rays meet under a lock of the open table, one of them is refused. The device decides which one, and so which key is
 // kept, but every wanted slot must get one of them.

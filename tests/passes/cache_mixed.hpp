@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mixed operations on a table of the ray cache, all at once, and the content of the table afterwards, compared with a
 // model that runs in sequence: for tests and bench_cache. For every order of the operations, each count of
 // MixedFaults is 0.

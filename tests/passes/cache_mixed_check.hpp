@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs mixed operations as a test, see cache_mixed.hpp.
 // It uses the context of on_device.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The open-addressed table under locks: mixed operations, wear, purging by position and by precision, and the two
 // faults of the thesis' listing C.3, which runs as printed for comparison. It is small enough for Oclgrind.
 #include "passes/cache_mixed_check.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis' tables on the device (cache.kind = "thesis", "thesis-chained") against its listings on the host, one
 // operation at a time: they give the same answers, refusals and errors. Then come the faults that distinguish them from
 // ours.

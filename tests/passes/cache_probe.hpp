@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table of the ray cache with the kernels of probe_cache.cl, for tests and bench_cache.
 // Keys are numbers; the value stored under a key follows from it, so that kernels can check it themselves.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The entries that may answer, and those that are removed, on every kind of table: position, precision, receivers and
 // instances that move, and cache_purge by age. Hits are given, not traced.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes and limits of the ray cache's tables.
 // Assumes a device that holds a table of a thousand entries.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The thesis' chained table (thesis_cache.hpp) and ours in the situations that it gets wrong.
 // Faults of the listing are shown where they are certain to happen.
 #include <doctest/doctest.h>

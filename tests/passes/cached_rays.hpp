@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ray cache on the device for tests: labelled rays as plain records, put into it and looked up by its own passes.
 // Stored hits are given, not traced: any hit for any ray.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // candidates: the rejection by boxes never rejects a pair that the image method in double accepts, and rejects most
 // others. Every sequence of random planes against every receiver; grazing legs, and images that are kilometres away.
 #include "passes/candidates.hpp"

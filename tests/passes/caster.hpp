@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slow oracle of trace: every triangle against every ray, in double, with no acceleration of any kind.
 // It checks answers instead of computing them: float32 rounding decides which of two triangles an edge belongs to.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An independent implementation of the string over the roofs: the profile over a line by all edges, its hull by
 // sorting, and the shortest way over edges by bisection at one place after the other.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compact: counts of blocks and lists of indices against a loop over the words, in both forms.
 // Words lie inside a larger buffer, and some are floats that compare equal to nothing (NaN) but are not WT_NONE.
 #include "passes/compact.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counters: lengths that are read, lengths that are foreseen, and the test whether a frame was as foreseen.
 #include "passes/counters.hpp"
 

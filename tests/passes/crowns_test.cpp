@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // crowns: its rows against a double loop over links and cells; cells: that they fill their volumes, inside of them.
 #include "passes/crowns.hpp"
 

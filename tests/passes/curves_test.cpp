@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // curves: bijections with unit steps at small orders, slow references at full width, the device against the host.
 // References: bit loops (Morton), the grammar of the curve (Hilbert 2D), the motions of its octants (Hilbert 3D).
 #include "kernels/curves.hpp"

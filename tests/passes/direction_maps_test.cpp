@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The direction maps of wavetracer/device/direction_maps.h: inverse, equal-area, complete, and the same on the device.
 // Round trips use directions at the edges of the maps: poles, axes, signed zeros, denormals, NaN.
 #include "wavetracer/device/direction_maps.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps from launch index to direction: equal solid angles, unit length, and neighbours in index that are neighbours on
 // the sphere. The results of devices are tested with generate_rays.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // distinct: which solutions are paths, their order, the paths that reversal adds; checked by plain quadratic code.
 #include "passes/distinct.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes sets of sequences on the device without tracing, and runs the exact half of a frame (candidates, solve,
 // occlusion). Sequences enter through the interact pass, as rays do: with hit lists that a test writes itself.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // generate_rays: launch index to direction is one pure function, the same on the device as on the host.
 #include "passes/generate_rays.hpp"
 

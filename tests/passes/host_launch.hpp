@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rays of a launch computed on the host, for comparison with devices, which use the same header.
 #pragma once
 #include <cstdint>

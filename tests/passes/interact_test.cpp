@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // interact: which rays continue, their order, nodes, origins and directions.
 // Reflections are compared with the mirror law in double.
 #include "passes/interact.hpp"

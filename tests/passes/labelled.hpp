@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes labelled ray queues and invented hits for the tests of passes that follow rays.
 // A label is what label_rays and interact write: sample and transmitter.
 #pragma once

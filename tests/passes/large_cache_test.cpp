@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Millions of operations at once on every table of the ray cache, each answer checked where it is given.
 // GPUs do 10^8 per table; CPUs do WAVETRACER_CACHE_OPERATIONS, or as many as a few seconds allow. The small cases are
 // in cache_open_test.cpp, cache_concurrent_test.cpp and cache_chained_test.cpp.

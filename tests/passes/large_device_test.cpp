@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cases with too many work-items for Oclgrind: a million rays at edges and vertices, a million bounces, long lists. The
 // small cases are in the files named after the passes.
 #include <doctest/doctest.h>

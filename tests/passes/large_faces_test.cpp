@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Legs that pass the edge of a face of 3 km by a hundredth of a millimetre: they are free on the very side of it on
 // which double has them, though float32 rounds the coordinates there to 0.1 mm.
 #include <doctest/doctest.h>

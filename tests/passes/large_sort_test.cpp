@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radix_sort with more keys than Oclgrind can handle: millions of keys, which fill every chunk and more than a cache.
 // The first case has more tiles than chunks, so that chunks hold several. The small cases are in radix_sort_test.cpp.
 #include "passes/sort_cases.hpp"

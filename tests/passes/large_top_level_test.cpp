@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // top_level with more instances than Oclgrind can handle: those of a city.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of heights against the closed forms of the densities that they stand for.
 #include "passes/launch_heights.hpp"
 

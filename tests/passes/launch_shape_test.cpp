@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Launches of one, two and three dimensions: every ray is taken exactly once, and hits are the same for every shape.
 // Groups of a curve's launch contain consecutive rays, which is the purpose of the thesis' mapped buffers.
 #include "passes/launch_shape.hpp"

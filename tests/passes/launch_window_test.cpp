@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Windows of generate_rays: rays of antennas far away use only a part of the sphere, as evenly as without it, and start
 // on a sphere around the antenna; the same on the device as on the host.
 #include <doctest/doctest.h>

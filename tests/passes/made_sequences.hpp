@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Invented sequences for the tests of their set: their lengths, numbers of ends, and surfaces to meet.
 #pragma once
 #include <algorithm>

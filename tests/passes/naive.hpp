@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tracer of a first attempt, on the host: each numerical case of the tests must make it fail. It has float32
 // Moeller-Trumbore with the usual epsilon, slabs by one fma, plain 1 / d, a short stack, and no tie rule.
 #pragma once

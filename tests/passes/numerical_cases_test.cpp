@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numerical cases of ray traversal, each on rays that make the naive tracer of naive.hpp fail.
 // Leaks at edges and vertices are in watertight_test.cpp.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // occlusion: a surface blocks a leg that crosses it, if the ends lie on opposite sides of its plane and are not on it.
 // Walls 1 mm apart, ends on walls, coplanar patches along a grazing leg; touching_test.cpp has the cases of touching
 // surfaces.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of the passes: one device context per program, rays and hits as plain records, and queues of
 // them. Each program runs its tests on one thread, on the default device (Oclgrind's, if it runs under it).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // order_keys and gather_rays: the corrected histogram of the thesis (algorithm 1), against its lists; keys of queues
 // and of launches agree; rays are moved, never changed. Each fault of the original has a test.
 #include "passes/order_keys.hpp"

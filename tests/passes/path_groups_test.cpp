@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // path_groups: waves of random paths over edges, on the device as on the host; and what is known at shadow boundaries.
 #include "passes/path_groups.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // place: instances against the same triangles baked into one scene, for every shape of traversal and for the exact half
 // of a frame; absent instances; the antenna's own vehicle.
 #include "passes/place.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radix_sort: all forms on the test's device against std::stable_sort, for counts around tiles and chunks, kinds of
 // keys, ranges of bits, and wrong arguments. The largest counts make several chunks of every form.
 #include "passes/radix_sort.hpp"

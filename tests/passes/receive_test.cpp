@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // receive: every pair of a segment and a receiver against the distance of a point from a segment in double.
 // Links that nobody wants, lists that must grow, rays that a cache has answered, the receiver that comes first.
 #include "passes/receive.hpp"

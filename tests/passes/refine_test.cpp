@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // refine: ends counted, rare samples marked and cells split, against plain code; and cells that four finer ones tile.
 // Ends are invented; no ray is traced.
 #include "passes/refine.hpp"

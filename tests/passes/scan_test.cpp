@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scan: exclusive prefix sums against the standard library's, for counts around the sizes of tiles and chunks.
 // Forms with few work-items and few chunks take both launches at a few hundred counts, on any device.
 #include "passes/scan.hpp"

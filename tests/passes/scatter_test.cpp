@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scatter: its rows against a double loop over transmitters, surfaces that they saw, tiles and receivers, written
 // separately here; masked links, instances, ends on vehicles, more than one group of receivers.
 #include "passes/scatter.hpp"

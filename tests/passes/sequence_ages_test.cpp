@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sequences from frame to frame: ages, forgotten and kept sequences, against a std::map of sequences to frames.
 // Sequences are invented; no ray is traced.
 #include <doctest/doctest.h>

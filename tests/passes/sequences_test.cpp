@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sequences: the trie is a set for every size of its table: compared with std::set, small and full tables, exchanges.
 // Sequences are invented; no ray is traced.
 #include "passes/sequences.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solve: points of all candidates against the image method on parallelograms, and with occlusion against brute force.
 // Positions are generic; tests/simulation tests borders.
 #include "passes/solve.hpp"

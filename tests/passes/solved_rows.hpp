@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solved paths that a test writes itself, and the surfaces that their legs pass, by brute force: double, every
 // triangle. Row i goes from transmitter i to receiver i.
 #pragma once

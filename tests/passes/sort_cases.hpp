@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of the radix sort: its forms, keys of a kind, and a check against std::stable_sort. Words after
 // the keys, the values and the temporary memory must not change.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray cache as the thesis prints it (A. Zhdanov, TU Munich, 2014, listings C.1 to C.3), for tests of its faults. It
 // is transcribed without changes, with 32-bit int and 64-bit long; sums and products wrap as they did on the GPU.
 #pragma once

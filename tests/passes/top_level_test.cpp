@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // top_level: the tree that the device builds over instances; plain code checks its content, and hits of rays compare it
 // with the host's tree.
 #include "passes/top_level.hpp"

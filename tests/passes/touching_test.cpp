@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Legs near touching surfaces: walls that stand on a mirror, houses side by side, edges that are only touched. They run
 // in any direction and far from the origin, with occlusion and with transmissions.
 #include <doctest/doctest.h>

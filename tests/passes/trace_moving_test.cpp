@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace_moving after a trace of the static scene gives the hits of one trace of everything; label_rays and interact
 // keep the planes that say where a ray comes from.
 #include "passes/trace_moving.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace: every shape of traversal against a brute-force caster in double, and bit for bit against each other.
 // Random soups and closed rooms; the hits of the blocks that compaction relies on.
 #include "passes/trace.hpp"

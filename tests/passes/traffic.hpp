@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moving worlds for the tests of place and top_level: instances of models of loose triangles, and rays among them.
 // Assumes coordinates of at most 60 m.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // transmissions: the rows of paths whose legs pass through walls, against brute force over all triangles in double.
 // Walls 1 mm apart, walls in one place, borders, vehicles, limits.
 #include "passes/transmissions.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of loose triangles and closed rooms for the tests of the passes, and rays aimed at their edges and vertices.
 // Each triangle is a surface of its own, so that none is skipped as coplanar (but in scene_by_loader).
 #pragma once

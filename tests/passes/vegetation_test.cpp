@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // vegetation: lengths of random paths in random volumes, by the tree, against all volumes one by one in double.
 #include "passes/vegetation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visible: the rows that occlusion left, row for row, in any order; a list that must grow; an empty list.
 #include "passes/visible.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaks: rays inside closed rooms of 3,072 triangles, aimed at edges and vertices, also in UTM coordinates.
 // A closed room has no way out, so every miss is a leak. A million rays are in large_device_test.cpp.
 #include <doctest/doctest.h>

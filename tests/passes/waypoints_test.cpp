@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // waypoints: rays in a room with a hole, followed through four reflections, against mirrored rays in double.
 // Queues shrink and close up on the way, and samples do not count from 0: rows must be those of the right sample.
 #include "passes/waypoints.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of the wedge passes: quads with wedges on the device, ends, and wedges read back. Sequences are
 // listed, not traced; numbers of surfaces are those of the quads.
 #pragma once

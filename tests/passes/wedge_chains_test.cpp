@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_chains: screens in a row against closed forms, and crowds of edges against a profile of all of them, its hull
 // by sorting, and bisection place by place, whose lengths are minimal.
 #include "passes/wedge_chains.hpp"

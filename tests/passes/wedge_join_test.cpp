@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_join: of all pairs of prefixes that see one wedge, or two, none that solves exactly is rejected, and none is
 // listed whose link is not computed, or that is too long or a repetition. The exact solve is the reference's bisection
 // and image method.

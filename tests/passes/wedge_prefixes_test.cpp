@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_prefixes: every (prefix, wedge) that a loop over all sequences, their next surfaces and the wedges of those
 // finds, each once; images and their places about the edge in double on the host.
 #include "passes/wedge_prefixes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_sight: no point of a piece that is called hidden can be seen, neither past the last mirror nor past other
 // surfaces, by legs against every triangle in double; and most hidden pieces are recognised.
 #include "passes/wedge_sight.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedge_solve: points on one edge and on two against closed forms and the reference's bisection, whose lengths are
 // minimal; edges' ends, reflections, and cases without a path.
 #include "passes/wedge_solve.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // wedges: where instances have them, their numbers, and which surfaces they bound.
 // Poses are random rotations; expected places are computed with quaternions.
 #include "passes/wedges.hpp"

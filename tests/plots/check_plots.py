@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs `wavetracer run` and `wavetracer plot` as a user does, and compares what comes out with paths.h5.
 
     check_plots.py PROGRAM FOLDER

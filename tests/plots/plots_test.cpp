@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contents of plots are compared with the run that was written: invented runs without a device, whose numbers are
 // known. Pictures need gnuplot; without it the tests of files say so and check the rest.
 #include "plots/plots.hpp"

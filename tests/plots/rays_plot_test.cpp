@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sampled rays from above: segments and centroids of rows that can be counted by hand, and the figure of a run.
 #include "plots/rays_plot.hpp"
 #include <doctest/doctest.h>

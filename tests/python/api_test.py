@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The Python package on a device: columns against closed forms and against what h5py reads, links, saved runs, pages,
 errors, Ctrl-C, lifetimes.
 

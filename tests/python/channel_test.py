@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Channels of made-up paths: cir, cfr and taps against loops over the formulas of docs/python.md, and against closed
 forms. No device is used.
 

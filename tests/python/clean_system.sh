@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the wheel with its extra `pocl` in a separate minimal Debian 12, which has python3 and python3-venv and
 # neither a compiler nor OpenCL, and uses it there as a user without root would.
 # Usage, as root: clean_system.sh WHEEL FOLDER MIRROR. debootstrap makes FOLDER if it is missing, and it is kept; MIRROR

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests the OpenCL drivers that the package offers, on made-up systems, with made-up packages of PyPI: nothing is
 loaded.
 

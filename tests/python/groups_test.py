@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Groups of paths: figures of chosen paths add the fields of one wave before powers, as the library does; groups are
 kept by pickles and saved runs. Usage: groups_test.py FOLDER; exits with 77 without numpy or h5py."""
 import pickle

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measurement campaigns: statistics against scipy, files of the published forms against free space, and broken rows.
 
 Usage: measurements_test.py FOLDER, which is made anew. Exits with 77 without numpy or scipy.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests uses that the Python package refuses with a message: copies, pickles, forked processes, arguments of wrong
 types; and threads, which take turns.
 

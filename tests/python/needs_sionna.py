@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Import this before sionna.rt: finds an LLVM for it, and ends the script with 77, "skipped", where either is missing."""
 import glob
 import os

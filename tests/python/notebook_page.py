@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page of a run as the notebook shows it: a browser opens the cell, and the city is drawn inside of it.
 
 Usage: notebook_page.py FOLDER, where notebook_test.py has left view.html. Exits with 77 without a browser.

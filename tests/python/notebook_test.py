@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Executes docs/examples/channels.ipynb with the installed wheel, and looks at its pictures.
 
 Usage, with the Python of the environment: notebook_test.py NOTEBOOK FOLDER. FOLDER/view.html is the cell that shows the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """wavetracer.from_sionna: scenes of Sionna RT, solved by both, give the same channels in the same arrays.
 
 Usage: sionna_test.py. Exits with 77, "skipped", where sionna-rt, its LLVM or h5py is missing.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of pandas and xarray against the columns that they are made of. Usage, with the Python of the environment:
 tables_test.py FOLDER, where api_test.py has left a run."""
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the wheel of a build, looks at what it carries, and installs it in an environment that has no other wavetracer.
 
 Usage: wheel_test.py SOURCE BUILD ENVIRONMENT FOLDER. Exits with 77 where the environment is not there (no PyPI).

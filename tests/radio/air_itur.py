@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rain, gases and fog of paths against itur (PyPI), whose P.838-3, P.676-12 and P.840-8 it uses.
 
 Usage: air_itur.py PROGRAM OUTPUT. Answers 77, "skipped", without itur or h5py. The tables and equations of P.676-12,

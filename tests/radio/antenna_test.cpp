@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas against closed forms: gains, nulls, mean gain over the sphere, polarisation and orientation.
 // Directions are global unit vectors away from the antenna.
 #include "radio/antenna.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world of one transmitter and one receiver that have arrays.
 #pragma once
 #include <complex>

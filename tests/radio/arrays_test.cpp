@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements of arrays against closed forms: distances between elements and their images, shortest ways over edges found
 // by search, and phases of waves that pass elements as planes.
 #include "wavetracer/arrays.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beams: DFT codebooks by their directions, codebook files by their content.
 #include "radio/beams.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometrical field of a point source near a wedge by explicit images, and the total with its diffracted wave.
 // Assumes a wedge along z, face 0 on the half plane y = 0, x > 0; vectors of fields, nothing edge-fixed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transition function of two edges against its double integral, by Simpson's rule on turned axes.
 #include "wavetracer/device/double_transition.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of screens whose tops lie in one line with both ends, a little under it: of equal legs, N of them leave 1 / (N +
 // 1) of the free-space field (L. Vogler, Radio Science 17(6), 1982).
 #include "radio/fields.hpp"

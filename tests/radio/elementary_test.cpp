@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our own elementary functions against the host's library in extended precision, whose 64 bits tell an error of a
 // double's last place to a thousandth; complex ones against their definitions.
 #include "wavetracer/device/elementary.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients, delays and angles against Friis, the two-ray ground and transmission through a wall; instances against
 // the same surfaces standing still. Isotropic antennas and 5.9 GHz unless a test says otherwise.
 #include "radio/fields.hpp"

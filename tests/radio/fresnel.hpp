@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Fresnel integral by quadrature, independent of the transition function of the program.
 // Assumes arguments of at most some hundreds: the step is fixed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of groups: by a map of each link, in the order of its paths.
 #include "radio/group_numbers.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths over two edges, compared with the sums of Kouyoumjian and Pathak's coefficients that they represent.
 // The cases are a strip of two free edges, and a ridge of two wedges with a flat top, both of a perfect conductor.
 #include "radio/fields.hpp"

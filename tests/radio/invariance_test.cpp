@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes that must not change a result: swapping the ends, turning the world, the order of discovery, the number of
 // threads. The world: four walls of different materials and directions, two polarised ends, paths up to order 3.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes of vegetation for tests, and the length of a leg inside of all of them.
 #pragma once
 #include <cmath>

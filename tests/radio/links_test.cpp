@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Link figures against figures worked by hand.
 // Rows are written down without any tracing.
 #include "radio/links.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Air and vegetation: coefficients against tables of the recommendations, chords against closed forms and against
 // points that are inside or not, and the loss of a path against A = g d. tests/radio/air_itur.py compares air with
 // itur.

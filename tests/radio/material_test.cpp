@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Permittivities against ITU-R P.2040-3, Table 3, worked by hand, and the range that a material is known in.
 // sigma / (2 pi f eps0) is written as 17.9751 sigma / f_GHz (P.2040-3, eq. 12): five digits.
 #include "radio/material.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates of missed paths, compared with launches whose truth is known: drawn at random, over sequences of many
 // sizes.
 #include "wavetracer/missed.hpp"

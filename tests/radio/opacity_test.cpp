@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds which surfaces let nothing through, and their numbers in a world.
 #include "radio/opacity.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests against the reference path lists.
 #pragma once
 #include <glm/vec3.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coefficients against the reference path lists: their sequences of surfaces, solved here and compared as matrices. The
 // lists come from a float32 program: its points have errors of millimetres, which turns a leg of a few centimetres by
 // degrees, and it evaluates fields at those directions. So fields are compared at its own points as well as at ours.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vegetation that overlaps: lengths of legs and cells, against points that are inside or not.
 #include <doctest/doctest.h>
 

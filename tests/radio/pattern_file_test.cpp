@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pattern files: the values of a valid one between its grid points, and the messages about invalid ones.
 // Files are written into the build folder.
 #include <doctest/doctest.h>

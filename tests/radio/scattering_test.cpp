@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffuse scattering against quadrature over the hemisphere and over a plate, and against its own reverse.
 // Simpson's rule in the cosine of the polar angle, equal steps in azimuth: both converge fast for smooth lobes.
 #include "radio/scattering.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slab coefficients against Fresnel's formulas, P.2040's own form, conservation of energy and limits.
 // Printed values were computed in double from the formula named beside them, to the digits shown.
 #include "radio/slab.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The travelling field compared with reflections computed by hand.
 // The mirror of a perfect conductor reverses the tangential field and keeps the normal one.
 #include "radio/transfer.hpp"

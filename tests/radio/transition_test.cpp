@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transition function against values of 60 digits and an independent quadrature.
 // Values: mpmath 1.3, s = sqrt(x), F = s sqrt(pi) expj(pi/4) exp(u u) erfc(u), u = expj(pi/4) s; from 1e8 on the series
 // F = sum over k of (2k-1)!! (j / 2x)^k.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Corners (exterior angles below pi) and slight bends of conductors against the exact solution: series of Bessel
 // functions (J. Bowman, T. Senior, P. Uslenghi, Electromagnetic and Acoustic Scattering by Simple Shapes, 1969, 6.2).
 #include <doctest/doctest.h>

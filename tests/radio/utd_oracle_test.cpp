@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffraction against the reference path lists: paths of a single diffraction at an edge of two faces.
 // The lists have points of float32 and no phase of the delay, so gains are compared, at the exact point on the edge.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules of wedge diffraction: reciprocity, limits, finite values, hints, faces that let waves pass. The geometry is
 // random, from fixed seeds.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wedge diffraction against closed forms (Sommerfeld's half plane, the knife edge, the conducting wedge), and the total
 // field, which must be continuous, against explicit images.
 #include "radio/utd.hpp"

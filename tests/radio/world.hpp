@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small worlds for the tests of host/radio: planes, ends, and paths between them by the image method.
 // Planes are endless and nothing is hidden: a test lists the sequences that it wants.
 #pragma once

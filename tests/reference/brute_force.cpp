@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image method over all sequences (as in McKown and Hamilton, "Ray tracing as a design tool for radio networks",
 // IEEE Network 5(6), 1991); wedges are met halfway, by sequences of both ends. Assumes what brute_force.hpp says.
 #include "reference/brute_force.hpp"

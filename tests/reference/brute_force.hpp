@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slow, obvious oracle: every sequence of surfaces and wedges is tried, every leg is tested against every triangle,
 // in double. It shares no code with the ray tracer, and is meant for scenes of up to about 60 surfaces and 3
 // interactions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The brute-force oracle against closed forms: free space, ground, corridor, box, and the rules of blocking.
 // Expected lengths come from image positions written out here, not from the oracle's own mirrors.
 #include "reference/brute_force.hpp"

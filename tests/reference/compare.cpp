@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads reference lists with nlohmann/json and matches paths against them.
 // Quadratic within one link, which is small: the largest lists have some hundred paths per link.
 #include "reference/compare.hpp"

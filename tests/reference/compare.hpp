@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares paths with a reference list of tests/reference/oracle (its README.md says where they come from).
 // Two paths match when ends and interactions agree, delays to 2e-6 (relative) or 30 ps, and every vertex to 30 cm:
 // the lists are float32, whose points are up to 19 cm off at grazing angles.

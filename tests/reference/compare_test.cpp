@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The comparison against reference lists, on lists whose outcome is known: the list itself, and the list with faults.
 // Percentages of numpy.percentile are given as numbers computed by hand.
 #include "reference/compare.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffracted paths of the brute-force oracle against closed forms: Keller's cone, images, unfolded edges, counts.
 // Expected points and lengths are written out here; the oracle itself bisects.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two oracles against each other: brute force on the copied scenes finds the paths of the reference lists.
 // For specular lists only the orders that brute force reaches are compared; up to there those lists are complete.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometry of the brute force: every test looks at all triangles.
 // Assumes what planes.hpp says.
 #include "reference/planes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes, triangles and legs in double: the geometry under the brute force, with no acceleration of any kind. Planes
 // must be exact: a surface's normal has unit length and its triangles lie in its plane.
 #pragma once

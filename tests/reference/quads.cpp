@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fills the arrays of a Scene from parallelograms: two triangles and one surface each.
 // Edges are left out, and wedges are those that the test asks for.
 #include "reference/quads.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes made of parallelograms, one surface each, and their wedges, for tests whose answers are closed forms. There is
 // no loader and no welding: the scene has exactly what is written.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transmitted paths of the brute-force oracle: the surfaces that a leg passes, their places, their order, and their
 // largest number.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The length of a path over straight edges is convex in the positions of its points on them, so its derivatives grow,
 // and bisection finds where they vanish. Two edges: the inner minimum is followed while the outer one is sought.
 #include "reference/wedge_points.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds where a path bends at wedges, by bisection on the derivative of its length (Fermat): no closed form is used.
 // Wedges are as wavetracer/scene.hpp defines them.
 #pragma once

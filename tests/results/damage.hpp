@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damages HDF5 files of runs so that they stay well formed except for one thing.
 #pragma once
 #include <filesystem>

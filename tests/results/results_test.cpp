@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SavedRun reads what write_outputs() writes; damaged files are refused with a message, never trusted.
 // Files are damaged through the HDF5 library, so that they are well formed except for one thing.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SavedResponses reads what [response] has written; damaged files are refused with a message, never trusted.
 #include "results/saved_responses.hpp"
 #include <doctest/doctest.h>

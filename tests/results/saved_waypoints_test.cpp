@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SavedWaypoints reads what output.waypoints has written; damaged files are refused with a message, never trusted.
 #include "results/saved_waypoints.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A library to load before the program (LD_PRELOAD): it makes system calls fail from a given one on.
 // Each is off unless its variable is set: FAULT_LAUNCH=N and FAULT_BUFFER=N, the N-th launch of a kernel and all later
 // ones, the N-th device buffer and all later ones, FAULT_CODE what they return; FAULT_DISK=N, the N-th write to a file

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine fails in the middle of a drive: the device is lost, its memory or the host's is used up, the disk is
 // full. Each is an error with a code and advice, and finished work is kept.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes of cells over a height, with rounding and noise, for the tests of flat surfaces.
 #pragma once
 #include <cmath>

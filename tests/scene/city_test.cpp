@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The generated city: the same bytes everywhere, closed buildings, free streets, files that give the mesh in memory.
 // The expected hash was recorded once; it changes only when the generator does.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options of traffic beside those of the city, and vehicles that stay in the streets of the city of the same text.
 // Streets are taken from the formula in city.hpp.
 #include "scene/city_traffic.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Convex faces: a point of a surface's plane is inside of all sides exactly if it is inside of a triangle; a surface
 // that is no convex polygon without holes has no sides.
 #include "scene/convex_faces.hpp"

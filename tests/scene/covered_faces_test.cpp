@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces of several materials in one plane: the smaller one counts, once in every place, for every order of the file.
 // The oracle tests which meshes contain random points.
 #include "scene/covered_faces.hpp"

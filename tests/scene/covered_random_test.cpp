@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random meshes of several materials in one plane, against the smallest mesh that holds a point.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Edges of scenes whose corners are rounded to float32, half a kilometre from the middle: they lie in the planes of
 // their faces, where the reflections end that they make up for.
 #include <doctest/doctest.h>

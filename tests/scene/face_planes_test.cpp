@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes of surfaces that touch: roofs in pieces have one number, on the side where nothing separates them.
 #include "scene/face_planes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flattening leaves shapes that are no planes unchanged: curves, steps, thin plates, bends; and its effect on coarse
 // files.
 #include <doctest/doctest.h>

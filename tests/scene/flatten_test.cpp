@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes whose coordinates were rounded or measured become planes again; steps, curves and thin plates stay. The planes
 // from which meshes were made are the truth: no test uses the fit for it.
 #include "scene/flatten.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 file for tests, put together from its parts: GLB after section 4.4 of the specification.
 #pragma once
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 beyond plain triangles: extensions, modes, accessors of every kind, skins, morph targets, scenes.
 // Files are put together here from their parts; where a mesh must be is computed by hand.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rim of a ground in scenes where the ground is known; scenes are files, like a user's.
 #include "scene/ground_rims.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Short files that need much work or memory: names that repeat, groups of groups, parameters of parameters, copies of
 // copies.
 #include <doctest/doctest.h>

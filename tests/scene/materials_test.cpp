@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Radio materials: the table, and the precedence of alias, configuration, file and table.
 // Values of the table are spot-checked against ITU-R P.2040-3 and P.2040-4, Table 3.
 #include <doctest/doctest.h>

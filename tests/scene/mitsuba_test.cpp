@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mitsuba XML: references, inline and nested bsdfs, parameters, transforms; errors with file, line and element.
 // Each scene is one unit square, so that a transform can be read off its corners.
 #include <doctest/doctest.h>

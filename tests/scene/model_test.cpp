@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ and GLB through assimp, units, axes, and the choice of the reader.
 // The GLB file is put together here from its parts, after section 4.4 of the glTF 2.0 specification.
 #include <doctest/doctest.h>

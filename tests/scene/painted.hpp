@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes that have names of materials, and what lies where in scenes of them.
 #pragma once
 #include <algorithm>

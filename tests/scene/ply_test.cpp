@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY: every dialect gives the same mesh, every kind of damage an error that names file and element.
 // Files are built here byte by byte, independently of the writer.
 #include <doctest/doctest.h>

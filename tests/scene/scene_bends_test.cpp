@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests bends and corners of meshes: whatever is bent diffracts on both sides, however little, except right angles.
 // Each wedge is also checked against all triangles around it.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small scene files for the tests of scene/: meshes as text.
 // Assumes a writable folder for temporary files.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests wedges of meshes whose edges are known by hand; each is also checked against all triangles around it.
 // Scenes consist of separate meshes, welded along their sides or not, so that most edges have faces of several meshes.
 #include "scene/scene_wedges.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the scenes of Sionna RT, where the folder with them exists: counts, and the time that munich takes. The
 // expected counts of munich come from a separate count of its PLY files (exact positions rounded to the weld
 // tolerance).

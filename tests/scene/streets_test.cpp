@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the streets of a generated city with its buildings and its traffic, which are generated without these
 // streets.
 #include "scene/streets.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Edges of screens, of walls of millimetres and of doubled walls.
 // Scenes consist of separate meshes, welded along their sides or not, so that most edges have faces of several meshes.
 #include "scene/scene_wedges.hpp"

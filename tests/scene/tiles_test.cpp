@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests tiles of diffuse scattering: they cover exactly the surfaces that scatter, and none is too long. Right
 // isosceles triangles have counts in closed form: each bisection halves the area and divides the longest side by sqrt
 // 2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Welding, cleaning, surfaces and edges, on meshes whose answers are known by hand.
 // Euler's formula V - E + F = 2 checks closed meshes independently of the edge search.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests materials of vehicles and people: skin against the Cole-Cole model that it was fitted to, names, ranges, and
 // the order in which libraries are searched.
 #include "scene/vehicle_materials.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests vehicle models: they are closed, face outward (by their edges and volume), have the exact size, few planar
 // surfaces and are symmetric. Volumes are compared with areas of the side views, computed by hand.
 #include <doctest/doctest.h>

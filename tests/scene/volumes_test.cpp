@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests volumes of vegetation: meshes that contain faces several times, and volumes that are listed several times. By
 // the divergence theorem, every mesh must enclose the same volume as the plain box.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes for the tests of surfaces and wedges, and a check of wedges by distances to all triangles.
 // The check knows nothing of edges: around a wedge there must be its two faces and nothing else.
 #pragma once

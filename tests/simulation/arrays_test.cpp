@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares arrays with tracing of each element: every element becomes an end of its own, and the paths found there must
 // agree with those computed from the path between the centres, as long as the sequences are the same.
 #include "wavetracer/arrays.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests vehicles that come and go, with every way of launching: each frame has the paths of a plain launch of its own
 // that starts cold. Street and rays are chosen such that every launch finds all paths: vehicles are antennas without
 // bodies, and walls are large.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trace.rays = "auto": as many rays as recall asks for, refined where they still find something.
 #include "simulation/drive.hpp"
 

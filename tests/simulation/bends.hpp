@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of diffraction: small scenes with edges, and paths matched with those of brute force by their
 // interactions and the numbers of their surfaces and wedges. Coordinates are generic: no path runs through a corner.
 #pragma once

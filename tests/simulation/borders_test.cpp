@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that no path is found twice or lost where a reflection point lies on a border: of two patches, two triangles,
 // two walls. Coordinates are numbers that float32 holds, so the points are on the border to the last bit or next to it.
 #include "simulation/run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares BoxTree with a brute force search, for points inside, beside and far from the boxes, and for boxes of no
 // thickness.
 #include "simulation/box_tree.hpp"

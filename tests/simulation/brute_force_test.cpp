@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares whole frames with brute force: the sets of paths must be identical up to order 3 in scenes of up to 60
 // surfaces, in both directions. Rays only discover sequences; they must not miss one or let one through that is no
 // path.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the rows of a ray cache's entries: against the counts of the frame, which other code keeps, and on trees whose
 // shape is known. The scene is a street with a car.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests coherence inside a frame: with exact keys paths are byte for byte those without a cache, also where every ray
 // is launched twice; with quantised keys exactly as many segments are traced as there are keys. The scene is a street
 // with cars.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests ray caches in a frame: with exact keys paths are byte for byte those without a cache, whatever other options
 // are chosen; with quantised keys some paths are lost, and more the coarser the key. The scene is a street with cars,
 // some of which transmit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that a run with several carriers equals a run for each carrier: geometry is computed once, and fields are the
 // same.
 #include "simulation/run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests paths over three and more edges in whole frames: over screens and vehicles, in both directions, in blocks and
 // in drives.
 #include <cstdlib>

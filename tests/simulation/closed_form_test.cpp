@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares whole frames with closed forms: the image lattice of a box, parallel walls, the two-ray ground.
 // Meshes are exact, so lengths must be exact as well: to 1e-9 of themselves.
 #include <algorithm>

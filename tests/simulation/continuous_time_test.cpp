@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests trace.discover_every_s: compares frames every millisecond, some of which launch no rays, with frames that all
 // launch them.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests a road drawn on the ground, both in one plane: the paths are the same whichever of the two comes first in the
 // file, and they are those of the road alone.
 #include "simulation/run.hpp"

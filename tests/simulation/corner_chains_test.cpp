@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths around corners of houses in plan, over three and more edges, against all ways past the corners of the plan; and
 // around a tower and over a wall behind it, against bisection.
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests scattering off vegetation: one crown in free space against an integral over its volume that is written here,
 // against the closed form of a thin crown, and against the power that it absorbs; each path against the law; other
 // crowns and walls in the way; both directions; and that nothing scatters where it is switched off.

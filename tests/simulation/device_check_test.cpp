@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that the checks of a device pass where its kernels are right, in every known frame; stored results are used
 // only for the same driver and kernels.
 #include "simulation/device_check.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that a device whose kernels are broken is refused and that the check of the broken kernel fails; a device that
 // has passed is not checked again until its driver, kernels or features change.
 #include "simulation/device_proof.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests Doppler shifts of diffracted paths: against central differences of exact lengths, which the reference's
 // bisection finds on edges that a vehicle moves, and against the delays of the same paths a little earlier and later.
 #include "reference/wedge_points.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the ends that launch, and moving objects: listeners, ends in both roles and masked links; edges of vehicles as
 // instances and as static meshes; drives that reuse sequences; and launches, orders, batches and caches, which must not
 // change paths.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares diffracted paths of whole frames with brute force: sets, numbers and places of all sequences of reflections
 // with one diffraction or two must be identical, with and without transmission.
 #include "simulation/bends.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests when frames launch rays, depending on times and on which ends are present.
 #include "simulation/discovery_clock.hpp"
 

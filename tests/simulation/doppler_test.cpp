@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares Doppler shifts with central differences of exact lengths, and with closed forms: moving ends through whole
 // runs, moving reflectors through FieldModel. Two runs with displaced ends see the same surfaces, so paths are matched
 // by them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of moving worlds: vehicles on straight ways, a street for them, the same vehicles baked into a
 // scene file, and paths of two frames matched with each other.
 #pragma once

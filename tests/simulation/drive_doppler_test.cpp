@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares Doppler shifts of a drive with central differences of the delays of the same paths, a tenth of a millisecond
 // earlier and later: antennas on vehicles, vehicles as mirrors, on straight ways and in a turn.
 #include <map>

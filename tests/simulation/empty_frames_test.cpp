@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests worlds in which there is nothing to do, with each feature on: no ends, one vehicle alone, no link, nothing to
 // hit. Such frames come first and full ones then, and the other way round; in drives, blocks, fixed worlds and live
 // worlds. Where frames reuse nothing, a full frame is the same whatever frames came before it.

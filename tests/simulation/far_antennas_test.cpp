@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests antennas far outside of the scene: drones, platforms, satellites and sites beside it have the paths that many
 // rays find; and where few rays meet anything, the program does not claim that nothing was missed.
 #include "simulation/drive.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the fields of a frame on the device with the same code on the host: every column, to the last bit, with
 // everything that a path can meet: walls, edges, rough surfaces, vehicles, and antennas of every kind.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas that go through the plane of a roof or a wall, beyond its edges: their field has no step there.
 #include <complex>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares vehicles as instances with the same vehicles baked into one static scene at the same poses, and with all
 // paths that exist (brute force); tests vehicles that come and go, paths that a vehicle blocks, and what its own
 // antenna sees.

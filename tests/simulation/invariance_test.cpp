@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that the paths are the same bytes whatever the batches, the order of receivers, the other transmitters, and the
 // run. In a generated town, where rays do not find everything, and in a box, where they do.
 #include "simulation/run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A copy of the project's kernels from which the device's programs are made, so that a test may break a line of one;
 // with a cache of programs of its own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests every option that decides what rays find, with every kind of links: the paths must be those of a plain launch
 // of ten times the rays. Scenes and rays are chosen such that a plain launch finds all paths. Only options that are
 // documented to lose paths may do so.

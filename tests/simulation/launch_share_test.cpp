@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The directions that frames launch, and the depth of their rays: counted direction by direction.
 #include "simulation/launch_share.hpp"
 

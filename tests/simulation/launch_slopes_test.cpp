@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the table of heights that a launch gets for a world: streets, masts, rooms, drones, hills.
 #include "simulation/launch_slopes.hpp"
 

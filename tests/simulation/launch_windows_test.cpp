@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests which antennas launch through a window, and that nothing of the scene or of its vehicles is beside it.
 #include "simulation/launch_windows.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests frames at the limits of the options: no reflection, no depth, nothing to hit, ends at one place, many
 // receivers. Each must give a result and never crash.
 #include "simulation/run.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the reason why a link has no path: what its direct line meets, with walls that the tests place, and what the
 // message proposes.
 #include "simulation/missing_paths.hpp"

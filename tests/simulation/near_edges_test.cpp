@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the cases in which the theory of diffraction is not valid: edges within a wavelength of an antenna or of
 // another edge, and edges shorter than that.
 #include "simulation/bends.hpp"

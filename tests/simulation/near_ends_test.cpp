@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests antennas that touch a surface or each other: there is a result at any gap, the same in both directions, and a
 // warning where a path is left out. Gaps range from zero, past the rounding of double and of float32, to lengths that
 // both resolve.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares whole frames with diffraction and transmission with the reference path lists: every path, no path twice,
 // gains. Gains of diffracted paths are only printed: the lists weight the terms of a wedge differently, neither
 // continuously nor reciprocally (tests/radio/utd_oracle_test.cpp).

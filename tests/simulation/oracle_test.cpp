@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames against the reference path lists, at a million rays and at a tenth of them: recall, power, duplicates,
 // gains and matrices.
 // Only reflections are compared where a list holds other interactions too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that orders and launch shapes change time but never paths: the bytes are the same as without, at launch and
 // before each depth. "auto" chooses one of them, says why, and keeps its choice for the next run.
 #include <array>

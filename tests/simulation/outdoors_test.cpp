@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests air and vegetation from the configuration to paths: rays continue through leaves, fields lose what the laws
 // say, the device computes the same as the host, and a scene without either neither runs nor compiles any of it.
 #include <limits>

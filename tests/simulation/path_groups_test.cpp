@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests gains of receivers that cross shadow boundaries in small steps: diffracted waves and waves that end at the
 // boundary are added as fields, so the sum does not jump; the plain sum of powers does.
 #include "radio/links.hpp"

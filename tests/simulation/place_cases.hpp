@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of places: a ground of 200 m, and texts about them.
 #pragma once
 #include <ostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests warnings about ends and vehicles at impossible places: each is named, many are counted, and there is none where
 // everything is right. The scene is a house of 12 triangles on a ground of 200 m, and rooms.
 #include "simulation/place_warnings.hpp"

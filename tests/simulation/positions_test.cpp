@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests positions in degrees and heights above the ground: ends, mounts, tracks and trajectories, against numbers of
 // pyproj 3.7.2 (EPSG:4326 to EPSG:32632) and the plane of the ground.
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the quarters of a launch that found a path, and the estimate of paths that none has found.
 // The reference of the first is a launch of the rays of a quarter alone.
 #include "radio/links.hpp"

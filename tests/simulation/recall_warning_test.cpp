@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests when a refined launch that ended early gives a warning, and what the warning advises.
 #include "simulation/recall_warning.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that a frame in batches of receivers equals the frame in one, bit for bit; and how receivers are divided into
 // batches.
 #include "simulation/receiver_batches.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests grids of receivers: their places, counted by hand, and their gains, against closed forms.
 // Scenes are plates that the tests write; antennas are isotropic.
 #include "simulation/receiver_grid.hpp"

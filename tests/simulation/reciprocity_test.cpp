@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests reciprocity of every kind of path: with the ends exchanged the same path is found, of the same length, with its
 // coefficients transposed. The antennas are directive, doubly polarised and turned, so that nothing is symmetric by
 // chance.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the first level of refined launches while launchers come and go: every cell is sampled once for each launcher,
 // whatever was launched before, cold or warm.
 #include "simulation/refinement.hpp"

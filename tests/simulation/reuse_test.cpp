@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests trace.reuse: sequences of earlier frames are solved again. This gives only true paths, nearly all of them for a
 // tenth of the rays, the same bits whenever the same frames are computed, and a set of sequences whose size stays
 // bounded.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the end-to-end tests: scene files made of parallelograms, configurations in code, comparisons of paths.
 // Scenes go through the loader like any other: welded, recentred, coplanar neighbours of one material merged.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests that the plane between two edges counts as one plane, whatever surfaces it consists of: the same house in
 // pieces has the same field.
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares trace.reception = "sphere" with closed forms (rays caught, lengths, paths lost, false paths), and with a ray
 // cache against without. Directions are independent, so counts are binomial.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the surroundings of a place: compared with brute force over all triangles, and bodies whose inside is known.
 // Scenes are parallelograms that the tests write.
 #include "simulation/surroundings.hpp"

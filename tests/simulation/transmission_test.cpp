@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests transmission from rays to paths: what split rays find, that batches, order and cache change only the time, and
 // the paths of a box with a screen against brute force and the reference list.
 #include <doctest/doctest.h>

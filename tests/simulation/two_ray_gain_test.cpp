@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares a link over a flat ground, from the scene to both gains, with the two-ray formula with Fresnel's reflection.
 // (J. D. Parsons, The Mobile Radio Propagation Channel, 2nd ed., section 2.3.)
 #include "radio/links.hpp"

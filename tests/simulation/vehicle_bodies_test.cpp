@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests bodies from files: materials and nodes of a GLB that trimesh wrote (files/make_car.py), nodes of built-in
 // bodies, antennas at them, and parked vehicles.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests output.waypoints: the sampled rays, their points, and the receivers that they pass, for every order of tracing.
 // The scenes are a box, where every ray continues to the last depth, and a ground, which half of the rays miss.
 #include <algorithm>

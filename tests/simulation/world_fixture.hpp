@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of the world: FCD files of vehicles whose centres move on circles and lines known exactly, and
 // configurations that drive them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the links of a world against counted pairs, what is refused, how far links reach, and generated traffic.
 #include "simulation/world_links.hpp"
 #include "simulation/name_pattern.hpp"

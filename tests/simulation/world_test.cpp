@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // World: poses of mounted antennas and placed bodies against closed forms and differences.
 #include <set>
 #include "simulation/world_fixture.hpp"

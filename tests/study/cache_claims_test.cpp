@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests predicates on rows of caches, each with rows that make it true and rows that make it false; then the claims of
 // figures 6.2 to 6.17 that consist of them.
 #include "study/cache_claims.hpp"

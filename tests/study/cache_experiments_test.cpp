@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests experiments on caching without a device: the thesis' parameters, tables, and paragraphs of made-up rows.
 // Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>

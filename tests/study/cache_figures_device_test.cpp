@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests figures of caches as `wavetracer bench` draws them: their tables must agree with the words and with themselves.
 // Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Regions of a cache's table: their claims and their table, on made rows.
 // Correlations are those of lists whose coefficient is known.
 #include "study/cache_regions.hpp"

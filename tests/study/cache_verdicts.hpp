@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Verdicts of the figures of caches on rows that a test makes.
 #pragma once
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests coherence-frames and coherence-rays without a device: the drive, the tables, the paragraphs of made-up rows.
 // The numbers are chosen so that the paragraphs are known by hand.
 #include <doctest/doctest.h>

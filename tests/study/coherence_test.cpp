@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests frames made by hand, whose coherence is known, and what the printed formulas give for them. Printed: equations
 // 6.3 and 6.4 of the thesis, over outputs in which every list holds hits only.
 #include "study/coherence.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests entries of a table whose groups can be counted by hand, and hits that a random generator spreads.
 #include "study/entry_summary.hpp"
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers of the tests of `wavetracer bench`: a street for its config file, its tables, its errors.
 #pragma once
 #include <doctest/doctest.h>

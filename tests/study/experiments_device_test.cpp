@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Ranges are small.
 // Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests claims of single figures of caches, each with rows that make it true and rows that make it false.
 // Numbers are chosen so that the verdicts are known by hand.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the recorder with the scene itself: points on their surfaces, distances, and the law of reflection. Assumes
 // that some rays leave the scene, so that queues are compacted; skipped where there is no device.
 #include "study/hit_recorder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests coherence inside a frame: the control equation against counted cells and rays, and each claim with rows that
 // make it true and rows that make it false.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests outcomes of claims on cases that are known by hand: a claim that holds, one that does not, and those in
 // between.
 #include "study/judgement.hpp"

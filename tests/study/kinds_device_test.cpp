@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests every experiment with every kind of configuration: each gives a figure without gaps, or a message that names
 // the experiment or the key. Few rays and one bounce; cache-division, whose rays cannot be fewer, is only tested for
 // what it refuses.

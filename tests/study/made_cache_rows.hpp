@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of a study of caching as a device would give them, with numbers that a test chooses.
 // Every setting of a study gets a row at each number of rays; the first takes a second per frame.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows as a device would give them, with times that a test chooses.
 // All series of one experiment find the same.
 #pragma once

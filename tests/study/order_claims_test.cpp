@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the paragraphs on rows whose gains are known in advance.
 // Factors are chosen so that the results and their order are known by hand.
 #include "study/order_claims.hpp"

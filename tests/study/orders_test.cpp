@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests experiments without a device: ray counts, series, configs, sums of stages, gains, table and script.
 // Expected values are written out or computed another way.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests frames of paths made by hand, whose errors are known in advance.
 // Lengths are chosen in nanoseconds of light, so that delays are round.
 #include "study/path_error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text with one space for many, so that a test of a table need not know how wide its columns are.
 #pragma once
 #include <algorithm>

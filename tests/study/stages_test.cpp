@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the list of stages: sums over parts, unique names, and unlisted stages.
 // All tests of frames show that every stage is listed, since a frame with another stage fails.
 #include "wavetracer/stages.hpp"

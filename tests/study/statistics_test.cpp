@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares correlation, autocorrelation and running means with closed forms.
 // Bounds on random series are five of their standard errors; seeds are fixed.
 #include "study/statistics.hpp"

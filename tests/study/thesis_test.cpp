@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the thesis' page without a device: its figures, its picture, its HTML.
 // Tags are balanced with a small stack of their names; void elements and gnuplot's self-closing ones close themselves.
 #include "study/thesis.hpp"

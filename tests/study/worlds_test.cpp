@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests the worlds of experiments that move, without a device: what transmits, what receives, and where it is in which
 // frame. Places are computed by hand, from a transmitter's velocity.
 #include "study/worlds.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Parts of bench/validation in small, on a device: one edge against the Fresnel integral, the energy of a closed room,
 links of a generated city against free space, and swapped ends.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The formulas of bench/validation against values that others have computed or published.
 
 Usage: models_test.py FOLDER; FOLDER is bench/validation. Exits with 77 without numpy and scipy. No device is used.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """docs/validation.md is what bench/validation makes of its results, and says nothing that they do not.
 
 Usage: page_test.py FOLDER; FOLDER is bench/validation. Exits with 77 without numpy. No device is used.

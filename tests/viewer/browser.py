@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A headless Chromium on one page of the viewer, and what the tests ask it. Exits with 77, "skipped", without one.
 Run the tests as NAME_page.py FOLDER, where FOLDER/RUN/view.html and paths.h5 were written by test_viewer."""
 import atexit

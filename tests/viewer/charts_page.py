@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The charts of a link: values lie where the file says, the frame is marked. Arguments: browser.py."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A map of 300 x 300 receivers: how fast it is there and drawn, its colours, and what a click on a cell says, against
 paths.h5. Arguments: browser.py."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A drive in the browser: pixels, clicks, filters, time, keys; numbers against paths.h5. Arguments: browser.py."""
 import re
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """10^5 paths and 100 vehicles in a frame: how long a redraw, a filter and a click keep the page. Arguments: browser.py."""
 import os
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vehicles drive along x, 5 m/s, in lanes of the street y = 0 of the generated city; paths bounce at made-up points.
 // Lengths are those of the polylines, gains those of free space less 6 dB an interaction.
 #include "viewer/made_runs.hpp"

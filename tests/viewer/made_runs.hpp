@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Made-up runs for the pages of the viewer: no device, but a city, vehicles and paths with their places in it. Gains,
 // delays and angles are functions of the geometry, so that the numbers on the page can be computed again.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Colours of the page by numbers: CIEDE2000 differences as people see them who lack the cones for red or for green
 (simulated after Machado, Oliveira and Fernandes, 2009), and contrasts with the background. Arguments: browser.py."""
 import itertools

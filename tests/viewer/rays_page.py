@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Sampled rays on the page: segments, who found their ends, centroids and how far they move. Arguments: browser.py."""
 import sys
 

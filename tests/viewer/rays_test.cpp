@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sampled rays and vegetation on the page of a run. Writes the pages that rays_page.py and vegetation_page.py open.
 #include <doctest/doctest.h>
 #include <filesystem>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pages of runs that are unlike others: hostile names, no paths, one frame, thousands of frames, no scene, capped,
 a narrow window. Arguments: browser.py."""
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ways through a drive: a link comes into view, the wheel zooms to the pointer, a chosen path and a followed vehicle stay
 through frames, a loop, Escape; and what rays have missed, against the files. Arguments: browser.py."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Vegetation on the page: a crown can be looked through, hides no path, and can be switched off. Arguments: browser.py."""
 import sys
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests pages without a browser: their parts, limits and errors; writes the pages that the tests in a browser open.
 // Pages are in BUILD/tests/viewer/NAME/view.html beside the paths.h5 that they show.
 #include <doctest/doctest.h>

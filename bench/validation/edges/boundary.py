@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The field around a lossy body in the plane, from integral equations over its boundary (Mueller's formulation, which no
 resonance disturbs), by Nystroem's method: the trapezoidal rule with the correction of the zeta function for logarithms.
 

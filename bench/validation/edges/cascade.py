@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The field behind screens in a row: the Fresnel integral over the half planes above their edges (L. E. Vogler, Radio
 Science 17, 1982), to about 1e-9 of the largest term.
 

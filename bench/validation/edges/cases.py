@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The cases whose field behind edges is known: screens in a row, blocks of metal, a car's roof between two other cars.
 
 All are profiles across an axis that is endless: x runs from one end to the other, z is up, metres. A case is a dictionary:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Errors of wavetracer's fields behind edges: solves every case, and prints a table of errors in dB.
 
 Usage: edges_table.py [--edges N] [--sets NAME...] [--rays N] [--csv FILE], or edges_table.py --lines [NAME...]; --edges is the largest number of diffractions in

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Total fields along short lines across shadow boundaries: the largest step from one receiver to the next.
 
 A case is a profile across an axis, x along the way and z up, and a scene of it that is drawn out along the axis: screens, a

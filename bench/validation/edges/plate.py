@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Fields past the corner of a metal plate, single edges, beside Kirchhoff's integral: prints a table.
 
 Usage: plate.py, with PYTHONPATH and the WAVETRACER variables as `./dev edges` sets them; needs scipy. The plate hangs upright

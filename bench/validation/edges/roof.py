@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The field over a flat roof of a perfect conductor, by Kirchhoff's integral over the planes of its two walls: the paraxial
 equation's own solution, so it holds for small angles.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Cases of solid bodies, by integral equations: writes metal_exact.csv, concrete_block.csv and corners.csv into a folder,
 in some minutes.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The field that wavetracer computes for the cases of cases.py: every profile is drawn out to 800 m along the axis.
 
 Screens and blocks lie: their axis is y, and the ways over them are those over roofs. A corner stands: its axis is z, and its

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the cases and their references as CSV files, one per set: FOLDER/SET.csv."""
 import csv
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A street of a generated city, a road-side unit and a car: every path between them, printed and written to a folder.
 // Usage: example [FOLDER]. Exits with the code that the program would exit with.
 #include <cstdio>

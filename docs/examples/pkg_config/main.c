@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Paths of a configuration file through the C interface: cc main.c $(pkg-config --cflags --libs wavetracer) -o example
    Usage: example CONFIG [KEY=VALUE...]. Exits with the code that the program would exit with. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A camera that circles a point above the ground: drag turns, right drag or Shift moves, the wheel zooms towards the
 // pointer. z is up. Everything is in metres and radians, relative to the centre of the page's coordinates.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Charts of one link: power delay profile, azimuths of departure and arrival, path gain over time.
 // Each stores the positions of its values for clicks and tests; colours are those of power.
 "use strict";

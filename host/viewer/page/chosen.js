@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the chosen path in other frames: the one of the same link over the same surfaces and edges. The number of a
 // path has no meaning in another frame, but its sequence has.
 "use strict";

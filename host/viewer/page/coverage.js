@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps colour the cells of receiver grids by their reception, and find the cell under the pointer.
 // A cell without a path has no colour. With several transmitters a cell shows the strongest.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The run's data on the page: metadata in `meta`, frames and scenes decoded from their blocks on demand. Coordinates
 // are float32, in metres, relative to meta.centre_m in the coordinates of the scene file.
 "use strict";

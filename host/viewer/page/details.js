@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows as text what is known of a clicked path or end.
 // Names come from files: they are only ever set as text, never as markup.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides which paths are shown: by transmitter, receiver, order, kind and power. It reads and writes the controls of
 // the page. A filter is plain data, so that testing a path costs a few comparisons.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds ends by their names: a field for text, and the few best matches as buttons.
 // Cells of maps are found too, though no list contains them.
 "use strict";

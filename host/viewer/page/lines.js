@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The visible paths of a frame as one object of line segments, whose buffers are rewritten when the filter changes.
 // Frames hold the weakest path first, so the strongest lie on top.
 // A path with a point that is not a number, or an absent end, is counted but not drawn.

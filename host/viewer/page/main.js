@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page as a whole: what is shown, what is selected, and when the picture is drawn again. Scripts can inspect and
 // control it through `window.wavetracer`.
 "use strict";

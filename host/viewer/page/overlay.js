@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The overlay of the picture: marks and names of ends, the selected path, a scale. It is drawn in two dimensions. Names
 // do not overlap: one without a free place is left out, and those of the chosen link come first.
 "use strict";

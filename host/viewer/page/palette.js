@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of the page, dark and light: materials, and scales for power, order and kind.
 // Colours are [r, g, b] of 0 to 255. Scales and kinds can be told apart without seeing red or green (palette_page.py).
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects metres to pixels, and finds the nearest path or end of a pixel. Work is linear in the visible paths. Houses
 // that hide a path are ignored: the nearest line on the screen is chosen.
 "use strict";

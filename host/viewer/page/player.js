@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time: the slider, play and pause, and the keys that move through frames.
 // Frames are shown as they were computed, each until the time of the next; nothing is interpolated.
 "use strict";

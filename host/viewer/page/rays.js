@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sampled rays of a frame (waypoints.h5): their segments, the places of their hits, and the centroid of these at each
 // depth. Rays search for paths; most of them find none.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reloads a page that is rewritten while it is shown (wavetracer serve --page). The user's choices are kept: the
 // camera, colours, and what is shown.
 "use strict";

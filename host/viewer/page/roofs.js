@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the flat roofs of a scene: level surfaces from whose edge a wall goes down.
 // Corners are compared by their positions, to a millimetre, because walls and roofs need not share vertices.
 "use strict";

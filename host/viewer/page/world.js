@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The solid objects: the city by material, the vehicles of a frame, edges that diffract.
 // Triangles are shaded flat, and look the same from both sides; outlines are the edges of houses.
 "use strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas at the ends of paths: element patterns and the ports of an antenna, turned into the global frame.
 // host/radio/pattern.hpp and antenna.hpp describe both. Directions have unit length and point away from the antenna.
 #ifndef WAVETRACER_DEVICE_ANTENNA_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arguments that kernels take by value: the numbers of one launch of a pass, as one record for each kernel (or for
 // kernels that take the same), so that an argument list is its buffers and this record. A capacity is that of a list
 // that is written.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layouts of the acceleration structures, one definition for C++ (host/accel) and OpenCL C (kernels/lib).
 // Everything is float32 around the scene's origin. A child reference c >= 0 is an inner node's index; c < 0 is a leaf
 // (wt_leaf). An unused child has an inverted box (lower > upper) and is a leaf without elements. A ray whose slabs

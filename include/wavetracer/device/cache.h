@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray cache: its records, the key of a ray, and the hash and mapping functions, for host and device alike.
 // They follow A. Zhdanov, TU Munich, 2014, sections 4.2.3 to 4.2.5 and appendix C; comments say where this code
 // corrects it.

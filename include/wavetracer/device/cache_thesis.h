@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys and buckets of the thesis' tables as it prints them (A. Zhdanov, TU Munich, 2014, listings C.1 and C.3 and
 // section 5.2.2), for host and device alike. They keep the faults that cache.h corrects.
 #ifndef WAVETRACER_DEVICE_CACHE_THESIS_H

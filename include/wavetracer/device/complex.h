@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Complex numbers as pairs of doubles (x: real, y: imaginary): the same bits on host and devices.
 // Vector operations serve for sums, differences and products with a real number.
 #ifndef WAVETRACER_DEVICE_COMPLEX_H

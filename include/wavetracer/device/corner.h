@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two faces of an edge as mirrors: the waves that they reflect, or transmit, before these meet the edge.
 // Local axes are x along face 0, y along its normal, and z along the edge.
 #ifndef WAVETRACER_DEVICE_CORNER_H

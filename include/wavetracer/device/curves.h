@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Morton and Hilbert curves: cells to codes and back, without tables or branches, for any number of lanes.
 // Components and codes must fit into the bits stated; Morton curves ignore higher bits, Hilbert curves do not.
 #ifndef WAVETRACER_DEVICE_CURVES_H

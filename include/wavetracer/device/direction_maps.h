@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps between unit directions and the plane, for any number of lanes: equal-area cylinder, octahedron, cube cells.
 // They use + - * / sqrt fma and integers only, so host, CPUs and GPUs agree bit for bit. They assume no contraction.
 #ifndef WAVETRACER_DEVICE_DIRECTION_MAPS_H

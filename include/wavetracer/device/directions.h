@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns a launch index into a direction, a pure function with the same bits on the host, on CPUs and on GPUs: it uses +
 // - * / sqrt and fma only. C++ compiles it for one ray, OpenCL C for one ray or for 16 at once with WT_LANES 16. It
 // assumes no contraction.

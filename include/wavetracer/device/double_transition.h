@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transition function of two edges, and the places where waves pass over them: as transition.h for one edge.
 //   g2(x, y, r) = (2j)^2 times the integral over u, v > 0 of exp(-j (u^2 + v^2 - 2 r u v + 2 x u + 2 y v)),
 // so g2(x, y, 0) = g(x) g(y), and with r = 1 the two edges are one. It is the double integral of L. Vogler (Radio

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three edges and more in a row: the integral of edge_pair.h over as many heights as there are edges.
 //   the integral over u_1, u_2, ... > 0 of exp(-j (sum of u_i^2 + 2 x_i u_i - 2 r_i u_i u_(i+1)))
 // If all heights are turned by -45 degrees, the coupling of two neighbours is a real exponential and everything decays.

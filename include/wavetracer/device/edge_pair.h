@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two edges with a straight leg between them: each term of the one with each term of the other, times the transition
 // function of two edges. So slopes, grazing rays and boundaries that overlap need no special cases. Screens are exact
 // in the paraxial sense (Vogler's double integral), and total fields are continuous: the jump at a boundary of one edge

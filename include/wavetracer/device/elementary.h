@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sine, cosine, exponential, logarithm and arc tangent in double with the same bits on every device, since OpenCL lets
 // each device have its own. Polynomials and breakpoints are those of FDLIBM (Sun Microsystems, 1993;
 // netlib.org/fdlibm), which bounds their errors. Only + - * / sqrt, fma and ldexp are used.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records of the fields of paths that host and device share: what fields need of a world and its ends, and what they
 // compute of each path. There is no float3, bool, size_t or pointer; padding is explicit.
 #ifndef WAVETRACER_DEVICE_FIELD_RECORDS_H

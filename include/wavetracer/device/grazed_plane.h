@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reflection of a plane between two edges that bound it. A term of a pair of edges (edge_pair.h) counts the waves
 // whose heights over the edges, u and v, are on one side of each: above, or below an edge where the wave is there
 // already. The plane reflects waves above both edges at their mean cosine of incidence, a complex number. Waves below

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types for device headers that are written once and compiled for any number of lanes: C++ and OpenCL C with one lane,
 // or OpenCL C with 16 where the kernel defines WT_LANES as 16 before its first include (CPU devices). Such code has no
 // branches on lane values and selects only by `comparison ? a : b`, which works lane by lane, too; wt_gather reads a

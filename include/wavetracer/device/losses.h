@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Losses of a wave in the air and in vegetation (host/radio/air.hpp, host/radio/vegetation_law.hpp), on legs of paths.
 // Rain depends on the polarisation, since raindrops are flat: its two principal waves are the vertical and the
 // horizontal one of every direction, and a leg is a diagonal matrix in them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths along the plane of a roof or a wall that begin and end in it, beyond its edges: the wave over its edges is all
 // of them. An end in the plane is taken for one that is just behind it, so paths without those edges are none there;
 // what float32 says of them is luck. In front of the plane they are back, and their fields meet.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three edges and more of a path, one after the other (edge_chain.h). Edges at an angle to each other are treated as
 // parallel edges whose coupling is that of their projections.
 #ifndef WAVETRACER_DEVICE_PATH_CHAIN_H

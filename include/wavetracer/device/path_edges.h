@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The edges of a diffracted path: where they are, how the wave spreads from them, and what each does to it.
 // Spreading: edges are lines of sources, so stationary phase over the points on them gives 1 / (product of the legs
 // between ends and edges) / sqrt(det H), where H has the second derivatives of the length. For one edge it is that of

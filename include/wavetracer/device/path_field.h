@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
 // solve: specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometrical waves that a path belongs to, and its share in each of them (groups in wavetracer/paths.hpp). A path
 // belongs to the wave of its own steps, and in part to the waves of the same steps that have nothing in place of an
 // edge, or a reflection at one of its faces. Such a wave groups the paths that are diffracted at its boundaries even if

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of paths: a solved path as it is, or reversed, and the functions that order rows and find equal ones.
 // wt_solved in records.h describes solved paths. Vertices must lie in their surfaces to rounding error.
 #ifndef WAVETRACER_DEVICE_PATH_ROWS_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A path in the world of a frame: the tables that describe what it meets, its legs, and the neighbouring rows. Vertices
 // must lie in their surfaces to rounding error, and surface normals must have unit length.
 #ifndef WAVETRACER_DEVICE_PATH_WORLD_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records and constants that both C++ (host/passes) and OpenCL C (kernels) compile: nothing else is shared. There is no
 // float3, bool, size_t or pointer; padding is explicit; tests/gpu compares sizes and offsets on the device.
 #ifndef WAVETRACER_DEVICE_RECORDS_H

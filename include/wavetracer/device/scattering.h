@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffuse scattering by a tile of a rough surface: the effective roughness model as host/radio/scattering.hpp describes
 // it, made reciprocal. Random phases are hashes, the same on every machine.
 #ifndef WAVETRACER_DEVICE_SCATTERING_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reflection and transmission of a plane wave at a single-layer slab in free space (ITU-R P.2040-3, section 2.2.2),
 // written so that no quotient loses its digits. host/radio/slab.hpp explains the signs.
 // Time convention exp(+j 2 pi f t): a wave that decays goes as exp(-j q) with Im q <= 0.

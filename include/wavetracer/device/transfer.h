@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transverse field of a wave along a path: a 2 x 2 matrix in a basis that travels with the wave.
 // Plane waves at plane surfaces; spreading and antennas are left to the caller. Directions are of unit length.
 #ifndef WAVETRACER_DEVICE_TRANSFER_H

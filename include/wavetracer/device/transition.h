@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
 // g(s) = sqrt(pi) exp(j pi / 4) erfcx(u) at u = exp(j pi / 4) s, where erfcx(u) = exp(u^2) erfc(u) is the scaled
 // complement.

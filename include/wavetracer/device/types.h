@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of a fixed size for records that C++ and OpenCL C share. Lanes of a vector are s[0], s[1], ... in C++.
 #ifndef WAVETRACER_DEVICE_TYPES_H
 #define WAVETRACER_DEVICE_TYPES_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The uniform theory of diffraction at a straight wedge with faces of any material, as host/radio/utd.hpp describes it.
 // It has four terms: each is the jump of a geometrical wave at its shadow boundary times a function that is half of
 // that jump on either side of the boundary. Local axes are x along face 0, y along its normal, and z along the edge.

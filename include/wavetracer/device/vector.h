@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors of doubles in C++ (GLM) and OpenCL C under one set of names, and functions of them for both.
 // They use + - * / and sqrt in a fixed order, so host, CPUs and GPUs agree to the last bit. They assume no contraction.
 #ifndef WAVETRACER_DEVICE_VECTOR_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes of vegetation, which waves pass, and the length of a straight leg inside of one.
 // All is in double, with the same bits on every device. A mesh is closed and its triangles are counter-clockwise seen
 // from outside.

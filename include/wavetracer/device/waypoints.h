@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The places where samples went, and the receivers that their rays passed: records of the passes waypoints and receive.
 // A sample is one launched ray and all its segments.
 #ifndef WAVETRACER_DEVICE_WAYPOINTS_H

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes ground_truth.osi and sensor_view.osi with ASAM's own bindings (PyPI: osi-python 3.8.0), for osi_test.cpp.
 
 usage: make_osi.py FOLDER

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes car.glb with trimesh (PyPI: trimesh 5.2.0), for vehicle_bodies_test.cpp: a body of four materials with the
 nodes of two antennas.
 
