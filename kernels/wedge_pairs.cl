@@ -106,8 +106,8 @@ inline uint known_of(const global uint* kept, uint kept_wedges, uint a, uint b) 
 
 #define RUNS_AHEAD 16u  // keys are read ahead of their use
 
-// `lanes` work-items take each group of prefixes of a block. runs: the start of each run of the sorted keys; kept: the
-// knowledge of each static wedge with each other one.
+// `lanes` work-items take each group of prefixes of a block, and each of them a part of the runs. runs: the start of
+// each run of the sorted keys; kept: the knowledge of each static wedge with each other one.
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys, const global uint* runs,
@@ -126,8 +126,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
   wt_found_candidates batch;
   batch.count = 0;
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
-  for (uint r = 0; r < run_count; ++r) {
-    if (r + RUNS_AHEAD < run_count) wt_prefetch(keys + runs[r + RUNS_AHEAD]);
+  for (uint r = lane; r < run_count; r += args.lanes) {
+    if (args.lanes == 1 && r + RUNS_AHEAD < run_count) wt_prefetch(keys + runs[r + RUNS_AHEAD]);
     const uint wedge_b = wt_wedge_of(keys[runs[r]]), last = wt_wedge_key(wedge_b, group.most);
     const uint was_known = known_of(kept, sight_args.kept_wedges, wedge_a, wedge_b);
     const global wt_wedge* w = wedges + wedge_b;
@@ -137,7 +137,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     uint known = was_known || in_sight(low, high) ? was_known : ALL_PAIRS;
     const uint end = known == ALL_PAIRS ? 0 : args.count;
     const wt_edge_view back = wt_edge_seen_from(w, v);
-    for (uint j = runs[r] + lane; j < end && keys[j] <= last; j += args.lanes) {
+    for (uint j = runs[r]; j < end && keys[j] <= last; ++j) {
       const global wt_wedge_prefix* b = prefixes + j;
       const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, boxes, &back);
       for (uint k = 0; pieces_b && k < group.count; ++k) {

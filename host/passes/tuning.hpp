@@ -68,9 +68,9 @@ struct Tuning {
   Work sequences;
   uint32_t busy_nodes;  // commute: nodes that keep the device busy
   Work candidates, exact, prefixes;
-  uint32_t join_lanes, join_group;  // wedge_join: work-items per prefix
-  uint32_t pairs_group;             // wedge_pairs
-  Work tiles;                       // rows of scatter
+  uint32_t join_lanes, join_group;    // wedge_join: work-items per prefix
+  uint32_t pairs_lanes, pairs_group;  // wedge_pairs: work-items per group of prefixes
+  Work tiles;                         // rows of scatter
 
   // The work-items per node that commute takes: each exchange waits for memory several times in a row.
   uint32_t exchange_lanes(uint32_t nodes) const { return nodes < busy_nodes ? 4 : 1; }
@@ -120,6 +120,9 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // Most prefixes are not a transmitter's and end at once. GPUs: an H100 takes 0.36 ms instead of 0.52 in groups of
       // 32, for 600,000 prefixes (munich, 1 x 100, `run --repeat 60`, 2026-11-25). Pairs take long, and are few.
       .join_group = cpu ? 32u : 256u,
+      // An H100 takes 1,858, 1,089 and 703 ms with 32, 64 and 128 of them (COST 231's Munich, 1 x 1,031, `wavetracer
+      // run` with trace.max_diffractions = 2, 2026-11-26).
+      .pairs_lanes = cpu ? 1u : 128u,
       .pairs_group = 32,
       // One search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},

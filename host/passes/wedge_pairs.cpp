@@ -28,6 +28,7 @@ WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, c
       mark_work_(tuning_of(context.info()).exact),
       compact_(context),
       scan_(context),
+      lanes_(tuning_of(context.info()).pairs_lanes),
       group_(tuning_of(context.info()).pairs_group),
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
       kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")) {
@@ -53,9 +54,11 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
                             const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
                             Counters& counters) {
-  kernel_({size_t{join.end - join.first} * join.lanes, group_}, Stage::wedge_pairs, scene.leg_nodes(),
-          scene.leg_leaves(), scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_,
-          prefixes.sorted, receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), join,
+  wt_wedge_join_arguments own = join;
+  own.lanes = lanes_;
+  kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs, scene.leg_nodes(), scene.leg_leaves(),
+          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_, prefixes.sorted,
+          receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), own,
           sight.arguments(scene, join.count, kept_wedges_), run_count_);
 }
 

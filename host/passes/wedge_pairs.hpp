@@ -35,7 +35,7 @@ class WedgePairs {
   Work mark_work_;
   Compact compact_;
   Scan scan_;
-  uint32_t group_, kept_wedges_, run_count_ = 0;
+  uint32_t lanes_, group_, kept_wedges_, run_count_ = 0;
   gpu::Buffer<uint32_t> kept_;  // a word for each static wedge with each other one: the pieces that see each other
   gpu::Buffer<float> heads_;    // numbers in the bits, as Compact takes them
   gpu::Buffer<uint32_t> runs_, blocks_;
