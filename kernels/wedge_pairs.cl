@@ -127,7 +127,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
   batch.count = 0;
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
   for (uint r = lane; r < run_count; r += args.lanes) {
-    if (args.lanes == 1 && r + RUNS_AHEAD < run_count) wt_prefetch(keys + runs[r + RUNS_AHEAD]);
+    if (r + RUNS_AHEAD < run_count) wt_prefetch(keys + runs[r + RUNS_AHEAD]);
     const uint wedge_b = wt_wedge_of(keys[runs[r]]), last = wt_wedge_key(wedge_b, group.most);
     const uint was_known = known_of(kept, sight_args.kept_wedges, wedge_a, wedge_b);
     const global wt_wedge* w = wedges + wedge_b;

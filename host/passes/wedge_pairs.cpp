@@ -32,8 +32,7 @@ WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, c
       group_(tuning_of(context.info()).pairs_group),
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
       kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")) {
-  const wt_uint zero = 0;
-  context.fill(kept_, &zero, sizeof zero, 0, kept_.size() * sizeof zero, Stage::wedge_pairs);
+  context.fill(kept_, 0, Stage::wedge_pairs);
 }
 
 void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes) {

@@ -209,8 +209,8 @@ Wedge wedge_at(const EdgePiece& piece, const Sector& sector) {
           .surface = {sector.from.surface, sector.to.surface}};
 }
 
-// Onto the planes of its faces, which corners are beside by the rounding of a file: mirrors end where their planes are,
-// and what the edge diffracts makes up for them there.
+// Moves an edge onto the planes of its faces. Corners of files are beside these planes by rounding, and mirrors end on
+// their planes: there the wave that the edge diffracts must take their place.
 void put_on_planes(const Scene& scene, Wedge& wedge) {
   const auto &a = scene.surfaces[wedge.surface[0]], &b = scene.surfaces[wedge.surface[1]];
   const double cosine = glm::dot(a.normal, b.normal), sine2 = 1 - cosine * cosine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strips first, then pairs in the order of triangles; then the numbers of vertices close up.
+// Finds strips first, then pairs in the order of triangles; then the numbers of vertices close up.
 #include "scene/thin_walls.hpp"
 
 #include <algorithm>
@@ -29,20 +29,21 @@ std::optional<Strip> strip_of(const Weld& weld, const std::array<uint32_t, 3>& t
   return std::nullopt;
 }
 
-// Says where the faces beside strips go.
+// Says where the faces beside strips go. strips: of each triangle.
 class Sides {
  public:
-  Sides(std::span<const std::array<uint32_t, 3>> triangles, const Weld& weld) : weld_(weld) {
+  Sides(std::span<const std::array<uint32_t, 3>> triangles, const Weld& weld,
+        std::span<const std::optional<Strip>> strips)
+      : weld_(weld), triangles_(triangles) {
     std::vector<bool> by_strip(weld.positions.size());
-    for (const auto& t : triangles)
-      if (const std::optional<Strip> s = strip_of(weld, t)) by_strip[s->a] = by_strip[s->b] = true;
+    for (const std::optional<Strip>& s : strips)
+      if (s) by_strip[s->a] = by_strip[s->b] = true;
     for (uint32_t i = 0; i < triangles.size(); ++i) {
-      if (strip_of(weld, triangles[i])) continue;
+      if (strips[i]) continue;
       for (const uint32_t v : triangles[i])
         if (by_strip[weld.vertex[v]]) wide_.push_back({weld.vertex[v], i});
     }
     std::ranges::sort(wide_);
-    triangles_ = triangles;
   }
 
   // Do faces go the same way from both long sides of the strip, as those of a wall, and not to either side of a step?
@@ -80,10 +81,12 @@ class Sides {
 }  // namespace
 
 uint64_t join_thin_walls(std::span<const std::array<uint32_t, 3>> triangles, Weld& weld) {
+  std::vector<std::optional<Strip>> strips;
+  for (const auto& t : triangles) strips.push_back(strip_of(weld, t));
+  if (std::ranges::none_of(strips, [](const auto& s) { return s.has_value(); })) return 0;
   std::vector<uint32_t> partner(weld.positions.size(), alone);
-  const Sides sides(triangles, weld);
-  for (const auto& t : triangles) {
-    const std::optional<Strip> s = strip_of(weld, t);
+  const Sides sides(triangles, weld, strips);
+  for (const std::optional<Strip>& s : strips) {
     if (!s || partner[s->a] != alone || partner[s->b] != alone || !sides.are_of_wall(*s)) continue;
     partner[s->a] = s->b;
     partner[s->b] = s->a;
