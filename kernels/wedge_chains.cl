@@ -22,11 +22,12 @@ inline int begin_string(const wt_edge_map* map, const wt_edge_map_arguments* gri
   wt_edge_chain over;
   double along[WT_MOST_EDGES];
   if (!wt_hang_curtain(map->wedges, chain, a, b, &straight)) return 0;
-  const int all = wt_pull_string(map, grid, &straight, a.z, b.z, WT_MOST_EDGES, &over, along);
   if (string >= WT_STRINGS_WIDE) {
     *aside = left * 0.1 * ((string + 1 - WT_STRINGS_WIDE + WT_STRINGS_AROUND) / 2);
-    return most > 2 && (!all || over.count > most);  // wedge_pairs has those of up to two edges
+    // wedge_pairs has those of up to two edges.
+    return most > 2 && !wt_pull_string(map, grid, &straight, a.z, b.z, most, &over, along);
   }
+  wt_pull_string(map, grid, &straight, a.z, b.z, WT_MOST_EDGES, &over, along);
   uint roof = WT_NONE;
   if (string >= WT_STRINGS_AROUND + 2) {
     const uint which = (string - WT_STRINGS_AROUND) / 2 - 1;
@@ -35,7 +36,7 @@ inline int begin_string(const wt_edge_map* map, const wt_edge_map_arguments* gri
     for (uint i = 0; i < which; ++i)
       if (wt_share_roof(map->wedges + roof, map->wedges + over.wedges[i])) return 0;
   }
-  return over.count > 0 && wt_go_around(map, grid, a, b, roof, left, most, chain);
+  return over.count > 0 && wt_go_around(map, grid, a, b, roof, left, most, &straight, &over, along, chain);
 }
 
 // WT_STRINGS work-items for each pair of a transmitter and a receiver: a string that slips off the corners of a roof in

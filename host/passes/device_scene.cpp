@@ -13,7 +13,7 @@
 
 namespace wavetracer {
 
-SurfaceRecords surface_records(const Scene& scene, size_t more, const std::vector<bool>& opaque) {
+SurfaceRecords device_surfaces(const Scene& scene, size_t more, const std::vector<bool>& opaque) {
   SurfaceRecords out;
   for (const Surface& s : scene.surfaces) {
     wt_surface record{};
@@ -82,7 +82,7 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
     out.blocks8 = context.buffer(eight.blocks, {"BVH8 blocks", advice::scene});
     out.require_stack("WT_BVH8_STACK", 7 * eight.max_depth + 1);
   }
-  const SurfaceRecords records = surface_records(scene, 0, opaque);
+  const SurfaceRecords records = device_surfaces(scene, 0, opaque);
   out.surfaces = context.buffer(records.surfaces, {"surfaces", advice::scene});
   out.exact_surfaces = context.buffer(records.exact, {"exact surfaces", advice::scene});
   out.exact_triangles = context.buffer(surface_corners(scene), {"surface triangles", advice::scene});

@@ -54,11 +54,11 @@ struct SurfaceRecords {
 
 // The surfaces of a scene, and behind them room for `more` surfaces of instances, which place fills. opaque: for each
 // of all these, whether no wave passes it; empty where no kernel asks.
-SurfaceRecords surface_records(const Scene& scene, size_t more, const std::vector<bool>& opaque);
+SurfaceRecords device_surfaces(const Scene& scene, size_t more, const std::vector<bool>& opaque);
 
 // Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
 // coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
-// opaque: see surface_records(); flags behind those of the scene are left out.
+// opaque: see device_surfaces(); flags behind those of the scene are left out.
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m = 0,
                               const std::vector<bool>& opaque = {});
 

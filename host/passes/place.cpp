@@ -137,7 +137,7 @@ void Place::upload_surfaces(gpu::Context& context, const Scene& still, const std
   model_surfaces_ = context.buffer(records, "model surfaces");
   surface_instances_ = context.buffer(owners, "surface instances");
   scene.exact_triangles = context.buffer(corners, {"surface triangles", advice::scene});
-  const SurfaceRecords all = surface_records(still, surface_count_, opaque);
+  const SurfaceRecords all = device_surfaces(still, surface_count_, opaque);
   scene.surfaces = context.buffer(all.surfaces, "surfaces");
   scene.exact_surfaces = context.buffer(all.exact, "exact surfaces");
 }

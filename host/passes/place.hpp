@@ -76,7 +76,7 @@ struct PlacedScene {
 
 // The scene, which is that of `still`, with room for the surfaces of every instance, the models' trees, and the
 // definitions that kernels which trace it need. Surfaces of instances follow those of the static scene as
-// Instance::first_surface says. At least one instance. opaque: see surface_records().
+// Instance::first_surface says. At least one instance. opaque: see device_surfaces().
 inline PlacedScene with_instances(gpu::Context& context, DeviceScene scene, const Scene& still,
                                   const std::vector<Scene>& models, const std::vector<Instance>& instances,
                                   const std::vector<bool>& opaque = {}) {

@@ -77,6 +77,7 @@ class Ends {
     name_bodies();
   }
 
+  bool any_link() const { return !state_.links.empty(); }
   const Findings& transmitter(size_t i) const { return transmitters_[i].findings; }
   const Findings& receiver(size_t i) const { return receivers_[i].findings; }
 
@@ -151,13 +152,13 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
   }
 }
 
-void say_links(const Config& config, const World& world, std::vector<std::string>& out) {
+void say_links(const Config& config, const Ends& ends, const World& world, std::vector<std::string>& out) {
   if (!world.links.any_allowed())
     out.push_back(
         fmt::format("no link is computed: [links] allows none between the {} transmitters and the {} receivers; "
                     "look at v2v, v2i, i2i, same_vehicle, transmitters and receivers there",
                     world.transmitters.ends.size(), world.receivers.ends.size()));
-  else if (world.clock.frame_count() == 1 && !world.live && world.state(0).links.empty())
+  else if (world.clock.frame_count() == 1 && !world.live && !ends.any_link())
     out.push_back(
         fmt::format("no link is computed: no transmitter and receiver that [links] allows come within "
                     "links.max_distance_m = {:g} m of each other",
@@ -175,7 +176,7 @@ std::vector<std::string> place_warnings(const Config& config, const Surroundings
     if (mount.offset_m[2] < 0 && mount.node.empty())
       out.push_back(fmt::format("[[mount]] \"{}\": offset_m is {:.3g} m below the ground under its vehicle", mount.name,
                                 -mount.offset_m[2]));
-  say_links(config, world, out);
+  say_links(config, ends, world, out);
   if (!world.live) {
     std::vector<std::string> vehicles = vehicle_warnings(around, world);
     std::move(vehicles.begin(), vehicles.end(), std::back_inserter(out));

@@ -2,12 +2,15 @@
 // The parts of a setup, each made of the plan and of parts before it.
 #include "simulation/setup.hpp"
 
+#include <functional>
+
 #include "radio/carriers.hpp"
 #include "radio/constants.hpp"
 #include "scene/load.hpp"
 #include "scene/surface_sheets.hpp"
 #include "simulation/device_proof.hpp"
 #include "simulation/place_warnings.hpp"
+#include "simulation/scene_on_device.hpp"
 #include "simulation/tracing_depth.hpp"
 #include "simulation/tree_choice.hpp"
 
@@ -29,22 +32,12 @@ double longest_wavelength_m(const RadioConfig& radio) {
   return speed_of_light_m_s / std::ranges::min(carriers_hz(radio));
 }
 
-struct SceneOnDevice {
-  DeviceScene scene;
-  std::optional<InstancePlacement> placement;  // only if there are instances
-};
-
 // The scene with its instances where they are in the first frame.
 SceneOnDevice upload(gpu::Context& context, const RunPlan& plan) {
   const World& world = plan.world;
   const std::vector<bool> opaque = opaque_surfaces(plan);
   DeviceScene still = choose_tree(context, plan.scene, plan.trace, first_transmitters(world), world.reach_m, opaque);
-  if (world.fleet.instances.empty()) return {std::move(still), {}};
-  auto [scene, place] =
-      with_instances(context, std::move(still), plan.scene, world.fleet.models, world.fleet.instances, opaque);
-  InstancePlacement placement(context, std::move(place), world.fleet.instances.size());
-  placement.place(scene, world.state(0).instances);
-  return {std::move(scene), std::move(placement)};
+  return place_instances(context, std::move(still), plan.scene, world, opaque);
 }
 
 OrderChoice make_order(gpu::Context& context, const RunPlan& plan, const DeviceScene& scene) {

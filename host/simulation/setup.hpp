@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of a simulation: the plan of the run, and the objects that compute it on a device.
 #pragma once
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>

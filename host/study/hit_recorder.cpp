@@ -9,6 +9,7 @@
 #include "scene/load.hpp"
 #include "simulation/device_proof.hpp"
 #include "simulation/listeners.hpp"
+#include "simulation/scene_on_device.hpp"
 
 namespace wavetracer::study {
 namespace {
@@ -43,12 +44,9 @@ TracedWorld::TracedWorld(const Config& config, const std::string& device_text)
       on_device(make_device_scene(context, scene, false, world.reach_m)),
       device(summary(context.info())) {
   prove_device(context, {.instances = !world.fleet.instances.empty()});
-  if (world.fleet.instances.empty()) return;
-  auto [placed, place] =
-      with_instances(context, std::move(on_device), scene, world.fleet.models, world.fleet.instances);
+  auto [placed, places] = place_instances(context, std::move(on_device), scene, world);
   on_device = std::move(placed);
-  placement.emplace(context, std::move(place), world.fleet.instances.size());
-  placement->place(on_device, world.state(0).instances);
+  if (places) placement.emplace(std::move(*places));
 }
 
 Drive plan_drive(const TracedWorld& traced, uint32_t frames, uint32_t least, const std::string& where) {

@@ -171,16 +171,15 @@ inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 
   const wt_corner* corner = &bend->corner;
   const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * wt_bent(corner->exterior);
   const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
-  const double sines[2] = {fabs(wt_cos_sin(face == 0 ? in : corner->exterior - in).y),
-                           fabs(wt_cos_sin(face == 0 ? away : corner->exterior - away).y)};
+  const wt_double2 turns[2] = {wt_cos_sin(face == 0 ? in : corner->exterior - in),
+                               wt_cos_sin(face == 0 ? away : corner->exterior - away)};
   const double first = bend->legs_m[0] < WT_INFINITY ? bend->legs_m[0] / (bend->legs_m[0] + bend->legs_m[1]) : 0.5;
-  const double lit = bend->sine * (sines[0] * first + sines[1] * (1.0 - first));
+  const double lit = bend->sine * (fabs(turns[0].y) * first + fabs(turns[1].y) * (1.0 - first));
   wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
   for (int end = 0; end < 2; ++end) {
-    const double part = end == 0 ? share : 1.0 - share, azimuth = end == 0 ? in : away;
+    const double part = end == 0 ? share : 1.0 - share;
     if (part == 0.0) continue;
-    const wt_double2 shift =
-        spread * (wt_cos_sin(face == 0 ? azimuth : corner->exterior - azimuth).x / bend->legs_m[end]);
+    const wt_double2 shift = spread * (turns[end].x / bend->legs_m[end]);
     const wt_matrix wave = wt_reflected_wave(corner, end == 0 ? &bend->there : &bend->back, face, lit, shift);
     sum = wt_matrix_sum(sum, part, end == 0 ? wave : wt_other_way(wave));
   }
