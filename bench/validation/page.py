@@ -59,25 +59,27 @@ def edges_section(result):
         twos.append([f"{low:g} and {high:g}", len(rows), f"{np.median(off):+.2f}", f"{min(off):+.2f} to {max(off):+.2f}",
                      f"{between:.1f}", f"{min(theirs):+.2f} to {max(theirs):+.2f}"])
     return f"""## Edges
-Screens of metal hang in free space, and what arrives over their upper edges is compared with Recommendation ITU-R P.526-15: section 4.1 for one edge (the Fresnel integral, and its approximation), section 4.3 for two. `nu` is the parameter of section 4.1: 0 is grazing, positive is shadow; with two edges it is taken at each edge, from its end to the other edge. What section 4.3 approximates is the Fresnel integral over both half planes (L. E. Vogler, Radio Science 17, 1982), evaluated by quadrature here, so ours and P.526 are both compared with that. The recommendation does not know polarisation; "mean" is the mean of our losses with vertical and horizontal waves {measured(result)}.
+Metal screens hang in free space. The field that arrives over their upper edges is compared with Recommendation ITU-R P.526-15: section 4.1 for one edge (the Fresnel integral, and its approximation), section 4.3 for two. `nu` is the parameter of section 4.1: 0 is grazing, positive is shadow. With two edges it is taken at each edge, from its end to the other edge. Section 4.3 approximates the Fresnel integral over both half planes (L. E. Vogler, Radio Science 17, 1982). Here that integral is evaluated by quadrature, and the results of the program and of P.526 are both compared with it. The recommendation does not distinguish polarisations; "mean" is the mean of the program's losses with vertical and horizontal waves {measured(result)}.
 
 ![Losses over one edge and over two](figures/{EDGES})
 
-One edge, `nu` from -2 to 10, largest differences in dB:
+This table has the largest differences in dB for one edge, with `nu` from -2 to 10:
 
 {table(["", "mean, exact, nu to 3", "each wave", "mean, exact, nu 5 and 10", "each wave", "mean, P.526's approximation"], ones)}
 
-The mean follows the Fresnel integral. Waves that are vertical and horizontal part from each other where the angle of diffraction is large: that is physics of a conducting screen, which a scalar integral lacks.
+The mean follows the Fresnel integral. Vertical and horizontal waves differ from each other where the angle of diffraction is large. This is the physics of a conducting screen, and a scalar integral cannot show it.
 
-Two edges of one height, {len(double)} cases at 5.9 and 28 GHz, {min(row['b_m'] for row in double)} to {max(row['b_m'] for row in double)} m from each other, ours less the double integral in dB:
+The next table has two edges of one height, {len(double)} cases at 5.9 and 28 GHz, {min(row['b_m'] for row in double)} to {max(row['b_m'] for row in double)} m from each other. It shows the loss of the program minus the double integral, in dB:
 
 {table(["nu at the edges", "cases", "median of the mean", "range", "V and H apart, up to", "P.526 4.3 less the integral"], twos)}
 
-Two edges follow the integral to {max(abs(ours(row) - row["exact_db"]) for row in double):.2f} dB at most, grazing ones too, as each term of the one edge meets each of the other in that integral.
+With two edges, grazing ones included, the program differs from the integral by at most {max(abs(ours(row) - row["exact_db"]) for row in double):.2f} dB. It combines each term of one edge with each term of the other in that integral.
 
 **Solid bodies.** `./dev edges` compares blocks of metal and of lossy materials, corners, a car's roof and rows of screens with integral equations, a paraxial equation and Vogler's integral. Its tables are in [errors.md](../bench/validation/edges/errors.md).
 
-**Where ours is wrong.** Corners of lossy walls err by some dB where the source grazes the wall, and a wall of 1 cm where its top is seen from above at the angle of its mirror; errors.md has the worst of each set. Where an edge ends, its wave ends. On lines that go from deep shadow past the shadow of a corner of a metal plate (3 x 2 and 10 x 7 m, 1 to 6 GHz, ends 20 + 20 and 10 + 50 m from it), single edges are compared with Kirchhoff's integral, a product of two Fresnel integrals (`bench/validation/edges/plate.py`, the table in errors.md): the median error is 0.6 to 2 dB where the field is above -40 dB, but where the point of diffraction leaves the edge the field steps by up to 0.57 of that in free space, since right at the corner's shadow the truth is 3/4 and one edge alone has 1/2. A wave of the corner would mend that, and it is not in the program. Its reach is a Fresnel zone of the corner; paths over a house's roof and around its upright corners leave their edges there.
+**Where the program is wrong.** At corners of lossy walls it errs by some dB if the source grazes the wall. At a wall of 1 cm it errs if the top of the wall is seen from above at the angle of its mirror. errors.md has the worst case of each set.
+
+Where an edge ends, its wave ends. This was tested on lines that go from deep shadow past the shadow of a corner of a metal plate (3 x 2 and 10 x 7 m, 1 to 6 GHz, ends 20 + 20 and 10 + 50 m from it). Single edges are compared with Kirchhoff's integral, a product of two Fresnel integrals (`bench/validation/edges/plate.py`, the table in errors.md). The median error is 0.6 to 2 dB where the field is above -40 dB. But where the point of diffraction leaves the edge, the field steps by up to 0.57 of the field in free space: right at the shadow of the corner the exact value is 3/4, and one edge alone gives 1/2. A wave of the corner would correct this; the program has none. The error reaches as far as a Fresnel zone of the corner. Paths over the roof of a house and around its upright corners leave their edges there.
 """
 
 
@@ -93,23 +95,23 @@ def laws_section(result):
     back = result["reciprocity"]
     most = max(abs(orders[-1]["taken_w"] + orders[-1]["returns_w"] - 1) for orders in result["energy"].values())
     return f"""## Energy and reciprocity
-**A closed room.** 1 W is sent in an empty room of {' x '.join(f'{side:g}' for side in result['room_m'])} m. The flux that arrives at its walls is integrated by Gauss' rule over {result['receivers']} receivers 1 mm in front of them, for every number of reflections before. What the walls take is that flux times 1 - abs(R)^2 with reflectances that the script computes itself (ITU-R P.2040-3, section 2.2.2); R is never asked of the program. All of it together is what was sent, to {most:.2%} {measured(result)}.
+**A closed room.** A transmitter sends 1 W in an empty room of {' x '.join(f'{side:g}' for side in result['room_m'])} m. For every number of reflections, Gauss' rule integrates the flux that arrives at the walls over {result['receivers']} receivers 1 mm in front of them. The walls absorb that flux times 1 - abs(R)^2. The script computes the reflectances R itself (ITU-R P.2040-3, section 2.2.2), and does not ask the program for them. The sum of all absorbed power equals the sent power to {most:.2%} {measured(result)}.
 
-{table(["walls", "arrives directly, W", "after one reflection", "still under way after the last", "taken by the walls", "taken and under way", "reflected power, ours to theirs, worst order"], rows)}
+{table(["walls", "arrives directly, W", "after one reflection", "still under way after the last", "absorbed by the walls", "absorbed and under way", "reflected power of the program against the script, worst order"], rows)}
 
-**Ends swapped.** {back["links"]} links of a generated city with reflection, diffraction, transmission and scattering, up to three interactions, patterns of TR 38.901 with two polarisations that look anywhere; then the same with every receiver as a transmitter. {back["common"]:,} paths of {back["paths"]:,} and {back["paths_back"]:,} are found both ways; of them the coefficients between all ports differ by at most {back["worst_of_amplitude"]:.0e} of the largest, and delays by {back["worst_delay_s"] * 1e9:.0e} ns. What one way alone has found is what rays have missed, and has {back["lost_share"]:.0e} of the power. Where a radio sends and receives, links get the paths of both ways ([architecture.md](architecture.md#moving-worlds)).
+**Ends swapped.** The program computed {back["links"]} links of a generated city with reflection, diffraction, transmission and scattering, up to three interactions, and antenna patterns of TR 38.901 with two polarisations in any orientation. Then every receiver became a transmitter, and every transmitter a receiver. {back["common"]:,} paths of {back["paths"]:,} and {back["paths_back"]:,} are found both ways. Their coefficients between all ports differ by at most {back["worst_of_amplitude"]:.0e} of the largest, and their delays by {back["worst_delay_s"] * 1e9:.0e} ns. Rays have missed the paths that only one way has found; these have {back["lost_share"]:.0e} of the power. Where a radio sends and receives, links get the paths of both ways ([architecture.md](architecture.md#moving-worlds)).
 """
 
 
 HEAD = """# Validation
-How the program compares with what others have published: recommendations, models fitted to measurements, and laws of physics. Generated by `./dev validation` from `bench/validation`, do not edit: every number below is computed. What is exact by construction and what is sampled is in [method.md](method.md).
+This page compares the program with published recommendations, with models that were fitted to measurements, and with laws of physics. It has [no comparison with measured channels](#measurement-campaigns). `./dev validation` generates the page from `bench/validation` and computes every number in it, so do not edit the page. [method.md](method.md#what-is-exact-and-what-is-sampled) says what is exact by construction and what is sampled.
 
-The documents of the ITU and of 3GPP were not at hand. Their formulas are those of transcriptions, which the files in `bench/validation` name beside each formula; the test `validation_models` holds them to values that others have computed.
+The documents of the ITU and of 3GPP were not at hand. The formulas come from transcriptions, which the files in `bench/validation` name beside each formula. The test `validation_models` compares the formulas with values that others have computed.
 """
 
 
 CAMPAIGNS = """## Measurement campaigns
-Whoever has the files of a campaign compares them in one command. It prints per route the number of points, how many have a path, the offset (the mean of measured less computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so levels are compared up to the offset; a path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes some.
+If you have the files of a campaign, one command compares them with computed channels. It prints for each route the number of points, how many have a path, the offset (the mean of measured minus computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so only the levels relative to the offset are compared. A path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes one point of N.
 
 ```sh
 python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv
@@ -123,9 +125,9 @@ python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.tom
 | Berlin V2X, sidelink, 5.9 GHz | `sidelink_dataframe.parquet`, written as CSV by pandas (`to_csv`) | columns `Latitude_source`, `Longitude_source`, `Latitude_destination`, `Longitude_destination`, `Source`, `Destination`, `Scenario` and a level, `--level RSRP`, `RSSI` or `SNR`; a route per scenario and pair of cars |
 | FLOURISH, Bristol, 5.9 GHz | `NAME_RxCAM_HP.log` with `NAME_tcpDump_HP.log` beside it, as the authors' scripts grep them (github.com/v2x-dev/ITS-G5_trials) | places of receivers and levels, joined by the sender's address and the number of the message; a route per sender |
 
-The map is not part of a campaign's files: the head of each configuration in `configs/measurements` says how to make it, and has the heights of antennas. Where both ends have degrees, every row is a frame of its own, with a vehicle of the type `sender` and one of the type `receiver`; bodies are those of the configuration, and look east, because headings are not read.
+The files of a campaign contain no map. The head of each configuration in `configs/measurements` says how to make the map, and has the heights of the antennas. If both ends have positions in degrees, every row becomes a frame, with a vehicle of the type `sender` and one of the type `receiver`. The configuration defines the bodies of these vehicles. They look east, because headings are not read.
 
-**None of these files was at hand, so no number is claimed here.** The readers were written after the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which name the fields that they take by their places. These do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line; rows that say that they have no position or level are left out and counted.
+**None of these files was at hand, so this page claims no number.** The readers follow the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which identify the fields by their places. These scripts do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line. Rows that state that they have no position or level are left out and counted.
 """
 
 

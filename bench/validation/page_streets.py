@@ -72,8 +72,8 @@ def loss_table(result):
         rows.append([of(row) + (", with traffic" if row["variant"] == "traffic" else ""), f"{row['links']:,}",
                      f"{row['heard'] / row['links']:.0%}", f"{row['weak'] / row['links']:.0%}", *loss_cells(row),
                      f"{also['heard'] / also['links']:.0%}: {also['loss'][0]['median_db']:+.1f}" if also and also["loss"] else ""])
-    return table(["links", "number", "with a path", "above 150 dB or none", "less P.1411, 4.1.1, dB", "less 3GPP, dB",
-                  "without diffraction: with a path, less P.1411"], rows)
+    return table(["links", "number", "with a path", "above 150 dB or none", "minus P.1411, 4.1.1, dB", "minus 3GPP, dB",
+                  "without diffraction: with a path, minus P.1411"], rows)
 
 
 def spread_cell(values, unit):
@@ -107,7 +107,7 @@ def corner_table(result):
 
         rows.append([f"{ghz(row)} GHz, {row['from_m']} to {row['to_m']} m beyond the crossing", row["links"], cell(row),
                      f"{bare['heard'] / max(1, bare['links']):.0%}: {cell(bare)}"])
-    return table(["links", "number", "less P.1411, 4.1.3.2, dB", "without diffraction: with a path, less P.1411"], rows)
+    return table(["links", "number", "minus P.1411, 4.1.3.2, dB", "without diffraction: with a path, minus P.1411"], rows)
 
 
 def cause_table(result):
@@ -115,7 +115,7 @@ def cause_table(result):
     for what in dict.fromkeys(row["what"] for row in result["causes"]):
         both = [row for row in result["causes"] if row["what"] == what]
         rows.append([what, both[0]["links"], *(f"{row['median_db']:+.1f}; {row['mean_db']:+.1f}" for row in both)])
-    return table(["more of", "hidden links", "5.9 GHz, median; mean, dB", "28 GHz"], rows)
+    return table(["change", "hidden links", "5.9 GHz, median; mean, dB", "28 GHz"], rows)
 
 
 def bounds_table(result):
@@ -128,8 +128,8 @@ def bounds_table(result):
         rows.append([f"{row['where']}, {KINDS[row['kind']]}, {row['side']} {row['breakpoint_m']:.0f} m", row["links"]]
                     + [cell for each in (row, fields) for cell in
                        (f"{each['below']:.0%}", f"{each['above']:.0%}", f"{each['from_median_db']:+.1f}")])
-    return table(["links", "number", "powers: below", "above", "less the median, dB", "fields: below", "above",
-                  "less the median, dB"], rows)
+    return table(["links", "number", "powers: below", "above", "minus the median, dB", "fields: below", "above",
+                  "minus the median, dB"], rows)
 
 
 def span(values, form="+.1f", unit=" dB"):
@@ -172,40 +172,40 @@ def section(result):
               for where in dict.fromkeys(row["where"] for row in result["classes"])}
     trace = result["trace"]
     return f"""## Streets
-Ten generated cities (`--seed 1` to `10`, blocks of 80 m, streets of 20 m, 3 to 9 storeys) and, where its files are, the centre of Munich. Links of two kinds, up to {result["far_m"]:g} m long: from masts of 10 m down to 1.5 m, and between vehicles with antennas at 1.6 m; both at 5.9 and at 28 GHz ({", ".join(f"{where}: {count:,}" for where, count in counts.items())}, each carrier counted). Vehicles in the cities are those of `--vehicles 200`: cars, vans and trucks. Up to {trace["max_depth"]} interactions, at most one of them diffraction; no scattering, no trees {measured(result)}.
+The scenes are ten generated cities (`--seed 1` to `10`, blocks of 80 m, streets of 20 m, 3 to 9 storeys) and, if its files are present, the centre of Munich. There are two kinds of links, up to {result["far_m"]:g} m long: from masts of 10 m down to 1.5 m, and between vehicles with antennas at 1.6 m. Both are computed at 5.9 and at 28 GHz ({", ".join(f"{where}: {count:,}" for where, count in counts.items())} links, each carrier counted). The vehicles in the cities are those of `--vehicles 200`: cars, vans and trucks. Paths have up to {trace["max_depth"]} interactions, at most one of them diffraction. There is no scattering, and there are no trees {measured(result)}.
 
-Path loss is the sum of the powers of all paths between vertical isotropic antennas. It stands beside the site-general model of ITU-R P.1411-12 (4.1.1, urban high-rise) and, for masts, UMi street canyon of 3GPP TR 38.901 (Table 7.4.1-1), for vehicles TR 37.885, urban (Table 6.2.1-1). (P.1411 has coefficients of low-rise cities without sight from 10 GHz on alone, so high-rise stands for all.) Cells are the median of ours less theirs, in brackets the standard deviation of that and the one that the model states. Hidden links count from 30 m on, where P.1411 begins; those without any path are left out of the medians, and counted.
+Path loss is computed from the sum of the powers of all paths between vertical isotropic antennas. It is compared with the site-general model of ITU-R P.1411-12 (4.1.1, urban high-rise). Links from masts are also compared with UMi street canyon of 3GPP TR 38.901 (Table 7.4.1-1), and links between vehicles with TR 37.885, urban (Table 6.2.1-1). (P.1411 has coefficients of low-rise cities without sight only from 10 GHz on, so the table uses high-rise throughout.) Each cell has the median of the program's loss minus the model's loss. The brackets have the standard deviation of that difference, and the deviation that the model states. Hidden links count from 30 m on, where P.1411 begins. Links without any path are left out of the medians, and counted.
 
 ![Path loss over distance](figures/{LOSS})
 
 {loss_table(result)}
 
-Points of the figure are medians of ours in the ten cities, bars reach from the 10th to the 90th of 100 links, those without a path counting as infinite.
+The points of the figure are the program's medians in the ten cities. Bars reach from the 10th to the 90th of 100 links, where links without a path count as infinite loss.
 
-**Two slopes.** Links in sight at 5.9 GHz beside the bounds of P.1411, 4.1.2, which meet at the breakpoint 4 h1 h2 / wavelength. Beyond it the ground's reflection takes from the direct wave, which the sum of fields shows (`narrowband_gain_db` of [links.csv](formats.md#linkscsv)) and a sum of powers cannot. Between vehicles beyond the breakpoint both stay below the lower bound: what the ground takes, smooth walls carry on.
+**Two slopes.** This table compares links in sight at 5.9 GHz with the bounds of P.1411, 4.1.2, which meet at the breakpoint 4 h1 h2 / wavelength. Beyond the breakpoint the reflection off the ground weakens the direct wave. The sum of fields shows this (`narrowband_gain_db` of [links.csv](formats.md#linkscsv)); a sum of powers cannot. Between vehicles beyond the breakpoint both sums stay below the lower bound, because smooth walls carry power past the loss at the ground.
 
 {bounds_table(result)}
 
-**Around a corner.** Links of masts in the ten cities whose ends are in streets that cross, beside P.1411, 4.1.3.2 (one corner, urban, wedges):
+**Around a corner.** This table compares links from masts in the ten cities, with the ends in two streets that cross, with P.1411, 4.1.3.2 (one corner, urban, wedges):
 
 {corner_table(result)}
 
-**Behind vehicles.** What only vehicles hide: {behind}. TR 37.885, 6.2.1, adds a mean of {stated} dB, by the height of what is in between, with a sigma of 4 to 4.5 dB.
+**Behind vehicles.** Where only vehicles hide a link, they add this loss (median; standard deviation in brackets): {behind}. TR 37.885, 6.2.1, adds a mean of {stated} dB, by the height of the vehicle in between, with a sigma of 4 to 4.5 dB.
 
-**Spreads.** Medians; in brackets the sigma of log10 (ours: half of what is between the 16th and the 84th of 100 links). Paths 25 dB below the strongest do not count. 3GPP is Table 7.5-6 of TR 38.901 for masts, Table 6.2.3-1 of TR 37.885 for vehicles.
+**Spreads.** The table has medians, and in brackets the sigma of log10 (for the program: half of the range between the 16th and the 84th of 100 links). Paths 25 dB below the strongest do not count. The columns "3GPP" are Table 7.5-6 of TR 38.901 for masts, and Table 6.2.3-1 of TR 37.885 for vehicles.
 
 {spread_table(result)}
 
 ### Where they disagree, and why
-**In sight** the medians of ours less theirs are {span(medians(result, "los", 0))} for P.1411 and {span(medians(result, "los", 1))} for 3GPP, with less deviation than the models state. P.1411 is nearly free space here; ours has that and the power of every reflection off flat, bare ground and flat walls, with nothing in front of them. The models are fitted to streets where much that no map has grazes the direct wave, and, between low antennas, to the breakpoint (above).
+**In sight** the medians of the differences (program minus model) are {span(medians(result, "los", 0))} for P.1411 and {span(medians(result, "los", 1))} for 3GPP, with less deviation than the models state. P.1411 is nearly free space here. The program adds the power of every reflection off flat, bare ground and flat walls, with nothing in front of them. The models are fitted to streets where many objects that no map has graze the direct wave, and, between low antennas, to the breakpoint (above).
 
-**Hidden**, with diffraction, they are {span(medians(result, "nlos", 0))} for P.1411, more at 28 GHz than at 5.9, with {span([row["loss"][0]["sigma_db"] / row["loss"][0]["stated_sigma_db"] for row in chosen(result, "with", ("nlos",))], ".1f", "")} times its sigma. Little of it is for want of depth or of second edges. In the first city, more of the physics changes hidden links from masts by:
+**Hidden** links with diffraction have medians of {span(medians(result, "nlos", 0))} for P.1411, with more at 28 GHz than at 5.9, and {span([row["loss"][0]["sigma_db"] / row["loss"][0]["stated_sigma_db"] for row in chosen(result, "with", ("nlos",))], ".1f", "")} times its sigma. More depth or second edges explain little of this. The next table shows how the loss of hidden links from masts in the first city changes when more mechanisms are computed:
 
 {cause_table(result)}
 
-The probable cause is what is not in the map. Vehicles alone change the medians of hidden links between vehicles by {span(traffic_effect(result))} (the rows with traffic), and rough walls help at 28 GHz, although the program scatters only once and not after a reflection. The cities have neither balconies, signs, lamp posts nor trees, and their corners are sharp: around such a corner edges alone carry power, and lose with frequency what scatterers would keep. Nor do models know losses that receivers cannot hear, some 150 dB; the column above says how much of ours is beyond. This was not proved here: it takes measurements, in a map of the same place (below). Until then, take the power of hidden links of a bare map for an estimate from below. Give materials `scattering` where they matter.
+The probable cause is that objects are missing in the map. Vehicles alone change the medians of hidden links between vehicles by {span(traffic_effect(result))} (the rows with traffic). Rough walls help at 28 GHz, although the program scatters only once and not after a reflection. The cities have neither balconies, signs, lamp posts nor trees, and their corners are sharp. Around such a corner only edges carry power, and edges lose more with frequency than scatterers would. The models also do not include losses above some 150 dB, which receivers cannot hear; the table of path loss says how many of the program's links are beyond. This explanation is not proved: that needs measurements, and a map of the same place (below). Until then, take the power of hidden links of a bare map as a lower estimate. Give materials `scattering` where it matters.
 
-**Without diffraction** few hidden links have a path, and those are the good ones: their medians lose less than the models, and are no comparison.
+**Without diffraction** few hidden links have a path, and these are the strongest ones. Their medians lose less than the models, and cannot be compared with them.
 
-**Spreads.** Of the classes with diffraction and without traffic, the median delay spread is within one sigma of the model in {within(result, "ds")}, that of azimuths of arrival in {within(result, "asa")}, of departure in {within(result, "asd")}. TR 37.885 states a sigma of 0.1 in sight, which cities that differ as these cannot meet. In sight in the generated cities delay spreads are {span(shares(result, "ten cities", "los", ["ds"]), ".2f", "")} and azimuths of arrival {span(shares(result, "ten cities", "los", ["asa"]), ".2f", "")} times the models': in a canyon of smooth walls the direct wave outshines its echoes, and none comes from near the terminal. Vehicles around lengthen both (rows with traffic).
+**Spreads.** Among the classes with diffraction and without traffic, the median delay spread is within one sigma of the model in {within(result, "ds")}, the spread of azimuths of arrival in {within(result, "asa")}, and that of departure in {within(result, "asd")}. TR 37.885 states a sigma of 0.1 in sight. Cities that differ as much as these cannot meet it. In sight in the generated cities, delay spreads are {span(shares(result, "ten cities", "los", ["ds"]), ".2f", "")} times the models' values, and azimuths of arrival {span(shares(result, "ten cities", "los", ["asa"]), ".2f", "")} times. The reason is a canyon of smooth walls: the direct wave is much stronger than its echoes, and no echo comes from near the terminal. Vehicles in the street increase both (rows with traffic).
 """
