@@ -209,10 +209,10 @@ void add_convert(CLI::App& program) {
   command->add_option("--to", options->format, "Format of a run: " + formats_in_words());
   command->add_option("-o,--output", options->output, "File or folder to write; which of them depends on the format");
   command->add_option("--frames", options->frames, "Frames of the run: A:B, A:, :B or A; all frames if not given");
-  command->add_option("--projection", options->projection,
-                      "PROJ string: for kml and osi, of the scene's coordinates, if there is no georeference.json "
-                      "that contains it; for a map, of the coordinates that the scene shall have, "
-                      "instead of metres about its middle");
+  command->add_option(
+      "--projection", options->projection,
+      "PROJ string. For kml and osi: the coordinates of the scene, if no georeference.json contains them. "
+      "For a map: the coordinates that the scene shall have, instead of metres about its middle");
   command->add_flag("--list", options->list, "List the formats for --to");
   add_map_options(*command, *options);
   command->callback([options] {

@@ -26,7 +26,7 @@ Table trace_table() {
            .slot = t(&TraceConfig::recall),
            .range = {0, 1, true},
            .doc = "Only with rays = \"auto\": the share of all paths that must be found. "
-                  "It is estimated from what only one ray has met (Good-Turing estimate). "
+                  "It is estimated from the sequences that only one ray has met (Good-Turing estimate). "
                   "The last percent costs more rays than all before it."},
           {.name = "max_rays",
            .slot = t(&TraceConfig::max_rays),
@@ -131,7 +131,7 @@ Table trace_table() {
           {.name = "seed",
            .slot = t(&TraceConfig::seed),
            .range = {0, 9223372036854775807.0},
-           .doc = "Only with directions = \"random\": the seed of the random numbers."},
+           .doc = "The seed of directions = \"random\", and of the random phases of scattered paths."},
           {.name = "reception",
            .slot = t(&TraceConfig::reception),
            .doc = "exact: rays only find surfaces, and paths are computed by the image method. "
@@ -170,7 +170,7 @@ Table order_table() {
               {.name = "method",
                .slot = o(&OrderConfig::method),
                .doc = "The method, by its plain name or its mnemonic. none: no sorting; "
-                      "with trace.directions = \"hilbert\" rays are launched in a good order already. "
+                      "with trace.directions = \"horizon\" or \"hilbert\" rays are launched in a good order already. "
                       "direction-origin: by direction first, "
                       "then by origin; use it with each_depth. auto: the fastest method, "
                       "found by a short measurement that is kept for later runs."},

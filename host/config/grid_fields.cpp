@@ -9,13 +9,14 @@ namespace {
 constexpr auto of_grid = [](auto member) { return at(&Config::receiver_grids, member); };
 
 Field grid_border(std::string name, std::optional<double> ReceiverGridConfig::*member, const std::string& side,
-                  std::string example) {
-  return {.name = std::move(name),
-          .slot = of_grid(member),
-          .unit = "m",
-          .range = places,
-          .doc = side + " border of the grid, in the coordinates of the scene file. Not given: that of the scene.",
-          .example = std::move(example)};
+                  std::string example, const std::string& more = "") {
+  return {
+      .name = std::move(name),
+      .slot = of_grid(member),
+      .unit = "m",
+      .range = places,
+      .doc = side + " border of the grid, in the coordinates of the scene file. Not given: that of the scene." + more,
+      .example = std::move(example)};
 }
 
 Field grid_corner(std::string name, std::optional<std::array<double, 2>> ReceiverGridConfig::*member, std::string doc,
@@ -47,14 +48,14 @@ Table receiver_grid_table() {
               grid_border("x_min_m", &ReceiverGridConfig::x_min_m, "Western", "-100.0"),
               grid_border("x_max_m", &ReceiverGridConfig::x_max_m, "Eastern", "100.0"),
               grid_border("y_min_m", &ReceiverGridConfig::y_min_m, "Southern", "-100.0"),
-              grid_border("y_max_m", &ReceiverGridConfig::y_max_m, "Northern (y_max_m = y_min_m gives a single row)",
-                          "100.0"),
-              grid_corner("south_west_wgs84", &ReceiverGridConfig::south_west_wgs84,
-                          "Instead of x_min_m and y_min_m: latitude and longitude (WGS84) of that corner, "
-                          "which need a georeference.json beside the scene file (`wavetracer convert` writes one). "
-                          "The borders run along x and y of the scene all the same, and height_m is measured "
-                          "from what `above` says.",
-                          "[48.136, 11.573]"),
+              grid_border("y_max_m", &ReceiverGridConfig::y_max_m, "Northern", "100.0",
+                          " y_max_m = y_min_m gives a single row."),
+              grid_corner(
+                  "south_west_wgs84", &ReceiverGridConfig::south_west_wgs84,
+                  "Instead of x_min_m and y_min_m: latitude and longitude (WGS84) of that corner, "
+                  "which need a georeference.json beside the scene file (`wavetracer convert` writes one). "
+                  "The borders still run along x and y of the scene, and `above` says from where height_m is measured.",
+                  "[48.136, 11.573]"),
               grid_corner("north_east_wgs84", &ReceiverGridConfig::north_east_wgs84,
                           "Instead of x_max_m and y_max_m: latitude and longitude of that corner.", "[48.138, 11.577]"),
               {.name = "step_m",

@@ -19,7 +19,7 @@ Table live_table() {
            .range = {0, 1e5},
            .doc =
                "The largest distance of vehicles from the bounding box of the scene, in x, y and z. Farther outside, "
-               "float32 arithmetic would make ray tracing less accurate for all."},
+               "float32 arithmetic would make ray tracing less accurate for all clients."},
           {.name = "max_clients",
            .slot = l(&LiveConfig::max_clients),
            .range = {1, 1000},
@@ -29,7 +29,7 @@ Table live_table() {
            .slot = l(&LiveConfig::max_strangers),
            .range = {1, 1000},
            .doc = "The largest number of connections that have not said hello yet. When one more arrives, the one "
-                  "that has waited longest is closed, so that silent connections keep nobody out."},
+                  "that has waited longest is closed, so that silent connections cannot keep clients out."},
           {.name = "max_message_bytes",
            .slot = l(&LiveConfig::max_message_bytes),
            .unit = "bytes per line",

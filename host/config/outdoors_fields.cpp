@@ -16,8 +16,9 @@ Table air_table() {
                .slot = a(&AirConfig::rain_mm_h),
                .unit = "mm/h",
                .range = {0, 250},
-               .doc = "Rain rate. Specific attenuation by ITU-R P.838-3, of vertical and horizontal waves apart, "
-                      "by the elevation of each leg; from 1 GHz on. 5 is steady rain, 25 heavy rain, "
+               .doc = "Rain rate. The specific attenuation is that of ITU-R P.838-3, from 1 GHz on. It depends on the "
+                      "elevation of each leg, and is different for vertical and horizontal waves. "
+                      "5 is steady rain, 25 heavy rain, "
                       "100 a cloudburst."},
               {.name = "fog_g_m3",
                .slot = a(&AirConfig::fog_g_m3),

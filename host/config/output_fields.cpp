@@ -39,9 +39,10 @@ Table output_table() {
            .slot = o(&OutputConfig::min_gain_db),
            .unit = "dB",
            .range = {-1000, 1000},
-           .doc = "Weaker paths are left out of paths.h5. What this key and the next two leave out is counted, "
-                  "with its power, in links.csv and summary.json; all other numbers in these files are "
-                  "for all paths. Not given: no limit."},
+           .doc =
+               "Weaker paths are left out of paths.h5. links.csv and summary.json have the number and the power of the "
+               "paths that this key and the next two leave out; all other numbers in these files are "
+               "for all paths. Not given: no limit."},
           {.name = "dynamic_range_db",
            .slot = o(&OutputConfig::dynamic_range_db),
            .unit = "dB",

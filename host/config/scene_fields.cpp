@@ -190,7 +190,7 @@ Table material_table() {
                    .unit = "m",
                    .range = {0, infinity, true},
                    .doc = "Thickness of the slab; inf is a half space, "
-                          "and so is what is thicker than 2^44 radians. "
+                          "and so is a slab thicker than 2^44 radians. "
                           "Not given: the thickness in the scene file, or 0.1 m if it has none.",
                    .example = "0.3"},
                   {.name = "scattering",
@@ -207,8 +207,8 @@ Table material_table() {
                    .range = {0, 50},
                    .doc = "Exponent of the scattering lobe around the specular direction, an integer; "
                           "4 is usual for walls. 0: no lobe, scattering by Lambert's law, "
-                          "which sends all of the share S^2. A lobe sends less of it, so that it is the same there "
-                          "and back: with 4 it sends 77, 80, 82 and 91 % at 0, 45, "
+                          "which sends all of the share S^2. A lobe sends less of it, so that both directions "
+                          "of a path are alike: with 4 it sends 77, 80, 82 and 91 % at 0, 45, "
                           "60 and 80 degrees of incidence (docs/limits.md).",
                    .example = "4"},
                   {.name = "scattering_cross_polar",

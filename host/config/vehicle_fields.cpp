@@ -169,8 +169,7 @@ Table vehicle_type_table() {
             .range = {0, 1000},
             .none = "0",
             .doc = std::move(along) +
-                   ". 0: the size of the mesh file, or else the size of SUMO's vehicle class of this name., "
-                   "else that of SUMO's vehicle class of this name."};
+                   ". 0: the size of the mesh file, or else the size of SUMO's vehicle class of this name."};
   };
   return {.name = "vehicle_type",
           .doc =
@@ -231,7 +230,7 @@ Table parked_table() {
                           "type, in the coordinates of the scene file."},
                   {.name = "type",
                    .slot = p(&ParkedConfig::type),
-                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO; of places that name none."},
+                   .doc = "A [[vehicle_type]], or a vehicle class of SUMO, for places that name none."},
                   {.name = "mounts",
                    .slot = p(&ParkedConfig::mounts),
                    .doc = "true: [[mount]] puts antennas on them, too. Normally the radios of parked cars are off."},
