@@ -93,12 +93,12 @@ std::string difference_row(const Material& law, double ghz, LargestChange& most)
 }
 
 constexpr const char* head = R"(# Radio materials
-The materials that scenes may name: those of Recommendation ITU-R P.2040, Table 3. This page is made by `wavetracer documentation --materials`; [scenarios.md](scenarios.md#materials) says how they are used.
+This page lists the materials that scenes may name: those of Recommendation ITU-R P.2040, Table 3, and some for vehicles and people. `wavetracer documentation --materials` makes the page; [scenarios.md](scenarios.md#materials) says how to use materials.
 
-`scene.itu_edition` chooses the edition: `P.2040-4` (09/2025, the default) or `P.2040-3` (08/2023). **At the carriers of vehicles they do not differ:** every law of P.2040-3 is in P.2040-4 with the same values and the same range. What P.2040-4 adds are four materials (`clear_acrylic`, `vinyl_tile`, `carpet_tile`, `asphalt_concrete`) and laws above 100 GHz. ITU's document itself was not at hand: the values are those of two transcriptions of Table 3 that agree in every number, in the sources of Sionna RT (`src/sionna/rt/radio_materials/itu.py`, its pull request 70) and of DiffeRT (`differt/src/differt/em/_material.py`).
+`scene.itu_edition` chooses the edition: `P.2040-4` (09/2025, the default) or `P.2040-3` (08/2023). **At the carriers of vehicles they do not differ:** every law of P.2040-3 is in P.2040-4 with the same values and the same range. P.2040-4 adds four materials (`clear_acrylic`, `vinyl_tile`, `carpet_tile`, `asphalt_concrete`) and laws above 100 GHz. The document of the ITU was not at hand: the values are those of two transcriptions of Table 3 that agree in every number, in the sources of Sionna RT (`src/sionna/rt/radio_materials/itu.py`, its pull request 70) and of DiffeRT (`differt/src/differt/em/_material.py`).
 
 ## Laws
-Relative permittivity a f^b and conductivity c f^d in S/m, f in GHz. The last columns are what that is at 5.9 GHz, with the reflection of a half space at normal incidence. Where two laws of a name hold one frequency, that of the narrower range is used, and a warning says so.
+The table has the relative permittivity a f^b and the conductivity c f^d in S/m, with f in GHz. The last columns have their values at 5.9 GHz, and the reflection of a half space at normal incidence. If two laws of one name are valid at a frequency, the program uses the law with the narrower range, and a warning says so.
 
 | material | known from | permittivity | conductivity, S/m | edition | permittivity at 5.9 GHz | S/m at 5.9 GHz | reflected, dB |
 | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -106,19 +106,19 @@ Relative permittivity a f^b and conductivity c f^d in S/m, f in GHz. The last co
 
 constexpr const char* difference = R"(
 ## Where the editions differ
-At {0:g} GHz P.2040-3 knows none of these materials: a run stops with an error that names them. With `scene.extrapolate_materials = true` it carries on the law that was measured nearest to that frequency, which is what the columns on the right show. The columns are permittivity, conductivity in S/m, reflection of a half space at normal incidence in dB, and loss inside of the material in dB per cm.
+At {0:g} GHz P.2040-3 knows none of these materials: a run stops with an error that names them. With `scene.extrapolate_materials = true` the run continues the law that was measured nearest to that frequency; the columns on the right show its values. The columns are permittivity, conductivity in S/m, reflection of a half space at normal incidence in dB, and loss inside of the material in dB per cm.
 
-| at {0:g} GHz | P.2040-4 | S/m | reflected, dB | dB/cm | P.2040-3, carried on | S/m | reflected, dB | dB/cm |
+| at {0:g} GHz | P.2040-4 | S/m | reflected, dB | dB/cm | P.2040-3, continued | S/m | reflected, dB | dB/cm |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 )";
 
 constexpr const char* foot = R"(
-So much may a law err that is carried on: by up to {:.1f} dB in reflection (`{}`), and by a factor of up to {:.0f} in loss (`{}`). The three kinds of ground are not known above 10 GHz in either edition, and metal not above 100 GHz.
+A law that is continued beyond its range may err by this much: by up to {:.1f} dB in reflection (`{}`), and by a factor of up to {:.0f} in loss (`{}`). The three kinds of ground are not known above 10 GHz in either edition, and metal not above 100 GHz.
 )";
 
 constexpr const char* vehicles = R"(
 ## Vehicles and people
-Bodies of vehicles may name these besides; a `[[material]]` of the same name changes them, as it changes those above. They are slabs of the thickness given, `human_skin` is a half space. The reflection of `human_skin` at normal incidence is within 0.13 dB of that of its source's model.
+Bodies of vehicles may also name these materials. A `[[material]]` of the same name changes them, as it changes those above. They are slabs of the given thickness; `human_skin` is a half space. The reflection of `human_skin` at normal incidence is within 0.13 dB of the model in its source.
 
 | material | known from | permittivity | conductivity, S/m | thickness, m | permittivity at 5.9 GHz | S/m at 5.9 GHz | reflected, dB | source |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
