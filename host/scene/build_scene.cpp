@@ -13,12 +13,11 @@
 
 #include "scene/covered_faces.hpp"
 #include "scene/earlier_faces.hpp"
-#include "scene/flatten_scene.hpp"
+#include "scene/flatten.hpp"
 #include "scene/scene_wedges.hpp"
 #include "scene/thin_walls.hpp"
 #include "scene/topology.hpp"
 #include "scene/unit_check.hpp"
-#include "scene/vertex_use.hpp"
 #include "scene/volume_overlaps.hpp"
 #include "scene/volumes.hpp"
 #include "scene/weld.hpp"

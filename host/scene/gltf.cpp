@@ -13,7 +13,7 @@
 
 #include "base/json_whole.hpp"
 #include "scene/gltf_data.hpp"
-#include "scene/gltf_extensions.hpp"
+#include "scene/gltf_file.hpp"
 #include "scene/gltf_meshes.hpp"
 #include "wavetracer/error.hpp"
 

@@ -19,7 +19,7 @@
 #include <set>
 
 #include "scene/gltf.hpp"
-#include "scene/gltf_extensions.hpp"
+#include "scene/gltf_file.hpp"
 #include "scene/obj_check.hpp"
 #include "wavetracer/error.hpp"
 

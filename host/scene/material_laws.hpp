@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials of Recommendation ITU-R P.2040, Table 3: laws by name, edition and frequency range. The ranges are
-// those that the laws were measured in.
+// The laws of materials by name: those of Recommendation ITU-R P.2040, Table 3, by edition and frequency range, and
+// those of vehicles and people, which the recommendation does not have. The ranges are those that the laws were
+// measured in, or that their sources give.
 #pragma once
 #include <optional>
 #include <string>
@@ -37,5 +38,19 @@ std::string ranges_in_words(ItuEdition edition, std::string_view name);
 
 // Returns all names, separated by commas.
 std::string itu_names(ItuEdition edition);
+
+struct VehicleMaterial {
+  Material law;
+  const char* source;  // source of its values
+};
+
+// Returns all laws, grouped by name; ranges of one name touch but do not overlap.
+const std::vector<VehicleMaterial>& vehicle_materials();
+
+// Returns all names, separated by commas.
+std::string vehicle_material_names();
+
+// Works as find_itu_law().
+std::optional<ItuLaw> find_vehicle_law(std::string_view name, double frequency_ghz);
 
 }  // namespace wavetracer
