@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes are visited depth first, parents before children. A mesh of several primitives becomes several meshes, and so
 // do instances (EXT_mesh_gpu_instancing).
-#include "scene/gltf.hpp"
+#include "scene/model.hpp"
 
 #include <fmt/format.h>
 

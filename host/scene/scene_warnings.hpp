@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the warnings about areas where surfaces of two materials share one plane.
+// Makes warnings about a scene: of sizes that no scene in metres has, and of areas where surfaces of two materials
+// share one plane.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -10,6 +11,9 @@
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
+
+// Returns a warning that names the object and its height and says what to do; empty if the sizes are possible.
+std::string unit_warning(const Scene& scene);
 
 // Returns an area in square metres as text, with three digits or more if there are more before the point.
 std::string area_words(double area_m2);
