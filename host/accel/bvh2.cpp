@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "accel/bvh2_node.hpp"
 #include "accel/layout.hpp"
 #include "wavetracer/error.hpp"
 

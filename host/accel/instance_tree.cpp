@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "accel/bvh2_node.hpp"
+#include "accel/layout.hpp"
 
 namespace wavetracer {
 namespace {

@@ -8,8 +8,7 @@
 #include <numbers>
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
-#include "scene/itu_materials.hpp"
-#include "scene/vehicle_materials.hpp"
+#include "scene/material_laws.hpp"
 
 namespace wavetracer::app {
 namespace {

@@ -15,7 +15,6 @@
 #include <set>
 #include <utility>
 #include "base/output_place.hpp"
-#include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -83,6 +82,8 @@ class NoPipeSignal {
 };
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+std::mutex naming;
 
 }  // namespace
 
@@ -244,5 +245,12 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
   if (error != 0) fail(folder, "sync the folder", error);
 }
+
+std::atomic<uint64_t>& final_names() {
+  static std::atomic<uint64_t> count{0};
+  return count;
+}
+
+std::unique_lock<std::mutex> hold_pending() { return std::unique_lock(naming); }
 
 }  // namespace wavetracer

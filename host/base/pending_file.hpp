@@ -3,9 +3,11 @@
 // are followed. A device or a pipe is not replaced: it gets the bytes once they are complete.
 // This is for POSIX only, where rename() replaces a file atomically within a folder.
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -80,5 +82,14 @@ void append_to_file(const std::filesystem::path& path, std::span<const std::byte
 
 // Waits until added and removed names of the folder are on the disk. Throws RuntimeError.
 void sync_folder(const std::filesystem::path& folder);
+
+// A lock for code that removes unfinished files when the process is told to end. While it is held, no temporary file or
+// folder is created, gets another file, or gets its final name. It waits for files that are
+// being created or renamed at the moment. A thread must not call it twice without releasing the lock.
+std::unique_lock<std::mutex> hold_pending();
+
+// The number of files and folders that got their final names in this process. It is changed only while hold_pending()
+// is held.
+std::atomic<uint64_t>& final_names();
 
 }  // namespace wavetracer

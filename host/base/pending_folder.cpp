@@ -11,7 +11,6 @@
 #include "base/file.hpp"
 #include "base/output_place.hpp"
 #include "base/pending_file.hpp"
-#include "base/pending_hold.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
-#include "base/pending_hold.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -17,11 +17,10 @@ struct Contradiction {
 
 std::vector<Contradiction> contradictions(const Config& config);
 
-// Defined in array_checks.cpp: checks of arrays and several carriers.
+// Defined in table_checks.cpp: checks of arrays and several carriers, of vehicles and the time of their drive, of air
+// and places.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
-// Defined in vehicle_checks.cpp: checks of vehicles and the time of their drive.
 void check_trajectories(const Config& config, std::vector<Contradiction>& out);
-// Defined in place_checks.cpp.
 void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
 void check_grid_corners(const Config& config, std::vector<Contradiction>& out);

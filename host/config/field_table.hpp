@@ -11,8 +11,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
+
 #include "wavetracer/config.hpp"
 
 namespace wavetracer::config {
@@ -91,5 +93,26 @@ std::string required_text(const Field& field);
 std::string number_of(const Range& range);
 // Describes what a field accepts: `integer from 1 to 3`, `"a" or "b"`, `three numbers (m)`.
 std::string accepted(const Field& field);
+
+// Type traits for code that visits a slot of the field table.
+template <class T>
+struct Number {
+  using Type = T;
+  static constexpr bool optional = false;
+};
+template <class T>
+struct Number<std::optional<T>> {
+  using Type = T;
+  static constexpr bool optional = true;
+};
+template <class T>
+constexpr bool is_integer = std::is_integral_v<typename Number<T>::Type>;
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
 
 }  // namespace wavetracer::config

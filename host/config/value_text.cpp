@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include "config/field_table.hpp"
-#include "config/slot_types.hpp"
 #include "wavetracer/names.hpp"
 
 namespace wavetracer::config {

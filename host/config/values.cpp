@@ -7,7 +7,7 @@
 #include <cmath>
 #include <type_traits>
 #include "base/spelling.hpp"
-#include "config/slot_types.hpp"
+#include "config/field_table.hpp"
 #include "config/value_text.hpp"
 #include "wavetracer/names.hpp"
 

@@ -11,7 +11,6 @@
 #include "convert/convert.hpp"
 #include "convert/glb_file.hpp"
 #include "convert/glb_lines.hpp"
-#include "convert/glb_materials.hpp"
 #include "convert/glb_tracks.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "results/saved_waypoints.hpp"

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <vector>
+#include "wavetracer/scene.hpp"
 
 namespace wavetracer {
 
@@ -46,5 +47,9 @@ class GlbFile {
   nlohmann::json json_;
   std::string buffer_;
 };
+
+// Returns a radio material as a material of glTF: its name, the colour that people expect, and its law in "extras", so
+// that a custom law is not lost.
+nlohmann::json glb_material(const Material& material);
 
 }  // namespace wavetracer

@@ -3,13 +3,17 @@
 // of NodesPosition.csv parses: a channel between every two nodes, a step per frame; angles are in degrees, phases are
 // not.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 #include "base/pending_folder.hpp"
 #include "base/times.hpp"
 #include "convert/convert.hpp"
-#include "convert/ns3_nodes.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
 
@@ -17,6 +21,78 @@ namespace wavetracer {
 namespace {
 
 using Rows = std::vector<uint32_t>;
+
+// Turns radio ends into nodes: a node sends with one transmitter, receives with one receiver, or does both at one
+// place. The twins of a mounted antenna must have exactly equal positions, as runs write them.
+struct Ns3Node {
+  std::string name;
+  std::optional<size_t> transmitter, receiver;  // rows among the run's ends
+  glm::dvec3 position_m{0};                     // position in the first frame in which it is present
+  bool late = false;                            // it is absent in the first frame
+};
+
+// The positions of each end in every frame. Twins are found by them, and by name if several share those; velocities are
+// not compared, since they follow from the positions.
+struct Tracks {
+  std::vector<std::vector<glm::dvec3>> transmitters, receivers;
+};
+
+Tracks read_tracks(const SavedRun& run, const ExportOptions& options) {
+  Tracks tracks{std::vector<std::vector<glm::dvec3>>(run.transmitters().size()),
+                std::vector<std::vector<glm::dvec3>>(run.receivers().size())};
+  for (size_t row = options.first_row; row <= options.last_row; ++row) {
+    const SavedFrame frame = run.frame(row);
+    for (size_t i = 0; i < tracks.transmitters.size(); ++i)
+      tracks.transmitters[i].push_back(frame.transmitter_position_m[i]);
+    for (size_t i = 0; i < tracks.receivers.size(); ++i) tracks.receivers[i].push_back(frame.receiver_position_m[i]);
+  }
+  return tracks;
+}
+
+bool absent(const glm::dvec3& p) { return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z); }
+
+bool never_present(const std::vector<glm::dvec3>& track) { return std::ranges::all_of(track, absent); }
+
+bool same_track(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  for (size_t i = 0; i < a.size(); ++i)
+    if (!(a[i] == b[i]) && !(absent(a[i]) && absent(b[i]))) return false;
+  return true;
+}
+
+Ns3Node make_node(const std::string& name, const std::vector<glm::dvec3>& track) {
+  Ns3Node node;
+  node.name = name;
+  node.late = absent(track.front());
+  for (const glm::dvec3& position : track)
+    if (!absent(position)) {
+      node.position_m = position;
+      break;
+    }
+  return node;
+}
+
+// Returns transmitters in their order, then the receivers without a transmitter. Ends that are never present are left
+// out.
+std::vector<Ns3Node> find_nodes(const SavedRun& run, const ExportOptions& options) {
+  const Tracks tracks = read_tracks(run, options);
+  std::vector<Ns3Node> nodes;
+  for (size_t i = 0; i < tracks.transmitters.size(); ++i)
+    if (!never_present(tracks.transmitters[i]))
+      nodes.emplace_back(make_node(run.transmitters()[i].name, tracks.transmitters[i])).transmitter = i;
+  const size_t transmitters = nodes.size();
+  for (size_t i = 0; i < tracks.receivers.size(); ++i) {
+    if (never_present(tracks.receivers[i])) continue;
+    const std::string& name = run.receivers()[i].name;
+    Ns3Node* twin = nullptr;
+    for (size_t k = 0; k < transmitters; ++k)
+      if (!nodes[k].receiver && same_track(tracks.transmitters[*nodes[k].transmitter], tracks.receivers[i]) &&
+          (twin == nullptr || nodes[k].name == name))
+        twin = &nodes[k];
+    if (twin == nullptr) twin = &nodes.emplace_back(make_node(name, tracks.receivers[i]));
+    twin->receiver = i;
+  }
+  return nodes;
+}
 
 // Each channel is a file, so the number of files grows as the square of the nodes: file systems cope with about a
 // thousand nodes.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
+// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF. In XML, the characters of XML
+// 1.0, section 2.2, are written unchanged, except for those that it needs itself.
 #include "convert/unicode.hpp"
 
 namespace wavetracer {
@@ -28,6 +29,26 @@ char32_t take(std::string_view& text) {
   return valid ? code : replacement;
 }
 
+constexpr char32_t replacement_of_xml = 0xFFFD;
+
+bool is_xml(char32_t c) { return c >= 0x20 ? c != 0xFFFE && c != 0xFFFF : c == '\t' || c == '\n' || c == '\r'; }
+
+void append_utf8(std::string& out, char32_t c) {
+  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3F)); };
+  if (c < 0x80) {
+    out += static_cast<char>(c);
+  } else if (c < 0x800) {
+    out += static_cast<char>(0xC0 | c >> 6);
+    tail(0);
+  } else if (c < 0x10000) {
+    out += static_cast<char>(0xE0 | c >> 12);
+    tail(6), tail(0);
+  } else {
+    out += static_cast<char>(0xF0 | c >> 18);
+    tail(12), tail(6), tail(0);
+  }
+}
+
 }  // namespace
 
 std::u32string utf32(std::string_view utf8) {
@@ -45,6 +66,32 @@ std::u16string utf16(std::string_view utf8) {
     } else {
       out += static_cast<char16_t>(0xD800 + ((code - 0x10000) >> 10));
       out += static_cast<char16_t>(0xDC00 + ((code - 0x10000) & 0x3FF));
+    }
+  }
+  return out;
+}
+
+std::string xml_text(std::string_view utf8) {
+  std::string out;
+  for (const char32_t c : utf32(utf8)) {
+    switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&apos;";
+        break;
+      default:
+        append_utf8(out, is_xml(c) ? c : replacement_of_xml);
     }
   }
   return out;

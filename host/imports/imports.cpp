@@ -17,7 +17,6 @@
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
 #include "imports/terrain.hpp"
-#include "imports/vector_map.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 

@@ -45,6 +45,8 @@ bool is_sumo_polygons(std::string_view first_bytes);
 // Both throw InputError that names the file and the place in it.
 Map read_osm(std::string_view content, const std::string& name, const ImportOptions& options);
 Map read_sumo_polygons(std::string_view content, const std::string& name);
+// Reads a map in one of the formats of GDAL. Throws InputError for the map, RuntimeError if GDAL is missing.
+Map read_vector_map(const std::string& file, const ImportOptions& options);
 
 // The <location> of a .net.xml or .poly.xml.
 struct SumoLocation {

@@ -11,9 +11,8 @@
 #include <set>
 
 #include "imports/map.hpp"
-#include "imports/osm_deleted.hpp"
-#include "imports/osm_exponents.hpp"
 #include "imports/osm_tags.hpp"
+#include "imports/osm_text.hpp"
 #include "imports/osm_versions.hpp"
 #include "imports/projecting.hpp"
 #include "imports/rings.hpp"

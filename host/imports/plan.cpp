@@ -11,7 +11,7 @@
 #include <numeric>
 
 #include "imports/box_index.hpp"
-#include "imports/coverage.hpp"
+#include "imports/rings.hpp"
 #include "imports/straight_walls.hpp"
 #include "imports/triangulate.hpp"
 #include "wavetracer/error.hpp"

@@ -63,4 +63,8 @@ std::string_view fault(const Polygon& polygon);
 // Tells whether a valid polygon stays valid with this hole added, which is itself a valid ring.
 bool fits(const Polygon& polygon, const Ring& hole);
 
+// Returns the share of the area of a polygon that lies in at least one of the others, 0 to 1. It is exact along x and
+// measured on 256 lines along y, so the error is a few parts in a thousand.
+double covered_share(const Polygon& polygon, std::span<const Polygon* const> others);
+
 }  // namespace wavetracer::imports

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads footprints of GeoPackage, Shapefile, GeoJSON, FlatGeobuf and any other format of GDAL, through the maps module.
 // Fields become the tags of OpenStreetMap that building_tags.hpp reads, so that one place makes heights of them.
-#include "imports/vector_map.hpp"
+#include "imports/map.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 #include "base/output_place.hpp"
-#include "base/pending_hold.hpp"
+#include "base/pending_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

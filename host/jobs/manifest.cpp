@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include "base/file.hpp"
 #include "base/json_whole.hpp"
-#include "base/read_text.hpp"
 #include "jobs/checked_text.hpp"
 #include "output/cache_json.hpp"
 #include "output/h5_outputs.hpp"

@@ -3,7 +3,7 @@
 #include "jobs/merged_record.hpp"
 #include <algorithm>
 #include <string>
-#include "base/read_text.hpp"
+#include "base/file.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/shard_files.hpp"
 

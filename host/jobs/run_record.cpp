@@ -4,8 +4,8 @@
 #include "jobs/run_record.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include "base/file.hpp"
 #include "base/json_whole.hpp"
-#include "base/read_text.hpp"
 #include "jobs/checked_text.hpp"
 #include "radio/codebook.hpp"
 #include "wavetracer/error.hpp"

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/pending_file.hpp"
-#include "base/read_text.hpp"
 #include "jobs/claims.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines are recognised by their beginnings; other lines of a recording are skipped.
 // An actor keeps its number; its box, if known, may come anywhere in the text.
-#include "motion/carla.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
-#include "motion/footprint.hpp"
 #include "motion/input_text.hpp"
-#include "motion/text_lines.hpp"
+#include "motion/text_rows.hpp"
 #include "motion/track_builder.hpp"
+#include "motion/track_motion.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads CSV row by row; a header names the columns, which may be in any order.
-#include "motion/csv.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "motion/csv_rows.hpp"
 #include "motion/input_text.hpp"
+#include "motion/text_rows.hpp"
 #include "motion/track_builder.hpp"
 #include "wavetracer/error.hpp"
 

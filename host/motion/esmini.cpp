@@ -2,7 +2,7 @@
 // Columns are found by their names in the header; those of the log come in blocks, one for each vehicle that is
 // present.
 // Names of entities must be unique, as OpenSCENARIO demands.
-#include "motion/esmini.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <array>
 #include <optional>
 
-#include "motion/csv_rows.hpp"
-#include "motion/footprint.hpp"
 #include "motion/input_text.hpp"
+#include "motion/text_rows.hpp"
 #include "motion/track_builder.hpp"
+#include "motion/track_motion.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns XML elements of FCD into samples, as fcd_samples.hpp says.
-#include "motion/fcd.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 

@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
-#include "motion/csv_rows.hpp"
-#include "motion/fcd.hpp"
 #include "motion/fcd_samples.hpp"
 #include "motion/input_text.hpp"
+#include "motion/readers.hpp"
+#include "motion/text_rows.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads GPX (https://www.topografix.com/GPX/1/1/gpx.xsd): <trk> of <trkseg> of <trkpt lat lon> with a <time>.
 // Points of a track must be in order; routes and single waypoints have no times and are skipped.
-#include "motion/gpx.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 

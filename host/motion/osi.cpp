@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // protozero reads the fields in any order; other fields are skipped.
 // One message at a time is in memory.
-#include "motion/osi.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,10 @@
 #include <protozero/pbf_reader.hpp>
 #include <vector>
 
-#include "motion/footprint.hpp"
 #include "motion/input_text.hpp"
 #include "motion/osi_schema.hpp"
 #include "motion/track_builder.hpp"
+#include "motion/track_motion.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -8,8 +8,8 @@
 #include <array>
 #include <optional>
 
-#include "motion/csv_rows.hpp"
 #include "motion/input_text.hpp"
+#include "motion/text_rows.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/names.hpp"
 

@@ -6,12 +6,7 @@
 #include <fmt/format.h>
 
 #include "motion/byte_stream.hpp"
-#include "motion/carla.hpp"
-#include "motion/csv.hpp"
-#include "motion/esmini.hpp"
-#include "motion/fcd.hpp"
-#include "motion/gpx.hpp"
-#include "motion/osi.hpp"
+#include "motion/readers.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -39,8 +39,8 @@ struct TrajectoryOptions {
   GroundHeight ground = {};
 };
 
-// Reads FCD (`.xml`), GPX, CSV, traces of OSI (osi.hpp), or recordings of esmini (esmini.hpp) or CARLA (carla.hpp),
-// plain or gzip; the content decides which format it is.
+// Reads FCD (`.xml`), GPX, CSV, traces of OSI, or recordings of esmini or CARLA (readers.hpp), plain or gzip; the
+// content decides which format it is.
 //
 // FCD, as SUMO writes it with --fcd-output: time, id, x, y are needed; angle, speed, z, slope and type are used where
 // they are, other attributes are not. angle is in degrees clockwise from north; (x, y, z) is the centre of the front
@@ -53,7 +53,7 @@ struct TrajectoryOptions {
 // footprint. Rows may be sorted by time or by vehicle. Lines that begin with # are comments. lat and lon (or latitude
 // and longitude, degrees) may stand in the place of x and y; z is then above the ground.
 //
-// GPX: tracks with times, in degrees; see motion/gpx.hpp.
+// GPX: tracks with times, in degrees; see motion/readers.hpp.
 //
 // A missing heading is the direction of motion, and is kept while the vehicle stands. A track is cut into segments at
 // gaps and jumps. A gap is longer than 1.5 steps. A jump is farther than this: 1.5 times the higher speed of both ends

@@ -175,6 +175,20 @@ void shift_to_centre(Track& track, double length_m) {
   for (Sample& s : track.samples) s.position_m -= length_m / 2 * heading(s.yaw_rad, s.pitch_rad);
 }
 
+glm::dvec3 turned_arm(const glm::dvec3& arm, double yaw_rad, double pitch_rad) {
+  const glm::dvec3 ahead = heading(yaw_rad, pitch_rad), left(-std::sin(yaw_rad), std::cos(yaw_rad), 0);
+  const glm::dvec3 up(-std::sin(pitch_rad) * std::cos(yaw_rad), -std::sin(pitch_rad) * std::sin(yaw_rad),
+                      std::cos(pitch_rad));
+  return arm.x * ahead + arm.y * left + arm.z * up;
+}
+
+bool is_size(const glm::dvec3& size_m) {
+  constexpr double longest_m = 1000;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(size_m[axis] > 0 && size_m[axis] <= longest_m)) return false;
+  return true;
+}
+
 void complete_velocities(Track& track) {
   for_each_motion(track, [&](size_t k, const LocalMotion& motion) {
     Sample& s = track.samples[k];

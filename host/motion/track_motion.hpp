@@ -31,6 +31,13 @@ bool complete_headings(Track& track);
 // Moves positions from the centre of the front bumper to the centre of the footprint.
 void shift_to_centre(Track& track, double length_m);
 
+// Turns `arm` (ahead, left, up of a vehicle with this yaw and pitch, nose up) into the axes of the scene, as from the
+// reference point of another program to the centre of the footprint. Roll is ignored.
+glm::dvec3 turned_arm(const glm::dvec3& arm, double yaw_rad, double pitch_rad);
+
+// Tells whether a file's length, width and height, in metres, can be those of a vehicle.
+bool is_size(const glm::dvec3& size_m);
+
 // Computes velocities: speed times heading; without a speed, the weighted mean of the velocities to both neighbours
 // (the derivative of the parabola through the three), and zero if the vehicle stands before or after.
 void complete_velocities(Track& track);

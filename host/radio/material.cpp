@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "radio/constants.hpp"
-#include "scene/itu_materials.hpp"
+#include "scene/material_laws.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

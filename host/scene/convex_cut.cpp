@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "scene/weld.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -20,6 +22,15 @@ dvec3 on_cut_line(const dvec3& inner, double inner_m, const dvec3& outer, double
 double triangle_height_m(const dvec3& a, const dvec3& b, const dvec3& c) {
   const double longest_m = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
   return longest_m > 0 ? glm::length(glm::cross(b - a, c - a)) / longest_m : 0;
+}
+
+// Tells whether a side of triangle t, in a plane with this normal, has the other triangle entirely on its outer side,
+// up to touch_m.
+bool parted_by_a_side(const Scene& scene, uint32_t t, uint32_t other, const dvec3& normal, double touch_m) {
+  return std::ranges::any_of(side_lines(scene, t, normal), [&](const CutLine& side) {
+    return std::ranges::all_of(scene.triangles[other],
+                               [&](uint32_t v) { return side.beyond_m(scene.vertices[v]) <= touch_m; });
+  });
 }
 
 }  // namespace
@@ -37,11 +48,9 @@ std::array<CutLine, 3> side_lines(const Scene& scene, uint32_t t, const dvec3& n
   return out;
 }
 
-bool parted_by_a_side(const Scene& scene, uint32_t t, uint32_t other, const dvec3& normal, double touch_m) {
-  return std::ranges::any_of(side_lines(scene, t, normal), [&](const CutLine& side) {
-    return std::ranges::all_of(scene.triangles[other],
-                               [&](uint32_t v) { return side.beyond_m(scene.vertices[v]) <= touch_m; });
-  });
+bool overlap_in_plane(const Scene& scene, uint32_t t, const dvec3& normal, uint32_t other, const dvec3& other_normal) {
+  return !parted_by_a_side(scene, t, other, normal, weld_tolerance_m) &&
+         !parted_by_a_side(scene, other, t, other_normal, weld_tolerance_m);
 }
 
 CutParts cut_convex(const ConvexPolygon& polygon, const CutLine& line, double touch_m) {

@@ -22,9 +22,10 @@ struct CutLine {
 // between corners k and k + 1.
 std::array<CutLine, 3> side_lines(const Scene& scene, uint32_t t, const glm::dvec3& normal);
 
-// Tells whether a side of triangle t, in a plane with this normal, has the other triangle entirely on its outer side,
-// up to touch_m.
-bool parted_by_a_side(const Scene& scene, uint32_t t, uint32_t other, const glm::dvec3& normal, double touch_m);
+// Tells whether two triangles, which are about in one plane, overlap by more than the distance by which welding moves
+// vertices: no side of either has the other entirely on its outer side. The normals are those of their planes.
+bool overlap_in_plane(const Scene& scene, uint32_t t, const glm::dvec3& normal, uint32_t other,
+                      const glm::dvec3& other_normal);
 
 // The two parts of a polygon; one is empty where the line does not cut it. Corners within touch_m of the line count as
 // on it, so that no part is narrower than that. The winding is kept.

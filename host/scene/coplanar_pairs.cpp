@@ -12,7 +12,6 @@
 #include "scene/scene_grid.hpp"
 #include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
-#include "scene/weld.hpp"
 
 namespace wavetracer {
 namespace {
@@ -54,8 +53,7 @@ bool lie_on_each_other(const Scene& scene, uint32_t t, uint32_t u) {
     return triangle_is_near(scene, triangle, plane_of(surface), flat_as_it_is_m);
   };
   if (!in_plane_of(t, b) && !in_plane_of(u, a)) return false;
-  return !parted_by_a_side(scene, t, u, a.normal, weld_tolerance_m) &&
-         !parted_by_a_side(scene, u, t, b.normal, weld_tolerance_m);
+  return overlap_in_plane(scene, t, a.normal, u, b.normal);
 }
 
 }  // namespace

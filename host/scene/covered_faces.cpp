@@ -14,10 +14,8 @@
 #include "scene/coplanar_pairs.hpp"
 #include "scene/cover_cut.hpp"
 #include "scene/cover_order.hpp"
-#include "scene/cover_planes.hpp"
-#include "scene/cover_words.hpp"
+#include "scene/scene_warnings.hpp"
 #include "scene/topology.hpp"
-#include "scene/vertex_use.hpp"
 #include "scene/weld.hpp"
 
 namespace wavetracer {

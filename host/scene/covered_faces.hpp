@@ -12,7 +12,7 @@ namespace wavetracer {
 
 // Cuts out of every surface the parts that smaller surfaces of other materials cover (cover_order.hpp,
 // coplanar_pairs.hpp), so that each place has one material. Surfaces keep their planes, except that a surface within
-// rounding of a larger one's plane takes that (cover_planes.hpp). A cut surface may have several parts; parts narrower
+// rounding of a larger one's plane takes that (cover_order.hpp). A cut surface may have several parts; parts narrower
 // than the distance by which welding moves vertices are dropped. Edges and surfaces are found anew. The report gets the
 // area, and warnings say which materials share a place that can be seen (body_sides.hpp), and which one counts there.
 // It does nothing where nothing overlaps. The scene's surfaces must be known; triangle_edges: as find_edges() returns

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadratic surface is a polynomial of the two coordinates in the plane, fitted by normal equations.
-#include "scene/curved_regions.hpp"
+#include "scene/region_steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include "scene/convex_cut.hpp"
 #include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"
-#include "scene/weld.hpp"
 
 namespace wavetracer {
 namespace {
@@ -22,8 +21,7 @@ bool overlap(const Scene& scene, uint32_t t, uint32_t other) {
   const dvec3 normal = normal_of(scene, t);
   const Plane plane{normal, glm::dot(normal, scene.vertices[scene.triangles[t][0]])};
   return triangle_is_near(scene, other, plane, flat_as_it_is_m) &&
-         !parted_by_a_side(scene, t, other, normal, weld_tolerance_m) &&
-         !parted_by_a_side(scene, other, t, normal_of(scene, other), weld_tolerance_m);
+         overlap_in_plane(scene, t, normal, other, normal_of(scene, other));
 }
 
 std::vector<bool> scattering_triangles(const Scene& scene) {

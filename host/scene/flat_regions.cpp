@@ -9,10 +9,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "scene/curved_regions.hpp"
-#include "scene/flat_neighbours.hpp"
-#include "scene/join_regions.hpp"
-#include "scene/region_borders.hpp"
+#include "scene/flat_mesh.hpp"
+#include "scene/region_steps.hpp"
 #include "scene/topology.hpp"
 
 namespace wavetracer {

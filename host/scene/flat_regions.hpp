@@ -14,10 +14,9 @@ namespace wavetracer {
 //   within 0.1 mm of that triangle's plane. Such a region is exact.
 // 2. It grows on as long as all of its vertices are within their tolerances of the plane that fits them best. Triangles
 //   that turn by more than 10 degrees or fold back over the region stay outside, so steps, chamfers and the two sides
-//   of
-//   a thin plate are kept.
+//   of a thin plate are kept.
 // 3. Neighbours that are within the tolerances of one plane are joined, those that fit best first.
-// 4. Triangles that are within the tolerances of two neighbours go to the one on whose side of their line they are. 5.
+// 4. Triangles that are within the tolerances of two neighbours go to the one on whose side of their line they are.
 // 5. A region is dropped if its surface continues as a curve beyond its border, and the region itself is curved by more
 //   than its noise: its triangles are in no region and stay unchanged.
 //

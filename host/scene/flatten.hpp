@@ -35,4 +35,9 @@ struct Flattened {
 Flattened flatten(const Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges,
                   std::span<const double> tolerance_m);
 
+// Moves the vertices of a scene within tolerance_m, or twice the rounding of a vertex where that is more, and notes in
+// the report what was moved. Zero moves nothing at all.
+Flattened flatten_scene(Scene& scene, std::span<const std::array<uint32_t, 3>> triangle_edges, double tolerance_m,
+                        std::span<const double> rounding_m);
+
 }  // namespace wavetracer

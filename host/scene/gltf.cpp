@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes are visited depth first, parents before children. A mesh of several primitives becomes several meshes, and so
 // do instances (EXT_mesh_gpu_instancing).
-#include "scene/gltf.hpp"
+#include "scene/model.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "base/json_whole.hpp"
 #include "scene/gltf_data.hpp"
-#include "scene/gltf_extensions.hpp"
+#include "scene/gltf_file.hpp"
 #include "scene/gltf_meshes.hpp"
 #include "wavetracer/error.hpp"
 

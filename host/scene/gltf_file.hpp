@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The JSON and the binary data of a glTF file, with the checks that are needed before memory is allocated for its
-// content. The file is not trusted.
+// content, and of its extensions: which ones are read, and which ones change nothing in a scene. The file is not
+// trusted.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace wavetracer {
 
@@ -19,5 +21,9 @@ struct GltfFile {
 // if nodes are nested deeply, or if a node has two parents (glTF 2.0, section 3.5.2): thirty nodes that name each other
 // twice would expand to 10^9.
 GltfFile read_gltf_file(const std::filesystem::path& path);
+
+// Throws InputError that names the extension if the file requires one that is not read (glTF 2.0, section 3.12).
+// Returns warnings about extensions that the file uses without requiring them and that are unknown here.
+std::vector<std::string> check_gltf_extensions(const GltfFile& file);
 
 }  // namespace wavetracer

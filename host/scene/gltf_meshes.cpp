@@ -2,17 +2,19 @@
 // See glTF 2.0, sections 3.7.2 (meshes), 3.7.3 (skins) and 3.7.2.2 (morph targets).
 #include "scene/gltf_meshes.hpp"
 
+#include <draco/compression/decode.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "base/json_whole.hpp"
-#include "scene/gltf_draco.hpp"
 
 namespace wavetracer {
 namespace {
@@ -55,6 +57,49 @@ void drop_unused(std::vector<glm::dvec3>& vertices, std::vector<Triangle>& trian
     }
   vertices = std::move(kept);
 }
+
+// A mesh that KHR_draco_mesh_compression compressed, decoded by Google's library (draco 1.5): it has points, and
+// attributes that points are mapped to.
+class DracoMesh {
+ public:
+  // Throws std::invalid_argument with the library's message if the bytes are no mesh.
+  explicit DracoMesh(std::string_view bytes) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(bytes.data(), bytes.size());
+    draco::Decoder decoder;
+    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!mesh.ok()) throw std::invalid_argument(mesh.status().error_msg_string());
+    mesh_ = std::move(mesh).value();
+  }
+
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> out;
+    out.reserve(mesh_->num_faces());
+    for (draco::FaceIndex f(0); f < mesh_->num_faces(); ++f) {
+      const draco::Mesh::Face& face = mesh_->face(f);
+      out.push_back({face[0].value(), face[1].value(), face[2].value()});
+    }
+    return out;
+  }
+
+  // Returns the numbers of the attribute with this id; nothing if there is none with this number of components.
+  std::optional<std::vector<double>> numbers(uint32_t id, size_t components) const {
+    const draco::PointAttribute* const attribute = mesh_->GetAttributeByUniqueId(id);
+    if (attribute == nullptr || static_cast<size_t>(attribute->num_components()) != components) return std::nullopt;
+    std::vector<double> out;
+    out.reserve(mesh_->num_points() * components);
+    double value[16] = {};
+    for (draco::PointIndex p(0); p < mesh_->num_points(); ++p) {
+      const draco::AttributeValueIndex at = attribute->mapped_index(p);
+      if (at.value() >= attribute->size() || !attribute->ConvertValue<double>(at, value)) return std::nullopt;
+      out.insert(out.end(), value, value + components);
+    }
+    return out;
+  }
+
+ private:
+  std::unique_ptr<draco::Mesh> mesh_;
+};
 
 }  // namespace
 

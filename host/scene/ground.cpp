@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "scene/bodies.hpp"
+#include "scene/topology.hpp"
 
 namespace wavetracer {
 namespace {

@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-#include "scene/cover_words.hpp"
+#include "scene/scene_warnings.hpp"
 #include "scene/volume_overlaps.hpp"
 
 namespace wavetracer {

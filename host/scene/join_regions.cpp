@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A queue orders pairs by the root mean square of the heights over their common plane, which follows from sums alone;
 // only when a pair is taken from it are the tolerances of all vertices checked.
-#include "scene/join_regions.hpp"
+#include "scene/region_steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "scene/vehicle_materials.hpp"
+#include "scene/material_laws.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

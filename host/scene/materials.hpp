@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/itu_materials.hpp"
+#include "scene/material_laws.hpp"
 #include "scene/raw_scene.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"

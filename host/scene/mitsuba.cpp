@@ -13,7 +13,6 @@
 #include "scene/mitsuba_files.hpp"
 #include "scene/mitsuba_materials.hpp"
 #include "scene/mitsuba_properties.hpp"
-#include "scene/mitsuba_transform.hpp"
 #include "scene/model.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the properties of a Mitsuba element: children that have a name and a value.
-// Like Mitsuba, it refuses a property that no code asks for, as it may be a misspelt one that matters.
+// Checks and reads the properties of a Mitsuba element: children that have a name and a value, such as a number or a
+// transform. Like Mitsuba, it refuses a property that no code asks for, as it may be a misspelt one that matters.
 #pragma once
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -28,5 +29,8 @@ pugi::xml_node mitsuba_property(const MitsubaFiles& files, pugi::xml_node node, 
 // `least`.
 std::optional<double> mitsuba_number(const MitsubaFiles& files, pugi::xml_node node, std::string_view name,
                                      double least, bool infinite);
+
+// Throws InputError if an operation or an attribute is unknown, or numbers are missing.
+glm::dmat4 read_transform(pugi::xml_node transform, const MitsubaFiles& files);
 
 }  // namespace wavetracer

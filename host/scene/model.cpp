@@ -18,9 +18,7 @@
 #include <memory>
 #include <set>
 
-#include "scene/gltf.hpp"
-#include "scene/gltf_extensions.hpp"
-#include "scene/obj_check.hpp"
+#include "scene/gltf_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

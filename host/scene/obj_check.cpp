@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements as in "Advanced Visualizer", appendix B1 (Wavefront Technologies, 1990s).
-#include "scene/obj_check.hpp"
+#include "scene/model.hpp"
 
 #include <fmt/format.h>
 

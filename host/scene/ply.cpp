@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "base/file.hpp"
-#include "scene/ply_body.hpp"
+#include "scene/ply_file.hpp"
 #include "scene/polygon.hpp"
 #include "wavetracer/error.hpp"
 

@@ -2,7 +2,7 @@
 // Triangles move in rounds, each computed from the state before it, so that the order of triangles does not matter. The
 // difference of the heights over both planes tells where a triangle is: it changes its sign at their line, and noise
 // hardly changes it.
-#include "scene/region_borders.hpp"
+#include "scene/region_steps.hpp"
 
 #include <algorithm>
 #include <cmath>

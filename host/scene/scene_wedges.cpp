@@ -13,7 +13,7 @@
 
 #include "scene/edge_pieces.hpp"
 #include "scene/face_planes.hpp"
-#include "scene/ground_rims.hpp"
+#include "scene/ground_sheets.hpp"
 #include "scene/thin_walls.hpp"
 #include "scene/topology.hpp"
 #include "scene/triangle_grid.hpp"

@@ -9,7 +9,7 @@ namespace wavetracer {
 enum class EdgeSearch {
   none,
   of_model,  // all edges that diffract
-  of_scene,  // all but the rim of the ground (host/scene/ground_rims.hpp)
+  of_scene,  // all but the rim of the ground (host/scene/ground_sheets.hpp)
 };
 
 // Fills Scene::wedges and the counts of LoadReport about them; what was there before is replaced. The rule:

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/forest.hpp"
+
 namespace wavetracer {
 namespace {
 
@@ -269,6 +271,20 @@ void list_surfaces(Scene& scene) {
 
 void find_flat_edges(Scene& scene) {
   for (Edge& edge : scene.edges) edge.flat = is_flat(scene, edge);
+}
+
+std::vector<uint32_t> bodies_of(const Scene& scene) {
+  Forest bodies(scene.triangles.size());
+  for (const Edge& edge : scene.edges)
+    for (uint32_t k = 1; k < edge.face_count; ++k)
+      bodies.join(scene.edge_faces[edge.first_face], scene.edge_faces[edge.first_face + k]);
+  std::vector<uint32_t> body(bodies.size());
+  uint32_t count = 0;
+  for (uint32_t t = 0; t < bodies.size(); ++t) {
+    const uint32_t first = bodies.root(t);
+    body[t] = first == t ? count++ : body[first];
+  }
+  return body;
 }
 
 }  // namespace wavetracer

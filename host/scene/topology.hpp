@@ -64,4 +64,7 @@ uint32_t apex(const Scene& scene, uint32_t t, const Edge& edge);
 // Fills Edge::flat.
 void find_flat_edges(Scene& scene);
 
+// Returns the body of each triangle. Bodies are numbered from 0 in the order of their first triangles.
+std::vector<uint32_t> bodies_of(const Scene& scene);
+
 }  // namespace wavetracer

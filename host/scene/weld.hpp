@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "wavetracer/scene.hpp"
+
 namespace wavetracer {
 
 // Just under 1 mm, so that walls 1 mm apart stay separate. That is above the rounding of float32 files (0.06 mm at 1
@@ -23,5 +25,9 @@ struct Weld {
 // Vertices closer than the tolerance share a group, and so do vertices linked by a chain of such pairs: the groups do
 // not depend on the order of the vertices. Each group takes the exact position of its lowest vertex.
 Weld weld_vertices(std::span<const glm::dvec3> vertices, double tolerance_m);
+
+// Removes vertices that no triangle uses, keeping the order of the others. Returns the former number of each that is
+// left.
+std::vector<uint32_t> drop_unused_vertices(Scene& scene);
 
 }  // namespace wavetracer

@@ -6,8 +6,8 @@
 
 #include "radio/carriers.hpp"
 #include "radio/constants.hpp"
+#include "scene/ground_sheets.hpp"
 #include "scene/load.hpp"
-#include "scene/surface_sheets.hpp"
 #include "simulation/device_proof.hpp"
 #include "simulation/place_warnings.hpp"
 #include "simulation/scene_on_device.hpp"

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/bodies.hpp"
+#include "scene/topology.hpp"
 
 namespace wavetracer {
 namespace {

@@ -12,9 +12,7 @@
 #include "viewer/frame_blocks.hpp"
 #include "viewer/grid_maps.hpp"
 #include "viewer/page_files.hpp"
-#include "viewer/ray_blocks.hpp"
 #include "viewer/scene_blocks.hpp"
-#include "viewer/street_blocks.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 

@@ -11,7 +11,7 @@
 #include <tuple>
 #include "base/file.hpp"
 #include "convert/convert.hpp"
-#include "convert/kml_text.hpp"
+#include "convert/unicode.hpp"
 #include "folders.hpp"
 #include "results/saved_world.hpp"
 #include "scene/load.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: files of esmini; the text decides between log and recording.
 #include "fuzz/fuzz.hpp"
-#include "motion/esmini.hpp"
+#include "motion/readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: traces of OSI.
 #include "fuzz/fuzz.hpp"
-#include "motion/osi.hpp"
+#include "motion/readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace wavetracer;

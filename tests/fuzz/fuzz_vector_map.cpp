@@ -6,9 +6,9 @@
 
 #include "fuzz/fuzz.hpp"
 #include "fuzz/gdal_drivers.hpp"
+#include "imports/map.hpp"
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
-#include "imports/vector_map.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "imported.hpp"
-#include "imports/coverage.hpp"
+#include "imports/rings.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;

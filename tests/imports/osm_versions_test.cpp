@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "imported.hpp"
-#include "imports/osm_deleted.hpp"
+#include "imports/osm_text.hpp"
 #include "imports/osm_versions.hpp"
 #include "wavetracer/error.hpp"
 

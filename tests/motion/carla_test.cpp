@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of CARLA as text, by the format of its sources (CarlaRecorderQuery.cpp of 0.9.15): centimetres, y to the
 // right, boxes anywhere; skipped lines, and errors.
-#include "motion/carla.hpp"
+#include "motion/readers.hpp"
 
 #include "motion_files.hpp"
 

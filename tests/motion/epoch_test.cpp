@@ -5,8 +5,8 @@
 
 #include "base/times.hpp"
 #include "motion/frame_clock.hpp"
-#include "motion/gpx.hpp"
 #include "motion/pose.hpp"
+#include "motion/readers.hpp"
 #include "motion_files.hpp"
 
 using namespace wavetracer;

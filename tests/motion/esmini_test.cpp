@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of esmini, by the formats of its sources (CSV_Logger of CommonMini.cpp, dat2csv.cpp; 2025): the log with
 // entities that come and go, the recording with and without its first line, and errors.
-#include "motion/esmini.hpp"
+#include "motion/readers.hpp"
 
 #include <fmt/format.h>
 

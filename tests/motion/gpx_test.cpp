@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // GPX: files that gpxpy 1.6.2 and GPSBabel 1.8.0 wrote, times, omissions with their messages, and errors with their
 // lines. The projection of these tests is 10^5 m per degree, the ground a slope along x.
-#include "motion/gpx.hpp"
 #include "folders.hpp"
+#include "motion/readers.hpp"
 
 #include "motion/pose.hpp"
 #include "motion_files.hpp"

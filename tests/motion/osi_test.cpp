@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces of OSI: those that ASAM's own bindings wrote (files/make_osi.py), and messages of our own that are wrong. The
 // closed form of that drive is a circle of 20 m at 10 m/s, nose down by 0.1 rad.
-#include "motion/osi.hpp"
 #include "folders.hpp"
+#include "motion/readers.hpp"
 
 #include <cmath>
 #include <protozero/pbf_writer.hpp>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // While an interrupt removes what is unfinished, nothing new appears beside it and nothing gets its final name.
-#include "base/pending_hold.hpp"
 #include <doctest/doctest.h>
 #include <chrono>
 #include <functional>

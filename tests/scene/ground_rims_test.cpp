@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rim of a ground in scenes where the ground is known; scenes are files, like a user's.
-#include "scene/ground_rims.hpp"
+#include "scene/ground_sheets.hpp"
 
 #include <fstream>
 

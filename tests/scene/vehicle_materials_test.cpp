@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests materials of vehicles and people: skin against the Cole-Cole model that it was fitted to, names, ranges, and
 // the order in which libraries are searched.
-#include "scene/vehicle_materials.hpp"
+#include "scene/material_laws.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,8 +6,8 @@
 #include "base/file.hpp"
 #include "folders.hpp"
 #include "output/sample_run.hpp"
+#include "viewer/frame_blocks.hpp"
 #include "viewer/made_runs.hpp"
-#include "viewer/ray_blocks.hpp"
 #include "viewer/view.hpp"
 
 using namespace wavetracer;

@@ -17,7 +17,7 @@
 #include "viewer/link_rows.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/page_files.hpp"
-#include "viewer/street_blocks.hpp"
+#include "viewer/scene_blocks.hpp"
 #include "viewer/strongest.hpp"
 #include "viewer/view.hpp"
 #include "wavetracer/error.hpp"
