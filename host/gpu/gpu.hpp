@@ -155,10 +155,11 @@ class Buffer : public Memory {
   explicit Buffer(Memory m) : Memory(std::move(m)) {}
 };
 
-// A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it.
-// stage: the profiling sum that its time is added to. Memory arguments are Buffers, or pointers to Buffers (a
-// null pointer is NULL in the kernel); other arguments are plain values. A range of no items launches nothing, and then
-// the buffers need not exist: a list that has been empty so far may have none.
+// A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it;
+// KernelOf (gpu/kernel_of.hpp) is a kernel whose arguments are checked where the host is compiled. stage: the profiling
+// sum that its time is added to. Memory arguments are Buffers, or pointers to Buffers (a null pointer is NULL in the
+// kernel); other arguments are plain values. A range of no items launches nothing, and then the buffers need not exist:
+// a list that has been empty so far may have none.
 class Kernel {
  public:
   Kernel() = default;
@@ -174,9 +175,12 @@ class Kernel {
 
  private:
   friend class Context;
+  template <class Call>
+  friend class KernelOf;
   struct State;
   std::shared_ptr<State> state_;
   void check_count(size_t count) const;
+  void check_name(unsigned index, const char* name) const;
   void set_value(unsigned index, const void* value, size_t bytes);
   void set_memory(unsigned index, const Memory* memory);
   void enqueue(Range range, Stage stage);

@@ -30,6 +30,13 @@ void Kernel::check_count(size_t count) const {
   }
 }
 
+void Kernel::check_name(unsigned index, const char* name) const {
+  const State& s = *state_;
+  if (index >= s.arguments.size() || s.arguments[index].name.empty() || s.arguments[index].name == name) return;
+  throw std::logic_error(
+      fmt::format("{} is `{}` in the kernel that the program was built with; build it again", s.describe(index), name));
+}
+
 void Kernel::set_value(unsigned index, const void* value, size_t bytes) {
   State& s = *state_;
   if (index < s.arguments.size()) {

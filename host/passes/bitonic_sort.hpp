@@ -3,6 +3,7 @@
 // serves for small n, and as the baseline that the thesis compared with; from some blocks on radix_sort is faster.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/bitonic_sort.hpp"
 #include "passes/payload.hpp"
 #include "passes/tuning.hpp"
 
@@ -34,7 +35,10 @@ class BitonicSort {
  private:
   Payload payload_;
   uint32_t block_, items_, step_group_;
-  gpu::Kernel sort_blocks_, one_step_, merge_blocks_, gather_;
+  gpu::KernelOf<kernels::bitonic_sort::sort_blocks> sort_blocks_;
+  gpu::KernelOf<kernels::bitonic_sort::one_step> one_step_;
+  gpu::KernelOf<kernels::bitonic_sort::merge_blocks> merge_blocks_;
+  gpu::KernelOf<kernels::bitonic_sort::gather> gather_;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
             Stage stage);
 };

@@ -14,7 +14,7 @@ Bounces::Bounces(gpu::Context& context, const DeviceScene& scene, bool ages, boo
   gpu::Definitions definitions = scene.definitions;
   if (ages) definitions["WT_AGES"] = "1";
   if (samples) definitions["WT_SAMPLES"] = "1";
-  kernel_ = context.kernel("bounces", "bounces", definitions);
+  kernel_ = {context, definitions};
 }
 
 void Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_t interactions, const Trie& trie,
@@ -22,15 +22,25 @@ void Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_
   if (ages_ && !trie.ages) throw std::logic_error("bounces: the set of sequences keeps no ages");
   if (samples_ && !ends) throw std::logic_error("bounces: there is no list for the ends of samples");
   if (interactions > WT_MAX_DEPTH) throw std::logic_error("bounces: more interactions than rays may have");
-  kernel_(work_.range(rays.count), Stage::trace, scene.leg_nodes(), scene.leg_leaves(), scene.moving, rays.planes,
-          scene.surfaces, trie.table, trie.quarters, trie.counters.buffer(), trie.ages, ends,
-          wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
-                               .extent_m = scene.extent_m,
-                               .capacity = rays.capacity,
-                               .ray_count = rays.count,
-                               .interactions = interactions,
-                               .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
-                               .now = trie.now});
+  kernel_(
+      work_.range(rays.count), Stage::trace,
+      kernels::bounces::bounces{.nodes = scene.leg_nodes(),
+                                .triangles = scene.leg_leaves(),
+                                .moving = scene.moving,
+                                .rays = rays.planes,
+                                .surfaces = scene.surfaces,
+                                .table = trie.table,
+                                .quarters = trie.quarters,
+                                .counters = trie.counters.buffer(),
+                                .ages = trie.ages,
+                                .ends = ends,
+                                .args = wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
+                                                             .extent_m = scene.extent_m,
+                                                             .capacity = rays.capacity,
+                                                             .ray_count = rays.count,
+                                                             .interactions = interactions,
+                                                             .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
+                                                             .now = trie.now}});
 }
 
 }  // namespace wavetracer

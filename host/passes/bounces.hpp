@@ -2,6 +2,7 @@
 // bounces: all segments of the rays of a queue in one launch, where nothing else happens to the queue between two
 // depths. It enters the same sequences as trace, scan and interact, one depth after the other.
 #pragma once
+#include "kernel_calls/bounces.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/sequences.hpp"
@@ -20,7 +21,7 @@ class Bounces {
 
  private:
   bool ages_, samples_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::bounces::bounces> kernel_;
   Work work_;
 };
 

@@ -22,10 +22,10 @@ CacheGroups::CacheGroups(gpu::Context& context, const CacheTable& table)
     : context_(context), work_(tuning_of(context.info()).cache_rays), words_(table.config.key == "exact" ? 4 : 2) {
   gpu::Definitions definitions = table.definitions(false);
   definitions["WT_RAYS_PER_ITEM"] = work_.option();
-  keys_ = context.kernel("cache_groups", "cache_keys", definitions);
-  elect_ = context.kernel("cache_groups", "cache_elect", definitions);
-  follow_ = context.kernel("cache_groups", "cache_follow", definitions);
-  share_ = context.kernel("cache_groups", "cache_share", definitions);
+  keys_ = {context, definitions};
+  elect_ = {context, definitions};
+  follow_ = {context, definitions};
+  share_ = {context, definitions};
 }
 
 void CacheGroups::reserve(uint32_t capacity) {
@@ -42,10 +42,24 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
   const uint32_t none = WT_NONE;
   context_.fill(numbers_, &none, sizeof none, 0, places * sizeof none, stage);
   const gpu::Range range = work_.range(rays.count);
-  keys_(range, stage, rays.planes, rays.capacity, rays.count, missed, table.widths, static_surfaces, key_words_,
-        representatives_);
-  elect_(range, stage, rays.count, key_words_, numbers_, static_cast<uint32_t>(places - 1), representatives_);
-  follow_(range, stage, rays.count, missed, numbers_, representatives_);
+  keys_(range, stage,
+        kernels::cache_groups::cache_keys{.rays = rays.planes,
+                                          .capacity = rays.capacity,
+                                          .count = rays.count,
+                                          .missed = missed,
+                                          .widths = table.widths,
+                                          .static_surfaces = static_surfaces,
+                                          .keys = key_words_,
+                                          .places = representatives_});
+  elect_(range, stage,
+         kernels::cache_groups::cache_elect{.count = rays.count,
+                                            .keys = key_words_,
+                                            .table = numbers_,
+                                            .mask = static_cast<uint32_t>(places - 1),
+                                            .places = representatives_});
+  follow_(range, stage,
+          kernels::cache_groups::cache_follow{
+              .count = rays.count, .missed = missed, .table = numbers_, .places = representatives_});
 }
 
 void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
@@ -53,15 +67,26 @@ void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits,
                         gpu::Buffer<uint32_t>* receivers) {
   if (table.config.scope == "all" && !receivers)
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
-  share_(work_.range(rays.count), stage, rays.planes, hits.planes, missed, refused, representatives_, table.entries,
-         table.heads, table.used, table.device_regions, table.counters, scene.surfaces, receivers,
-         wt_cache_lookup_arguments{.capacity = rays.capacity,
-                                   .count = rays.count,
-                                   .now = now,
-                                   .touch = 0,
-                                   .static_surfaces = 0,
-                                   .radius_m = 0,
-                                   .widths = table.widths});
+  share_(work_.range(rays.count), stage,
+         kernels::cache_groups::cache_share{.rays = rays.planes,
+                                            .hits = hits.planes,
+                                            .missed = missed,
+                                            .refused = refused,
+                                            .representatives = representatives_,
+                                            .entries = table.entries,
+                                            .heads = table.heads,
+                                            .used = table.used,
+                                            .regions = table.device_regions,
+                                            .counters = table.counters,
+                                            .surfaces = scene.surfaces,
+                                            .receivers = receivers,
+                                            .args = wt_cache_lookup_arguments{.capacity = rays.capacity,
+                                                                              .count = rays.count,
+                                                                              .now = now,
+                                                                              .touch = 0,
+                                                                              .static_surfaces = 0,
+                                                                              .radius_m = 0,
+                                                                              .widths = table.widths}});
 }
 
 }  // namespace wavetracer

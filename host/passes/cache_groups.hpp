@@ -2,6 +2,7 @@
 // cache_groups: the rays of one key that the ray cache did not answer are a group, of which one ray is traced. It needs
 // a labelled queue, see label_rays, and room for it.
 #pragma once
+#include "kernel_calls/cache_groups.hpp"
 #include "passes/cache_table.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
@@ -32,7 +33,10 @@ class CacheGroups {
   gpu::Context& context_;
   Work work_;
   uint32_t words_;  // words of a key, WT_GROUP_WORDS
-  gpu::Kernel keys_, elect_, follow_, share_;
+  gpu::KernelOf<kernels::cache_groups::cache_keys> keys_;
+  gpu::KernelOf<kernels::cache_groups::cache_elect> elect_;
+  gpu::KernelOf<kernels::cache_groups::cache_follow> follow_;
+  gpu::KernelOf<kernels::cache_groups::cache_share> share_;
   gpu::Buffer<uint64_t> key_words_;
   gpu::Buffer<uint32_t> numbers_, representatives_;  // numbers of rays, by the places of their keys
 };

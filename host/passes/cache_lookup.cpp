@@ -13,7 +13,7 @@ CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_
   const bool writes = table.config.statistics || table.config.scope == "all";
   gpu::Definitions definitions = table.definitions(!writes);
   definitions["WT_RAYS_PER_ITEM"] = work_.option();
-  kernel_ = context.kernel("cache_lookup", "cache_lookup", definitions);
+  kernel_ = {context, definitions};
 }
 
 void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
@@ -21,16 +21,30 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
   if (table.config.scope == "all" && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
-  kernel_(work_.range(rays.count), Stage::cache_lookup, rays.planes, hits.planes, missed, table.entries, table.heads,
-          table.used, table.device_regions, table.counters, scene.surfaces, scene.exact_surfaces, movement.receivers,
-          movement.instance_since, receptions, table.hits, table.uses, table.cycles,
-          wt_cache_lookup_arguments{.capacity = rays.capacity,
-                                    .count = rays.count,
-                                    .now = now,
-                                    .touch = touch,
-                                    .static_surfaces = static_surfaces,
-                                    .radius_m = movement.radius_m,
-                                    .widths = table.widths});
+  kernel_(work_.range(rays.count), Stage::cache_lookup,
+          kernels::cache_lookup::cache_lookup{.rays = rays.planes,
+                                              .hits = hits.planes,
+                                              .missed = missed,
+                                              .entries = table.entries,
+                                              .heads = table.heads,
+                                              .used = table.used,
+                                              .regions = table.device_regions,
+                                              .counters = table.counters,
+                                              .surfaces = scene.surfaces,
+                                              .exact_surfaces = scene.exact_surfaces,
+                                              .receivers = movement.receivers,
+                                              .instance_since = movement.instance_since,
+                                              .receptions = receptions,
+                                              .entry_hits = table.hits,
+                                              .uses = table.uses,
+                                              .cycles = table.cycles,
+                                              .args = wt_cache_lookup_arguments{.capacity = rays.capacity,
+                                                                                .count = rays.count,
+                                                                                .now = now,
+                                                                                .touch = touch,
+                                                                                .static_surfaces = static_surfaces,
+                                                                                .radius_m = movement.radius_m,
+                                                                                .widths = table.widths}});
 }
 
 }  // namespace wavetracer

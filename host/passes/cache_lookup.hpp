@@ -2,6 +2,7 @@
 // cache_lookup: rays of a queue that the ray cache can answer get their hit; the others are marked for tracing. It
 // needs a labelled queue, see label_rays.
 #pragma once
+#include "kernel_calls/cache_lookup.hpp"
 #include "passes/cache_table.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
@@ -25,7 +26,7 @@ class CacheLookup {
 
  private:
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::cache_lookup::cache_lookup> kernel_;
 };
 
 }  // namespace wavetracer

@@ -13,14 +13,21 @@ CachePurge::CachePurge(gpu::Context& context, const CacheTable& table)
       work_(tuning_of(context.info()).cache_entries) {
   gpu::Definitions definitions = table.definitions(true);
   definitions["WT_ENTRIES_PER_ITEM"] = work_.option();
-  kernel_ = context.kernel("cache_purge", "cache_purge", definitions);
+  kernel_ = {context, definitions};
 }
 
 void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t keep_from) {
   context.fill(old_, 0, Stage::cache_purge);
   const gpu::Range entries = work_.range(table.regions.front().entries);
-  kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, Stage::cache_purge, table.entries,
-          table.heads, table.used, table.device_regions, table.counters, keep_from, old_, table.uses);
+  kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, Stage::cache_purge,
+          kernels::cache_purge::cache_purge{.entries = table.entries,
+                                            .heads = table.heads,
+                                            .used = table.used,
+                                            .regions = table.device_regions,
+                                            .counters = table.counters,
+                                            .keep_from = keep_from,
+                                            .old = old_,
+                                            .uses = table.uses});
   if (table.config.kind == "chained") clear_old_regions(context, table);
 }
 

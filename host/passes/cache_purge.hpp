@@ -2,6 +2,7 @@
 // cache_purge: removes entries that were not used since a given frame, in a pass of its own.
 // No other kernel may use the table meanwhile.
 #pragma once
+#include "kernel_calls/cache_purge.hpp"
 #include "passes/cache_table.hpp"
 #include "passes/tuning.hpp"
 
@@ -18,7 +19,7 @@ class CachePurge {
  private:
   void clear_old_regions(gpu::Context& context, CacheTable& table);
 
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::cache_purge::cache_purge> kernel_;
   gpu::Buffer<uint32_t> old_;  // old entries of each region
   Work work_;
 };

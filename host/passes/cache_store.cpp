@@ -12,7 +12,7 @@ CacheStore::CacheStore(gpu::Context& context, const CacheTable& table) : work_(t
   gpu::Definitions definitions = table.definitions(false);
   definitions["WT_CACHE_TALLY"] = "1";
   definitions["WT_RAYS_PER_ITEM"] = work_.option();
-  kernel_ = context.kernel("cache_store", "cache_store", definitions);
+  kernel_ = {context, definitions};
 }
 
 void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitList& missed_hits,
@@ -22,15 +22,26 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
   if (table.config.scope == "all" && (!receptions || !receivers))
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
-  kernel_(work_.range(missed.count), Stage::cache_store, rays.planes, missed.planes, missed_hits.planes, indices,
-          hits.planes, table.entries, table.heads, table.used, table.device_regions, table.counters, receptions,
-          receivers, table.cycles,
-          wt_cache_store_arguments{.capacity = rays.capacity,
-                                   .missed_capacity = missed.capacity,
-                                   .missed_count = missed.count,
-                                   .now = now,
-                                   .static_surfaces = static_surfaces,
-                                   .widths = table.widths});
+  kernel_(work_.range(missed.count), Stage::cache_store,
+          kernels::cache_store::cache_store{.rays = rays.planes,
+                                            .missed = missed.planes,
+                                            .missed_hits = missed_hits.planes,
+                                            .indices = indices,
+                                            .hits = hits.planes,
+                                            .entries = table.entries,
+                                            .heads = table.heads,
+                                            .used = table.used,
+                                            .regions = table.device_regions,
+                                            .counters = table.counters,
+                                            .receptions = receptions,
+                                            .receivers = receivers,
+                                            .cycles = table.cycles,
+                                            .args = wt_cache_store_arguments{.capacity = rays.capacity,
+                                                                             .missed_capacity = missed.capacity,
+                                                                             .missed_count = missed.count,
+                                                                             .now = now,
+                                                                             .static_surfaces = static_surfaces,
+                                                                             .widths = table.widths}});
 }
 
 }  // namespace wavetracer

@@ -2,6 +2,7 @@
 // cache_store: puts traced hits into the ray cache, and back into the hits of the whole queue. It needs labelled
 // queues, see label_rays.
 #pragma once
+#include "kernel_calls/cache_store.hpp"
 #include "passes/cache_table.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
@@ -22,7 +23,7 @@ class CacheStore {
 
  private:
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::cache_store::cache_store> kernel_;
 };
 
 }  // namespace wavetracer

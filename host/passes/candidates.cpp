@@ -27,12 +27,15 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
       list_(context.buffer<wt_candidate>(1 << 16, {"candidates", advice::links})) {
   const uint32_t reflections = std::max(std::min(max_reflections, WT_MAX_DEPTH), 1u);
   // There are at most as many sequences as work-items: each work-item follows one back.
-  if (!tuning_of(context.info()).alone)
-    work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
-  kernel_ = context.kernel("candidates", "candidates",
-                           {{"WT_REFLECTIONS", std::to_string(reflections)},
-                            {"WT_GROUP", std::to_string(work_.group) + "u"},
-                            {"WT_NODES", work_.option()}});
+  const bool alone = tuning_of(context.info()).alone;
+  if (!alone) work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
+  const gpu::Definitions definitions = {{"WT_REFLECTIONS", std::to_string(reflections)},
+                                        {"WT_GROUP", std::to_string(work_.group) + "u"},
+                                        {"WT_NODES", work_.option()}};
+  if (alone)
+    by_items_ = {context, definitions};
+  else
+    by_groups_ = {context, definitions};
 }
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
@@ -49,13 +52,33 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
                                                 .max_reflections = max_reflections_,
                                                 .capacity = static_cast<uint32_t>(list_.size())};
         if (alone)
-          kernel_(work_.range(node_count), Stage::candidates, trie, nodes, ends.transmitters, ends.receivers,
-                  scene.exact_surfaces, scene.surfaces, groups.order, groups.places, groups.boxes, groups.links, list_,
-                  counters.buffer(), arguments);
+          by_items_(work_.range(node_count), Stage::candidates,
+                    kernels::candidates::candidates_WT_CPU{.table = trie,
+                                                           .nodes = nodes,
+                                                           .transmitters = ends.transmitters,
+                                                           .exact_receivers = ends.receivers,
+                                                           .exact = scene.exact_surfaces,
+                                                           .surfaces = scene.surfaces,
+                                                           .order = groups.order,
+                                                           .places = groups.places,
+                                                           .boxes = groups.boxes,
+                                                           .links = groups.links,
+                                                           .out = list_,
+                                                           .counters = counters.buffer(),
+                                                           .args = arguments});
         else
-          kernel_(work_.groups(node_count), Stage::candidates, trie, nodes, ends.transmitters, ends.receivers,
-                  scene.exact_surfaces, scene.surfaces, ends.receiver_planes, ends.linked, list_, counters.buffer(),
-                  arguments);
+          by_groups_(work_.groups(node_count), Stage::candidates,
+                     kernels::candidates::candidates_not_WT_CPU{.table = trie,
+                                                                .nodes = nodes,
+                                                                .transmitters = ends.transmitters,
+                                                                .exact_receivers = ends.receivers,
+                                                                .exact = scene.exact_surfaces,
+                                                                .surfaces = scene.surfaces,
+                                                                .receivers = ends.receiver_planes,
+                                                                .linked = ends.linked,
+                                                                .out = list_,
+                                                                .counters = counters.buffer(),
+                                                                .args = arguments});
       },
       [&](size_t entries) {
         list_ = context_.buffer<wt_candidate>(entries, {"candidates", advice::links});

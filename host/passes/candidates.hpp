@@ -2,6 +2,7 @@
 // candidates: pairs of sequences and receivers that may have a path, after two conservative rejections.
 // The list grows until it holds all of them.
 #pragma once
+#include "kernel_calls/candidates.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -20,7 +21,8 @@ class Candidates {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::candidates::candidates_WT_CPU> by_items_;  // one of the two, by the device
+  gpu::KernelOf<kernels::candidates::candidates_not_WT_CPU> by_groups_;
   uint32_t max_reflections_;
   Work work_;
   gpu::Buffer<wt_candidate> list_;

@@ -17,8 +17,8 @@ Compact::Compact(gpu::Context& context, uint32_t block, Form form) : block_(bloc
     throw std::invalid_argument(fmt::format("compact: blocks of {} words", block));
   gpu::Definitions definitions = {{"WT_BLOCK", std::to_string(block) + "u"}};
   if (items) definitions["WT_BLOCKS_PER_ITEM"] = std::to_string(tuning.blocks_per_item);
-  count_blocks_ = context.kernel("compact", "count_blocks", definitions);
-  compact_ = context.kernel("compact", "compact", definitions);
+  count_blocks_ = {context, definitions};
+  compact_ = {context, definitions};
   work_ = items ? Work{block * tuning.blocks_per_item, 4} : Work{1, block};
 }
 
@@ -34,13 +34,20 @@ void Compact::check(const gpu::Buffer<float>& words, size_t first, uint32_t coun
 void Compact::count_blocks(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                            gpu::Buffer<uint32_t>& block_counts) {
   check(words, first, count, block_counts);
-  count_blocks_(work_.range(count), Stage::compact, words, uint64_t{first}, count, block_counts);
+  count_blocks_(work_.range(count), Stage::compact,
+                kernels::compact::count_blocks{
+                    .planes = words, .first = uint64_t{first}, .count = count, .block_counts = block_counts});
 }
 
 void Compact::operator()(const gpu::Buffer<float>& words, size_t first, uint32_t count,
                          const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices) {
   check(words, first, count, block_offsets);
-  compact_(work_.range(count), Stage::compact, words, uint64_t{first}, count, block_offsets, indices);
+  compact_(work_.range(count), Stage::compact,
+           kernels::compact::compact{.planes = words,
+                                     .first = uint64_t{first},
+                                     .count = count,
+                                     .block_offsets = block_offsets,
+                                     .indices = indices});
 }
 
 }  // namespace wavetracer

@@ -3,6 +3,7 @@
 // Between its two operations the block counts are scanned (see scan), which also gives the number of indices.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/compact.hpp"
 #include "passes/tuning.hpp"
 #include "wavetracer/device/records.h"
 
@@ -31,7 +32,8 @@ class Compact {
                   const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices);
 
  private:
-  gpu::Kernel count_blocks_, compact_;
+  gpu::KernelOf<kernels::compact::count_blocks> count_blocks_;
+  gpu::KernelOf<kernels::compact::compact> compact_;
   uint32_t block_;
   Work work_;
   void check(const gpu::Buffer<float>& words, size_t first, uint32_t count, const gpu::Buffer<uint32_t>& blocks) const;

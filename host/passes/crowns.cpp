@@ -28,7 +28,7 @@ std::vector<uint32_t> link_pairs(const RadioEnds& ends) {
 
 Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t first_tile, uint32_t max_depth)
     : context_(context),
-      kernel_(context.kernel("crowns", "crowns")),
+      kernel_(context),
       work_(tuning_of(context.info()).tiles),
       cells_(static_cast<uint32_t>(cells.size())),
       first_tile_(first_tile) {
@@ -48,13 +48,17 @@ SolvedList& Crowns::operator()(const RadioEnds& ends) {
   }
   solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
   if (solved_.count > 0)
-    kernel_(work_.range(solved_.count), Stage::crowns, links_, centres_, solved_.headers, solved_.vertices,
-            solved_.sequences,
-            wt_crowns_arguments{.row_count = solved_.count,
-                                .rows_per_item = work_.per_item,
-                                .cells = cells_,
-                                .first_tile = first_tile_,
-                                .max_depth = solved_.max_depth});
+    kernel_(work_.range(solved_.count), Stage::crowns,
+            kernels::crowns::crowns{.links = links_,
+                                    .centres = centres_,
+                                    .solved = solved_.headers,
+                                    .vertices = solved_.vertices,
+                                    .sequences = solved_.sequences,
+                                    .args = wt_crowns_arguments{.row_count = solved_.count,
+                                                                .rows_per_item = work_.per_item,
+                                                                .cells = cells_,
+                                                                .first_tile = first_tile_,
+                                                                .max_depth = solved_.max_depth}});
   return solved_;
 }
 

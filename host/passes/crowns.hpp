@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel_calls/crowns.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/tuning.hpp"
@@ -25,7 +26,7 @@ class Crowns {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::crowns::crowns> kernel_;
   Work work_;
   uint32_t cells_, first_tile_, links_count_ = 0;
   gpu::Buffer<double> centres_;

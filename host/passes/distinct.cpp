@@ -22,9 +22,9 @@ constexpr uint32_t most_length_bits = 28;  // see row_key
 Distinct::Distinct(gpu::Context& context, std::span<const uint32_t> receiver_of,
                    std::span<const uint32_t> transmitter_of)
     : context_(context),
-      row_keys_(context.kernel("distinct", "row_keys")),
-      mark_rows_(context.kernel("distinct", "mark_rows")),
-      order_rows_(context.kernel("distinct", "order_rows")),
+      row_keys_(context),
+      mark_rows_(context),
+      order_rows_(context),
       local_(context.info().simple_local_size()),
       twins_(std::ranges::any_of(receiver_of, [](uint32_t receiver) { return receiver != WT_NONE; })),
       receiver_of_(context.buffer(std::vector(receiver_of.begin(), receiver_of.end()), "receivers of transmitters")),
@@ -64,20 +64,60 @@ uint32_t Distinct::keys(const RadioEnds& ends, const gpu::Buffer<uint16_t>& own,
                 .groups = ends.receiver_capacity / 16,
                 .twins = twins_,
                 .length_bits = std::min(most_length_bits, 32u - static_cast<uint32_t>(std::bit_width(links)))};
-  row_keys_({places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences, ends.transmitters,
-            ends.receivers, receiver_of_, transmitter_of_, ends.links, own, keys_, lengths_, counters.buffer(),
-            arguments_);
+  row_keys_({places, local_}, Stage::distinct,
+            kernels::distinct::row_keys{.solved = visible.headers,
+                                        .vertices = visible.vertices,
+                                        .steps = visible.sequences,
+                                        .transmitters = ends.transmitters,
+                                        .receivers = ends.receivers,
+                                        .receiver_of = receiver_of_,
+                                        .transmitter_of = transmitter_of_,
+                                        .links = ends.links,
+                                        .own = own,
+                                        .keys = keys_,
+                                        .lengths = lengths_,
+                                        .counters = counters.buffer(),
+                                        .args = arguments_});
   return rows_.places;
 }
 
 void Distinct::place(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                      const SolvedList& visible, Counters& counters) {
-  mark_rows_({rows_.places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences,
-             ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, scene.exact_surfaces, wedges, keys_,
-             order_, lengths_, stays_, quarters_, counters.buffer(), arguments_);
-  order_rows_({rows_.places, local_}, Stage::distinct, visible.headers, visible.vertices, visible.sequences,
-              ends.transmitters, ends.receivers, receiver_of_, transmitter_of_, keys_, order_, lengths_, stays_,
-              quarters_, rows_.rows, rows_.delays, rows_.counts, rows_.quarters, arguments_);
+  mark_rows_({rows_.places, local_}, Stage::distinct,
+             kernels::distinct::mark_rows{.solved = visible.headers,
+                                          .vertices = visible.vertices,
+                                          .steps = visible.sequences,
+                                          .transmitters = ends.transmitters,
+                                          .receivers = ends.receivers,
+                                          .receiver_of = receiver_of_,
+                                          .transmitter_of = transmitter_of_,
+                                          .surfaces = scene.exact_surfaces,
+                                          .wedges = wedges,
+                                          .keys = keys_,
+                                          .order = order_,
+                                          .lengths = lengths_,
+                                          .stays = stays_,
+                                          .quarters = quarters_,
+                                          .counters = counters.buffer(),
+                                          .args = arguments_});
+  order_rows_({rows_.places, local_}, Stage::distinct,
+              kernels::distinct::order_rows{.solved = visible.headers,
+                                            .vertices = visible.vertices,
+                                            .steps = visible.sequences,
+                                            .transmitters = ends.transmitters,
+                                            .receivers = ends.receivers,
+                                            .receiver_of = receiver_of_,
+                                            .transmitter_of = transmitter_of_,
+                                            .keys = keys_,
+                                            .order = order_,
+                                            .lengths = lengths_,
+                                            .stays = stays_,
+                                            .quarters = quarters_,
+                                            .rows = rows_.rows,
+                                            .delays = rows_.delays,
+                                            .counts = rows_.counts,
+                                            .row_quarters = rows_.quarters,
+                                            .args = arguments_});
 }
 
 std::map<Link, uint32_t> Distinct::left_out() {

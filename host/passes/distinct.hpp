@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "kernel_calls/distinct.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -52,7 +53,9 @@ class Distinct {
   void reserve(size_t places);
 
   gpu::Context& context_;
-  gpu::Kernel row_keys_, mark_rows_, order_rows_;
+  gpu::KernelOf<kernels::distinct::row_keys> row_keys_;
+  gpu::KernelOf<kernels::distinct::mark_rows> mark_rows_;
+  gpu::KernelOf<kernels::distinct::order_rows> order_rows_;
   uint32_t local_;
   bool twins_;
   gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_;

@@ -15,11 +15,10 @@ namespace wavetracer {
 
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
     : context_(context),
-      kernel_(context.kernel("fields", "fields",
-                             {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
-                              {"WT_SCATTERS", tables.scatters ? "1" : "0"},
-                              {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
-                              {"WT_LOSSES", tables.loses() ? "1" : "0"}})),
+      kernel_(context, {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
+                        {"WT_SCATTERS", tables.scatters ? "1" : "0"},
+                        {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
+                        {"WT_LOSSES", tables.loses() ? "1" : "0"}}),
       work_(tuning_of(context.info()).exact),
       transmitters_(tables.transmitters),
       ports_(tables.ports),
@@ -59,11 +58,34 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
   arguments_.max_depth = visible.max_depth;
-  kernel_(work_.range(rows.places), Stage::fields, visible.headers, visible.vertices, visible.sequences,
-          ends.transmitters, ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.delays,
-          rows.quarters, rows.counts, scene.exact_surfaces, materials_of_, materials_, wedges, surface_of_tile_,
-          area_of_tile_, scene.exact_instances, ends_[0], ends_[1], antennas_, samples_, foliages_, lengths_inside,
-          rows_, vertices_, arguments_);
+  kernel_(work_.range(rows.places), Stage::fields,
+          kernels::fields::fields{.solved = visible.headers,
+                                  .vertices = visible.vertices,
+                                  .steps = visible.sequences,
+                                  .transmitter_places = ends.transmitters,
+                                  .receiver_places = ends.receivers,
+                                  .receiver_of = distinct.receiver_of(),
+                                  .transmitter_of = distinct.transmitter_of(),
+                                  .rows = rows.rows,
+                                  .delays = rows.delays,
+                                  .quarters = rows.quarters,
+                                  .before = rows.counts,
+                                  .surfaces = scene.exact_surfaces,
+                                  .materials_of = materials_of_,
+                                  .materials = materials_,
+                                  .wedges = wedges,
+                                  .surface_of_tile = surface_of_tile_,
+                                  .area_of_tile = area_of_tile_,
+                                  .instances = scene.exact_instances,
+                                  .transmitters = ends_[0],
+                                  .receivers = ends_[1],
+                                  .antennas = antennas_,
+                                  .samples = samples_,
+                                  .foliages = foliages_,
+                                  .lengths_inside = lengths_inside,
+                                  .out = rows_,
+                                  .out_vertices = vertices_,
+                                  .args = arguments_});
 }
 
 void Fields::begin_read(uint32_t frame, RowCounts expected) {

@@ -5,6 +5,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 
+#include "kernel_calls/fields.hpp"
 #include "passes/distinct.hpp"
 #include "passes/tuning.hpp"
 #include "radio/field_tables.hpp"
@@ -46,7 +47,7 @@ class Fields {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::fields::fields> kernel_;
   Work work_;
   uint32_t transmitters_;
   Ports ports_;

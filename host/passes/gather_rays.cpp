@@ -8,10 +8,16 @@ namespace wavetracer {
 GatherRays::GatherRays(gpu::Context& context, Stage stage)
     : stage_(stage),
       work_(tuning_of(context.info()).gather_rays),
-      kernel_(context.kernel("gather_rays", "gather_rays", {{"WT_RAYS_PER_ITEM", work_.option()}})) {}
+      kernel_(context, {{"WT_RAYS_PER_ITEM", work_.option()}}) {}
 
 void GatherRays::operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next) {
-  kernel_(work_.range(count), stage_, rays.planes, rays.capacity, count, order, next.planes, next.plane_count);
+  kernel_(work_.range(count), stage_,
+          kernels::gather_rays::gather_rays{.rays = rays.planes,
+                                            .capacity = rays.capacity,
+                                            .count = count,
+                                            .order = order,
+                                            .next = next.planes,
+                                            .plane_count = next.plane_count});
   next.count = count;
 }
 

@@ -2,6 +2,7 @@
 // gather_rays: copies rays of a queue into another, permuted or selected. It needs two queues of one capacity, the
 // second with no more planes than the first.
 #pragma once
+#include "kernel_calls/gather_rays.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
 
@@ -17,7 +18,7 @@ class GatherRays {
  private:
   Stage stage_;
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::gather_rays::gather_rays> kernel_;
 };
 
 }  // namespace wavetracer

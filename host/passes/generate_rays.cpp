@@ -31,24 +31,28 @@ gpu::Definitions with_samples(gpu::Definitions definitions) {
 GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& directions,
                            std::shared_ptr<const LaunchHeights> heights)
     : context_(context),
-      generate_(context.kernel("generate_rays", "generate_rays", directions.definitions())),
-      generate_launchers_(context.kernel("generate_rays", "generate_launchers", directions.definitions())),
-      generate_ordered_(context.kernel("generate_rays", "generate_ordered", directions.definitions())),
-      generate_samples_(context.kernel("generate_rays", "generate_samples", with_samples(directions.definitions()))),
+      generate_(context, directions.definitions()),
+      generate_launchers_(context, directions.definitions()),
+      generate_ordered_(context, directions.definitions()),
+      generate_samples_(context, with_samples(directions.definitions())),
       directions_(directions),
       heights_(heights ? std::move(heights) : std::make_shared<const LaunchHeights>(context)),
       work_(tuning_of(context.info()).generate_rays) {}
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
-  generate_(work_.range(count), Stage::generate_rays, queue.planes, heights_->tables(), directions_.arguments(),
-            arguments_of(from, *heights_),
-            wt_launch_arguments{.first_index = first,
-                                .stride = stride,
-                                .number = static_cast<uint32_t>(first / stride & 3),
-                                .capacity = queue.capacity,
-                                .first_slot = queue.count,
-                                .count = count});
+  generate_(work_.range(count), Stage::generate_rays,
+            kernels::generate_rays::generate_rays{
+                .rays = queue.planes,
+                .heights = heights_->tables(),
+                .map = directions_.arguments(),
+                .from = arguments_of(from, *heights_),
+                .args = wt_launch_arguments{.first_index = first,
+                                            .stride = stride,
+                                            .number = static_cast<uint32_t>(first / stride & 3),
+                                            .capacity = queue.capacity,
+                                            .first_slot = queue.count,
+                                            .count = count}});
   queue.count += count;
 }
 
@@ -61,28 +65,37 @@ void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, u
   if (launchers_.size() < launchers.size())
     launchers_ = context_.buffer<wt_launcher_arguments>(launchers.size(), "launchers");
   launchers_.write(launchers, 0, Stage::generate_rays);
-  generate_launchers_(work_.range(rays), Stage::generate_rays, queue.planes, heights_->tables(),
-                      directions_.arguments(), launchers_, static_cast<uint32_t>(from.size()),
-                      wt_launch_arguments{.first_index = first,
-                                          .stride = stride,
-                                          .number = static_cast<uint32_t>(first / stride & 3),
-                                          .capacity = queue.capacity,
-                                          .first_slot = queue.count,
-                                          .count = count});
+  generate_launchers_(work_.range(rays), Stage::generate_rays,
+                      kernels::generate_rays::generate_launchers{
+                          .rays = queue.planes,
+                          .heights = heights_->tables(),
+                          .map = directions_.arguments(),
+                          .launchers = launchers_,
+                          .launcher_count = static_cast<uint32_t>(from.size()),
+                          .args = wt_launch_arguments{.first_index = first,
+                                                      .stride = stride,
+                                                      .number = static_cast<uint32_t>(first / stride & 3),
+                                                      .capacity = queue.capacity,
+                                                      .first_slot = queue.count,
+                                                      .count = count}});
   queue.count += rays;
 }
 
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count,
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
-  generate_ordered_(work_.range(count), Stage::generate_rays, queue.planes, order, heights_->tables(),
-                    directions_.arguments(), arguments_of(from, *heights_),
-                    wt_launch_arguments{.first_index = first,
-                                        .stride = 1,
-                                        .number = 0,
-                                        .capacity = queue.capacity,
-                                        .first_slot = queue.count,
-                                        .count = count});
+  generate_ordered_(work_.range(count), Stage::generate_rays,
+                    kernels::generate_rays::generate_ordered{.rays = queue.planes,
+                                                             .order = order,
+                                                             .heights = heights_->tables(),
+                                                             .map = directions_.arguments(),
+                                                             .from = arguments_of(from, *heights_),
+                                                             .args = wt_launch_arguments{.first_index = first,
+                                                                                         .stride = 1,
+                                                                                         .number = 0,
+                                                                                         .capacity = queue.capacity,
+                                                                                         .first_slot = queue.count,
+                                                                                         .count = count}});
   queue.count += count;
 }
 
@@ -91,15 +104,21 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
                            DirectionTurn turn) {
   queue.count = 0;
   check_room(queue, count);
-  generate_samples_(work_.range(count), Stage::generate_rays, queue.planes, list.samples, launchers, heights_->tables(),
-                    list.ends, directions.arguments(),
-                    wt_samples_arguments{.capacity = queue.capacity,
-                                         .first = first,
-                                         .count = count,
-                                         .sample_capacity = list.capacity,
-                                         .cosine = turn.cosine,
-                                         .sine = turn.sine,
-                                         .turn = turn.turn});
+  generate_samples_(
+      work_.range(count), Stage::generate_rays,
+      kernels::generate_rays::generate_samples{.rays = queue.planes,
+                                               .samples = list.samples,
+                                               .launchers = launchers,
+                                               .heights = heights_->tables(),
+                                               .ends = list.ends,
+                                               .map = directions.arguments(),
+                                               .args = wt_samples_arguments{.capacity = queue.capacity,
+                                                                            .first = first,
+                                                                            .count = count,
+                                                                            .sample_capacity = list.capacity,
+                                                                            .cosine = turn.cosine,
+                                                                            .sine = turn.sine,
+                                                                            .turn = turn.turn}});
   queue.count = count;
 }
 

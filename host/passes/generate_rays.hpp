@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "kernel_calls/generate_rays.hpp"
 #include "passes/launch_directions.hpp"
 #include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
@@ -51,7 +52,10 @@ class GenerateRays {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel generate_, generate_launchers_, generate_ordered_, generate_samples_;
+  gpu::KernelOf<kernels::generate_rays::generate_rays> generate_;
+  gpu::KernelOf<kernels::generate_rays::generate_launchers> generate_launchers_;
+  gpu::KernelOf<kernels::generate_rays::generate_ordered> generate_ordered_;
+  gpu::KernelOf<kernels::generate_rays::generate_samples> generate_samples_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
   Work work_;

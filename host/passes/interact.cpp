@@ -18,10 +18,10 @@ Interact::Interact(gpu::Context& context, InteractOptions options) : options_(op
   if (options.ages) definitions["WT_AGES"] = "1";
   if (options.samples) definitions["WT_SAMPLES"] = "1";
   if (options.labels) definitions["WT_LABELS"] = "1";
-  kernel_ = context.kernel("interact", "interact", definitions);
+  kernel_ = {context, definitions};
   if (options.transmission) {
     definitions["WT_THROUGH"] = "1";
-    kernel_through_ = context.kernel("interact", "interact", definitions);
+    kernel_through_ = {context, definitions};
   }
   work_ = tuning.blocks;
 }
@@ -31,16 +31,26 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   if (options_.ages && !trie.ages) throw std::logic_error("interact: the set of sequences keeps no ages");
   if (options_.samples && !to.ends) throw std::logic_error("interact: there is no list for the ends of samples");
   if (to.transmitted && !options_.transmission) throw std::logic_error("interact: it was made without transmission");
-  gpu::Kernel& kernel = to.transmitted ? kernel_through_ : kernel_;
+  auto& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
-  kernel(work_.range(rays.count), Stage::interact, rays.planes, hits.planes, hits.block_hits, scene.surfaces,
-         trie.table, trie.quarters, trie.counters.buffer(), planes(to.reflected), trie.ages, to.ends,
-         planes(to.transmitted),
-         wt_interact_arguments{.capacity = rays.capacity,
-                               .ray_count = rays.count,
-                               .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
-                               .last = !to.reflected,
-                               .now = trie.now});
+  kernel(work_.range(rays.count), Stage::interact,
+         kernels::interact::interact{
+             .rays = rays.planes,
+             .hits = hits.planes,
+             .block_offsets = hits.block_hits,
+             .surfaces = scene.surfaces,
+             .table = trie.table,
+             .quarters = trie.quarters,
+             .counters = trie.counters.buffer(),
+             .next = planes(to.reflected),
+             .ages = trie.ages,
+             .ends = to.ends,
+             .through = planes(to.transmitted),
+             .args = wt_interact_arguments{.capacity = rays.capacity,
+                                           .ray_count = rays.count,
+                                           .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
+                                           .last = !to.reflected,
+                                           .now = trie.now}});
   for (RayQueue* const queue : {to.reflected, to.transmitted})
     if (queue) queue->count = hit_count;
 }

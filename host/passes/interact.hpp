@@ -2,6 +2,7 @@
 // interact: rays that hit enter their prefix into the trie and go on, reflected and compacted in order; if a queue for
 // transmitted rays is given, they also go straight through the surface. hits.block_hits must have been scanned.
 #pragma once
+#include "kernel_calls/interact.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/trie.hpp"
@@ -34,7 +35,8 @@ class Interact {
 
  private:
   InteractOptions options_;
-  gpu::Kernel kernel_, kernel_through_;
+  gpu::KernelOf<kernels::interact::interact> kernel_;
+  gpu::KernelOf<kernels::interact::interact> kernel_through_;
   Work work_;
 };
 

@@ -2,6 +2,7 @@
 // label_rays: launched rays get their sample, their transmitter, and the note that they have left nothing yet. It needs
 // queues with WT_RAY_LABELLED_PLANES.
 #pragma once
+#include "kernel_calls/label_rays.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
 
@@ -20,7 +21,9 @@ class LabelRays {
 
  private:
   Work work_;
-  gpu::Kernel label_, label_ordered_, label_samples_;
+  gpu::KernelOf<kernels::label_rays::label_rays> label_;
+  gpu::KernelOf<kernels::label_rays::label_rays> label_ordered_;
+  gpu::KernelOf<kernels::label_rays::label_rays> label_samples_;
 };
 
 }  // namespace wavetracer

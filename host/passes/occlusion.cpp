@@ -8,26 +8,37 @@
 namespace wavetracer {
 
 Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
-    : work_(tuning_of(context.info()).exact), kernel_(context.kernel("occlusion", "occlusion", scene.definitions)) {}
+    : work_(tuning_of(context.info()).exact), kernel_(context, scene.definitions) {}
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {
   const auto test = [&](uint32_t first_leg, size_t legs) {
     const gpu::Range paths_by_legs({solved.count, legs, 1}, {work_.group, 1, 1}, 2);
-    kernel_(paths_by_legs, Stage::occlusion, scene.leg_nodes(), scene.leg_leaves(), scene.moving, ends.transmitters,
-            ends.receivers, scene.exact_surfaces, scene.exact_triangles, solved.headers, solved.vertices,
-            solved.sequences, steps.wedges, steps.surface_of_tile, blockers ? &blockers->places : nullptr,
-            counters.buffer(),
-            wt_legs_arguments{.triangle_slots = scene.triangle_slots,
-                              .extent_m = scene.extent_m,
-                              .solved_count = solved.count,
-                              .solved_counter = solved.counter,
-                              .max_depth = solved.max_depth,
-                              .most = 0,
-                              .deepest = 0,
-                              .blocker_mask = Blockers::mask,
-                              .tile_count = steps.tile_count(),
-                              .first_leg = first_leg});
+    kernel_(paths_by_legs, Stage::occlusion,
+            kernels::occlusion::occlusion{.nodes = scene.leg_nodes(),
+                                          .triangles = scene.leg_leaves(),
+                                          .moving = scene.moving,
+                                          .transmitters = ends.transmitters,
+                                          .receivers = ends.receivers,
+                                          .surfaces = scene.exact_surfaces,
+                                          .corners = scene.exact_triangles,
+                                          .solved = solved.headers,
+                                          .vertices = solved.vertices,
+                                          .sequences = solved.sequences,
+                                          .wedges = steps.wedges,
+                                          .surface_of_tile = steps.surface_of_tile,
+                                          .blockers = blockers ? &blockers->places : nullptr,
+                                          .counters = counters.buffer(),
+                                          .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,
+                                                                    .extent_m = scene.extent_m,
+                                                                    .solved_count = solved.count,
+                                                                    .solved_counter = solved.counter,
+                                                                    .max_depth = solved.max_depth,
+                                                                    .most = 0,
+                                                                    .deepest = 0,
+                                                                    .blocker_mask = Blockers::mask,
+                                                                    .tile_count = steps.tile_count(),
+                                                                    .first_leg = first_leg}});
   };
   test(0, 1);
   test(1, std::min(solved.max_depth, solved.deepest));

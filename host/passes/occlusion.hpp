@@ -2,6 +2,7 @@
 // occlusion: marks solved paths that have an obstructed leg.
 // kernels/lib/leg.clh has the rule.
 #pragma once
+#include "kernel_calls/occlusion.hpp"
 #include "passes/blockers.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
@@ -21,7 +22,7 @@ class Occlusion {
 
  private:
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::occlusion::occlusion> kernel_;
 };
 
 }  // namespace wavetracer

@@ -4,6 +4,7 @@
 #pragma once
 #include <memory>
 
+#include "kernel_calls/order_keys.hpp"
 #include "passes/launch_directions.hpp"
 #include "passes/launch_heights.hpp"
 #include "passes/ray_queue.hpp"
@@ -33,7 +34,8 @@ class OrderKeys {
   void operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys);
 
  private:
-  gpu::Kernel launch_keys_, queue_keys_;
+  gpu::KernelOf<kernels::order_keys::launch_keys> launch_keys_;
+  gpu::KernelOf<kernels::order_keys::queue_keys> queue_keys_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
   uint32_t bins_, launch_bits_, queue_bits_;

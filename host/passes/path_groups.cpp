@@ -15,7 +15,7 @@ namespace wavetracer {
 PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& planes_of, uint32_t edges,
                        double wavelength_m)
     : context_(context),
-      kernel_(context.kernel("path_groups", "path_groups", {{"WT_DIFFRACTS", std::to_string(std::min(edges, 2u))}})),
+      kernel_(context, {{"WT_DIFFRACTS", std::to_string(std::min(edges, 2u))}}),
       work_(tuning_of(context.info()).exact),
       arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
       planes_of_(context.buffer(planes_of, "planes of surfaces")) {
@@ -28,9 +28,20 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
   arguments_.row_count = rows.places;
   arguments_.row_capacity = static_cast<uint32_t>(waves_.size());
   arguments_.max_depth = visible.max_depth;
-  kernel_(work_.range(rows.places), Stage::path_groups, visible.headers, visible.vertices, visible.sequences,
-          ends.transmitters, ends.receivers, distinct.receiver_of(), distinct.transmitter_of(), rows.rows, rows.counts,
-          wedges, planes_of_, waves_, arguments_);
+  kernel_(work_.range(rows.places), Stage::path_groups,
+          kernels::path_groups::path_groups{.solved = visible.headers,
+                                            .vertices = visible.vertices,
+                                            .steps = visible.sequences,
+                                            .transmitter_places = ends.transmitters,
+                                            .receiver_places = ends.receivers,
+                                            .receiver_of = distinct.receiver_of(),
+                                            .transmitter_of = distinct.transmitter_of(),
+                                            .rows = rows.rows,
+                                            .before = rows.counts,
+                                            .wedges = wedges,
+                                            .planes_of = planes_of_,
+                                            .out = waves_,
+                                            .args = arguments_});
 }
 
 void PathGroups::begin_read(uint32_t expected) {

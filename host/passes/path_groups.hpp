@@ -2,6 +2,7 @@
 // path_groups: the geometrical waves that the paths of a frame belong to, on the device, and the groups of paths that
 // follow from them, on the host. wavetracer/device/path_groups.h says which waves these are.
 #pragma once
+#include "kernel_calls/path_groups.hpp"
 #include "passes/distinct.hpp"
 #include "passes/tuning.hpp"
 #include "wavetracer/paths.hpp"
@@ -24,7 +25,7 @@ class PathGroups {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::path_groups::path_groups> kernel_;
   Work work_;
   wt_path_groups_arguments arguments_{};
   gpu::Buffer<uint32_t> planes_of_;

@@ -79,7 +79,7 @@ Box placed(const Box& box, const Placement& placement) {
 
 Place::Place(gpu::Context& context, const std::vector<Scene>& models, const std::vector<Instance>& instances,
              const DeviceScene& scene, size_t static_surfaces)
-    : kernel_(context.kernel("place", "place")),
+    : kernel_(context),
       local_(context.info().simple_local_size()),
       instances_(instances),
       models_(models.size()),
@@ -237,8 +237,14 @@ void Place::surfaces(DeviceScene& scene, std::span<const Placement> placements) 
     record.present = placements[i].present;
   }
   scene.exact_instances.write(records_, 0, Stage::place);
-  kernel_({surface_count_, local_}, Stage::place, scene.exact_instances, model_surfaces_, surface_instances_,
-          first_surface_, surface_count_, scene.exact_surfaces, scene.surfaces);
+  kernel_({surface_count_, local_}, Stage::place,
+          kernels::place::place{.instances = scene.exact_instances,
+                                .models = model_surfaces_,
+                                .surface_instances = surface_instances_,
+                                .first_surface = first_surface_,
+                                .surface_count = surface_count_,
+                                .exact = scene.exact_surfaces,
+                                .surfaces = scene.surfaces});
 }
 
 void Place::write_top_level(DeviceScene& scene, std::span<const Placement> placements) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accel/box.hpp"
+#include "kernel_calls/place.hpp"
 #include "passes/device_scene.hpp"
 #include "wavetracer/device/moving.h"
 #include "wavetracer/world_state.hpp"
@@ -51,7 +52,7 @@ class Place {
               const std::vector<Leaf>& leaves);
   wt_instance instance_record(uint32_t i, const Placement& placement) const;
 
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::place::place> kernel_;
   uint32_t local_;
   std::vector<Instance> instances_;
   std::vector<uint32_t> first_primitive_;  // one per instance

@@ -9,9 +9,17 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel_calls/radix_sort_cpu.hpp"
+
 namespace wavetracer {
 
 namespace {
+
+// Both programs have the same kernels.
+static_assert(kernels::radix_sort::count::declared == kernels::radix_sort_cpu::count::declared);
+static_assert(kernels::radix_sort::offsets::declared == kernels::radix_sort_cpu::offsets::declared);
+static_assert(kernels::radix_sort::move::declared == kernels::radix_sort_cpu::move::declared);
+static_assert(kernels::radix_sort::settle::declared == kernels::radix_sort_cpu::settle::declared);
 
 constexpr uint32_t flag_words = 16;  // WT_MAX_PASSES
 constexpr uint32_t line_words = 16;  // keys and values of the temporary memory begin at multiples of this
@@ -46,10 +54,10 @@ RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, SortForm form)
   definitions["WT_KEY"] = sizeof(Key) == 4 ? "uint" : "ulong";
   definitions["WT_PAYLOAD"] = std::to_string(static_cast<int>(payload));
   definitions["WT_DIGIT_BITS"] = std::to_string(tuning_.digit_bits);
-  count_ = context.kernel(program, "count", definitions);
-  offsets_ = context.kernel(program, "offsets", definitions);
-  move_ = context.kernel(program, "move", definitions);
-  settle_ = context.kernel(program, "settle", definitions);
+  count_ = {context, definitions, program};
+  offsets_ = {context, definitions, program};
+  move_ = {context, definitions, program};
+  settle_ = {context, definitions, program};
 }
 
 template <class Key>
@@ -103,13 +111,30 @@ void RadixSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values,
   for (uint32_t pass = 0, shift = first_bit; pass < passes; ++pass) {
     const uint32_t width = bits / passes + (pass < bits % passes);
     const uint32_t mask = (1u << width) - 1;
-    count_(chunks, stage, keys, temporary, n, chunk, pass, shift, mask);
-    offsets_({size_t{tuning_.offset_groups} * tuning_.offset_items, tuning_.offset_items}, stage, temporary, n, chunk,
-             pass);
-    move_(moves, stage, keys, values, temporary, n, chunk, pass, shift, mask);
+    count_(chunks, stage,
+           kernels::radix_sort::count{.keys = keys,
+                                      .temporary = temporary,
+                                      .n = n,
+                                      .chunk = chunk,
+                                      .pass = pass,
+                                      .shift = shift,
+                                      .digit_mask = mask});
+    offsets_({size_t{tuning_.offset_groups} * tuning_.offset_items, tuning_.offset_items}, stage,
+             kernels::radix_sort::offsets{.temporary = temporary, .n = n, .chunk = chunk, .pass = pass});
+    move_(moves, stage,
+          kernels::radix_sort::move{.keys = keys,
+                                    .values = values,
+                                    .temporary = temporary,
+                                    .n = n,
+                                    .chunk = chunk,
+                                    .pass = pass,
+                                    .shift = shift,
+                                    .digit_mask = mask});
     shift += width;
   }
-  settle_(chunks, stage, keys, values, temporary, n, chunk, passes);
+  settle_(chunks, stage,
+          kernels::radix_sort::settle{
+              .keys = keys, .values = values, .temporary = temporary, .n = n, .chunk = chunk, .passes = passes});
 }
 
 template class RadixSort<uint32_t>;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "gpu/gpu.hpp"
+#include "kernel_calls/radix_sort.hpp"
 #include "passes/payload.hpp"
 #include "passes/tuning.hpp"
 
@@ -48,7 +48,10 @@ class RadixSort {
 
   Payload payload_;
   RadixTuning tuning_;
-  gpu::Kernel count_, offsets_, move_, settle_;
+  gpu::KernelOf<kernels::radix_sort::count> count_;
+  gpu::KernelOf<kernels::radix_sort::offsets> offsets_;
+  gpu::KernelOf<kernels::radix_sort::move> move_;
+  gpu::KernelOf<kernels::radix_sort::settle> settle_;
 };
 
 extern template class RadixSort<uint32_t>;

@@ -11,9 +11,9 @@ namespace wavetracer {
 
 Receive::Receive(gpu::Context& context, double radius_m)
     : context_(context),
-      receive_(context.kernel("receive", "receive")),
-      receive_answered_(context.kernel("receive", "receive", {{"WT_ANSWERED", "1"}})),
-      first_(context.kernel("receive", "first_receiver")),
+      receive_(context),
+      receive_answered_(context, {{"WT_ANSWERED", "1"}}),
+      first_(context),
       radius_m_(static_cast<float>(radius_m)),
       work_(tuning_of(context.info()).receive),
       list_(context.buffer<wt_reception>(1 << 16, "receptions")),
@@ -35,18 +35,27 @@ void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitL
   append(receive_answered_, ends, rays, hits, depth, &traced, &answered);
 }
 
-void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits,
-                     uint32_t depth, const gpu::Memory* traced, const gpu::Memory* answered) {
+void Receive::append(gpu::KernelOf<kernels::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
+                     const HitList& hits, uint32_t depth, const gpu::Buffer<float>* traced,
+                     const gpu::Buffer<uint32_t>* answered) {
   count_ = grow_until_filled(
       [&] {
-        kernel(work_.range(rays.count), Stage::receive, rays.planes, hits.planes, ends.receiver_planes, ends.links,
-               list_, counter_, traced, answered,
-               wt_receive_arguments{.capacity = rays.capacity,
-                                    .ray_count = rays.count,
-                                    .receiver_capacity = ends.receiver_capacity,
-                                    .radius_m = radius_m_,
-                                    .depth = depth,
-                                    .out_capacity = static_cast<uint32_t>(list_.size())});
+        kernel(work_.range(rays.count), Stage::receive,
+               kernels::receive::receive{
+                   .rays = rays.planes,
+                   .hits = hits.planes,
+                   .receivers = ends.receiver_planes,
+                   .links = ends.links,
+                   .out = list_,
+                   .counter = counter_,
+                   .traced = gpu::Global<const uint32_t>::bits_of(traced),
+                   .answered = answered,
+                   .args = wt_receive_arguments{.capacity = rays.capacity,
+                                                .ray_count = rays.count,
+                                                .receiver_capacity = ends.receiver_capacity,
+                                                .radius_m = radius_m_,
+                                                .depth = depth,
+                                                .out_capacity = static_cast<uint32_t>(list_.size())}});
       },
       [&] { return counter_.read_one(0, Stage::receive); }, [&] { return list_.size(); },
       [&](size_t entries) {
@@ -58,8 +67,14 @@ void Receive::append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue&
 }
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
-  first_(work_.range(rays.count), Stage::receive, rays.planes, hits.planes, ends.receiver_planes, ends.links, first,
-         wt_receive_arguments{rays.capacity, rays.count, ends.receiver_capacity, radius_m_, 0, 0});
+  first_(work_.range(rays.count), Stage::receive,
+         kernels::receive::first_receiver{
+             .rays = rays.planes,
+             .hits = hits.planes,
+             .receivers = ends.receiver_planes,
+             .links = ends.links,
+             .first = first,
+             .args = wt_receive_arguments{rays.capacity, rays.count, ends.receiver_capacity, radius_m_, 0, 0}});
 }
 
 std::vector<wt_reception> Receive::list() const { return list_.read(0, count_, Stage::receive); }

@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 
+#include "kernel_calls/receive.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
@@ -28,11 +29,14 @@ class Receive {
   std::vector<wt_reception> list() const;
 
  private:
-  void append(gpu::Kernel& kernel, const RadioEnds& ends, const RayQueue& rays, const HitList& hits, uint32_t depth,
-              const gpu::Memory* traced, const gpu::Memory* answered);
+  void append(gpu::KernelOf<kernels::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
+              const HitList& hits, uint32_t depth, const gpu::Buffer<float>* traced,
+              const gpu::Buffer<uint32_t>* answered);
 
   gpu::Context& context_;
-  gpu::Kernel receive_, receive_answered_, first_;
+  gpu::KernelOf<kernels::receive::receive> receive_;
+  gpu::KernelOf<kernels::receive::receive> receive_answered_;
+  gpu::KernelOf<kernels::receive::first_receiver> first_;
   float radius_m_;
   Work work_;
   uint32_t count_ = 0;

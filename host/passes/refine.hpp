@@ -3,6 +3,7 @@
 // over all levels of a launch, so those that are met often are soon not refined any more.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/refine.hpp"
 #include "passes/sample_list.hpp"
 
 namespace wavetracer {
@@ -26,7 +27,10 @@ class Refine {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel count_ends_, met_, mark_, split_;
+  gpu::KernelOf<kernels::refine::count_ends> count_ends_;
+  gpu::KernelOf<kernels::refine::count_met> met_;
+  gpu::KernelOf<kernels::refine::mark> mark_;
+  gpu::KernelOf<kernels::refine::split> split_;
   gpu::Buffer<uint32_t> counts_;
   uint32_t local_;
 };

@@ -25,8 +25,8 @@ Scan::Scan(gpu::Context& context, const ScanTuning& form)
       sums_(context.buffer<uint32_t>(most_chunks, "scan sums")),
       total_(context.buffer<uint32_t>(1, "scan total")) {
   const gpu::Definitions definitions = {{"WT_SCAN_ITEMS", std::to_string(form.items) + "u"}};
-  scan_sums_ = context.kernel("scan", "scan_sums", definitions);
-  scan_ = context.kernel("scan", "scan", definitions);
+  scan_sums_ = {context, definitions};
+  scan_ = {context, definitions};
 }
 
 void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
@@ -39,8 +39,11 @@ void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
   const uint64_t chunk = ((count + wanted - 1) / wanted + tile - 1) / tile * tile;
   const uint64_t groups = (count + chunk - 1) / chunk;
   const auto words = static_cast<uint32_t>(std::min(chunk, uint64_t{~0u}));
-  if (groups > 1) scan_sums_({groups * form_.items, form_.items}, stage, counts, count, words, sums_);
-  scan_({groups * form_.items, form_.items}, stage, counts, count, words, sums_, total_);
+  if (groups > 1)
+    scan_sums_({groups * form_.items, form_.items}, stage,
+               kernels::scan::scan_sums{.counts = counts, .count = count, .chunk = words, .sums = sums_});
+  scan_({groups * form_.items, form_.items}, stage,
+        kernels::scan::scan{.counts = counts, .count = count, .chunk = words, .sums = sums_, .total = total_});
 }
 
 uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {

@@ -3,6 +3,7 @@
 // suffice, else two: the sums of chunks, then each chunk from the sum before it.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/scan.hpp"
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
@@ -19,7 +20,8 @@ class Scan {
 
  private:
   ScanTuning form_;
-  gpu::Kernel scan_sums_, scan_;
+  gpu::KernelOf<kernels::scan::scan_sums> scan_sums_;
+  gpu::KernelOf<kernels::scan::scan> scan_;
   gpu::Buffer<uint32_t> sums_, total_;
 };
 

@@ -15,8 +15,8 @@ namespace wavetracer {
 
 Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface_count, uint32_t max_depth)
     : context_(context),
-      lit_(context.kernel("scatter", "lit")),
-      scatter_(context.kernel("scatter", "scatter")),
+      lit_(context),
+      scatter_(context),
       local_(context.info().simple_local_size()),
       tiles_work_(tuning_of(context.info()).tiles),
       entries_(context.buffer<uint32_t>(4 * 1024, {"lit surfaces", advice::tiles})),
@@ -57,9 +57,18 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
   return grow_until_filled(
       [&] {
         context_.fill(count_, 0, Stage::scatter);
-        lit_({size_t{node_count} * groups, local_}, Stage::scatter, trie, nodes, ends.transmitters, ends.receivers,
-             ends.links, scene.exact_surfaces, tiles_of_, entries_, count_, counters.buffer(),
-             wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()});
+        lit_({size_t{node_count} * groups, local_}, Stage::scatter,
+             kernels::scatter::lit{.table = trie,
+                                   .nodes = nodes,
+                                   .transmitters = ends.transmitters,
+                                   .receivers = ends.receivers,
+                                   .links = ends.links,
+                                   .surfaces = scene.exact_surfaces,
+                                   .tiles_of = tiles_of_,
+                                   .out = entries_,
+                                   .count = count_,
+                                   .counters = counters.buffer(),
+                                   .args = wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()}});
       },
       [&] { return count_.read_one(0, Stage::scatter); }, capacity,
       [&](size_t larger) {
@@ -91,9 +100,20 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   const std::vector<uint32_t> first_row = place_rows(entry_count);
   first_row_.write(first_row, 0, Stage::scatter);
   solved_.count = first_row.back();
-  scatter_(tiles_work_.range(solved_.count), Stage::scatter, trie, quarters, entries_, first_row_, scene.exact_surfaces,
-           tiles_of_, centres_, scene.exact_instances, solved_.headers, solved_.vertices, solved_.sequences,
-           wt_scatter_arguments{entry_count, solved_.count, tiles_work_.per_item, solved_.max_depth});
+  scatter_(tiles_work_.range(solved_.count), Stage::scatter,
+           kernels::scatter::scatter{
+               .table = trie,
+               .quarters = quarters,
+               .entries = entries_,
+               .first_row = first_row_,
+               .surfaces = scene.exact_surfaces,
+               .tiles_of = tiles_of_,
+               .centres = centres_,
+               .instances = scene.exact_instances,
+               .solved = solved_.headers,
+               .vertices = solved_.vertices,
+               .sequences = solved_.sequences,
+               .args = wt_scatter_arguments{entry_count, solved_.count, tiles_work_.per_item, solved_.max_depth}});
   return solved_;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel_calls/scatter.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -36,7 +37,8 @@ class Scatter {
   std::vector<uint32_t> place_rows(uint32_t entry_count);
 
   gpu::Context& context_;
-  gpu::Kernel lit_, scatter_;
+  gpu::KernelOf<kernels::scatter::lit> lit_;
+  gpu::KernelOf<kernels::scatter::scatter> scatter_;
   uint32_t local_;
   Work tiles_work_;
   gpu::Buffer<uint32_t> tiles_of_;  // four words per surface, see scatter.cl

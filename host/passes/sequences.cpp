@@ -19,12 +19,12 @@ Sequences::Sequences(gpu::Context& context, uint64_t slots, bool keep_ages)
       counters_(context) {
   gpu::Definitions definitions = {{"WT_SLOTS_PER_ITEM", slots_work_.option()}};
   if (keep_ages) definitions["WT_AGES"] = "1";
-  clear_ = context.kernel("sequences", "clear", definitions);
-  collect_ = context.kernel("sequences", "collect", definitions);
-  commute_ = context.kernel("sequences", "commute", definitions);
-  regrow_ = context.kernel("sequences", "regrow", definitions);
-  follow_ = context.kernel("sequences", "follow", definitions);
-  keep_ = context.kernel("sequences", "keep", definitions);
+  clear_ = {context, definitions};
+  collect_ = {context, definitions};
+  commute_ = {context, definitions};
+  regrow_ = {context, definitions};
+  follow_ = {context, definitions};
+  keep_ = {context, definitions};
   resize(slots);
 }
 
@@ -39,8 +39,11 @@ void Sequences::resize(uint64_t slots) {
 }
 
 void Sequences::clear() {
-  clear_(slots_work_.range(table_.size()), Stage::sequences, table_, quarters_, static_cast<uint32_t>(table_.size()),
-         counters_.buffer());
+  clear_(slots_work_.range(table_.size()), Stage::sequences,
+         kernels::sequences::clear{.table = table_,
+                                   .quarters = quarters_,
+                                   .slots = static_cast<uint32_t>(table_.size()),
+                                   .counters = counters_.buffer()});
   counters_.zeroed();
 }
 
@@ -54,16 +57,28 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
       throw RuntimeError("the set of distinct sequences has outgrown 2^29 slots; lower trace.rays or trace.max_depth");
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
-      regrow_(work_.range(old_table.size()), Stage::sequences, old_table, static_cast<uint32_t>(old_table.size()),
-              depth, moved, table_, static_cast<uint32_t>(table_.size() - 1), old_quarters, quarters_,
-              counters_.buffer(), keep_ages_ ? &old_ages : nullptr, ages(), oldest);
+      regrow_(work_.range(old_table.size()), Stage::sequences,
+              kernels::sequences::regrow{.old_table = old_table,
+                                         .old_slots = static_cast<uint32_t>(old_table.size()),
+                                         .depth = depth,
+                                         .moved = moved,
+                                         .table = table_,
+                                         .mask = static_cast<uint32_t>(table_.size() - 1),
+                                         .old_quarters = old_quarters,
+                                         .quarters = quarters_,
+                                         .counters = counters_.buffer(),
+                                         .old_ages = keep_ages_ ? &old_ages : nullptr,
+                                         .ages = ages(),
+                                         .oldest = oldest});
     if (!overflowed()) return moved;
   }
 }
 
 void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
   const gpu::Buffer<uint32_t> moved = rebuild(table_.size() * 4, max_depth, 0);
-  if (listed_count > 0) follow_(work_.range(listed_count), Stage::sequences, nodes_, listed_count, moved);
+  if (listed_count > 0)
+    follow_(work_.range(listed_count), Stage::sequences,
+            kernels::sequences::follow{.nodes = nodes_, .node_count = listed_count, .moved = moved});
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
@@ -72,17 +87,32 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
-  keep_(work_.range(solved.count), Stage::sequences, table_, solved.headers, solved.count, solved.counter,
-        counters_.buffer(), ages_, now());
+  keep_(work_.range(solved.count), Stage::sequences,
+        kernels::sequences::keep{.table = table_,
+                                 .solved = solved.headers,
+                                 .solved_count = solved.count,
+                                 .solved_counter = solved.counter,
+                                 .counters = counters_.buffer(),
+                                 .ages = ages_,
+                                 .now = now()});
 }
 
 uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
   const size_t room = nodes_.size() - node_count;
   const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(node_count);
   for (bool grew = false;; grew = true) {
-    commute_(work_.range(size_t{node_count} * lanes), Stage::sequences, table_,
-             static_cast<uint32_t>(table_.size() - 1), nodes_, node_count, static_cast<uint32_t>(nodes_.size()),
-             surfaces, quarters_, counters_.buffer(), ages(), now(), lanes);
+    commute_(work_.range(size_t{node_count} * lanes), Stage::sequences,
+             kernels::sequences::commute{.table = table_,
+                                         .mask = static_cast<uint32_t>(table_.size() - 1),
+                                         .nodes = nodes_,
+                                         .node_count = node_count,
+                                         .capacity = static_cast<uint32_t>(nodes_.size()),
+                                         .surfaces = surfaces,
+                                         .quarters = quarters_,
+                                         .counters = counters_.buffer(),
+                                         .ages = ages(),
+                                         .now = now(),
+                                         .lanes = lanes});
     const uint32_t added = counters_.length(&wt_counters::exchanged, room, Stage::sequences);
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
@@ -114,8 +144,12 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
       [&] {
         write_roots(transmitter_count);
         counters_.restart_nodes(transmitter_count, Stage::sequences);
-        collect_(slots_work_.range(table_.size()), Stage::sequences, table_, static_cast<uint32_t>(table_.size()),
-                 nodes_, static_cast<uint32_t>(nodes_.size()), counters_.buffer());
+        collect_(slots_work_.range(table_.size()), Stage::sequences,
+                 kernels::sequences::collect{.table = table_,
+                                             .slots = static_cast<uint32_t>(table_.size()),
+                                             .nodes = nodes_,
+                                             .capacity = static_cast<uint32_t>(nodes_.size()),
+                                             .counters = counters_.buffer()});
       },
       [&] { return counters_.length(&wt_counters::nodes, nodes_.size(), Stage::sequences); },
       [&] { return nodes_.size(); }, reserve);

@@ -3,6 +3,7 @@
 // A node's id is its slot, so ids change when the table grows: only nodes() may hold one across regrow().
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/sequences.hpp"
 #include "passes/counters.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/trie.hpp"
@@ -60,7 +61,12 @@ class Sequences {
   gpu::Context& context_;
   bool keep_ages_;
   Work slots_work_, work_;
-  gpu::Kernel clear_, collect_, commute_, regrow_, follow_, keep_;
+  gpu::KernelOf<kernels::sequences::clear> clear_;
+  gpu::KernelOf<kernels::sequences::collect> collect_;
+  gpu::KernelOf<kernels::sequences::commute> commute_;
+  gpu::KernelOf<kernels::sequences::regrow> regrow_;
+  gpu::KernelOf<kernels::sequences::follow> follow_;
+  gpu::KernelOf<kernels::sequences::keep> keep_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> quarters_, ages_;
   uint32_t frame_ = 1;

@@ -15,8 +15,7 @@ Solve::Solve(gpu::Context& context, uint32_t max_depth, bool remembers)
     : context_(context),
       work_(tuning_of(context.info()).exact),
       remembers_(remembers),
-      kernel_(
-          context.kernel("solve", "solve", remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{})) {
+      kernel_(context, remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{}) {
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.counter = counter_word(&wt_counters::solved);
   solved_.reserve(context, 1 << 14);
@@ -26,20 +25,33 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                               const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<wt_candidate>& candidates,
                               uint32_t candidate_count, Counters& counters, const Blockers* blockers) {
   if (remembers_ && !blockers) throw std::logic_error("solve: there is no table of what hid paths");
-  const auto run = [&](const auto&... table) {
-    kernel_(work_.range(candidate_count), Stage::solve, trie, quarters, ends.transmitters, ends.receivers,
-            scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, candidates, solved_.headers,
-            solved_.vertices, solved_.sequences, counters.buffer(), table...,
-            wt_solve_arguments{.candidate_count = candidate_count,
-                               .max_depth = solved_.max_depth,
-                               .capacity = static_cast<uint32_t>(solved_.headers.size()),
-                               .triangle_slots = scene.triangle_slots,
-                               .blocker_mask = Blockers::mask,
-                               .wavelength_m = 0});
+  const auto run = [&] {
+    kernels::solve::solve call{.table = trie,
+                               .quarters = quarters,
+                               .transmitters = ends.transmitters,
+                               .receivers = ends.receivers,
+                               .surfaces = scene.exact_surfaces,
+                               .triangles = scene.exact_triangles,
+                               .instances = scene.exact_instances,
+                               .candidates = candidates,
+                               .solved = solved_.headers,
+                               .vertices = solved_.vertices,
+                               .sequences = solved_.sequences,
+                               .counters = counters.buffer(),
+                               .args = wt_solve_arguments{.candidate_count = candidate_count,
+                                                          .max_depth = solved_.max_depth,
+                                                          .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                                                          .triangle_slots = scene.triangle_slots,
+                                                          .blocker_mask = Blockers::mask,
+                                                          .wavelength_m = 0}};
+    if (remembers_) {
+      call.leaves = scene.leg_leaves();
+      call.blockers = blockers->places;
+    }
+    kernel_(work_.range(candidate_count), Stage::solve, call);
   };
   solved_.count = fill_list(
-      counters, &wt_counters::solved, Stage::solve, [&] { return solved_.headers.size(); },
-      [&] { remembers_ ? run(scene.leg_leaves(), blockers->places) : run(); },
+      counters, &wt_counters::solved, Stage::solve, [&] { return solved_.headers.size(); }, run,
       [&](size_t rows) {
         solved_.reserve(context_, rows);
         counters.restart(&wt_counters::hidden, 0, Stage::solve);

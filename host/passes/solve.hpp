@@ -2,6 +2,7 @@
 // solve: exact reflection points of candidates by the image method, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once
+#include "kernel_calls/solve.hpp"
 #include "passes/blockers.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
@@ -23,7 +24,7 @@ class Solve {
   gpu::Context& context_;
   Work work_;
   bool remembers_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::solve::solve> kernel_;
   SolvedList solved_;
 };
 

@@ -21,24 +21,42 @@ TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bo
   tree_ = context.buffer<float>(8 * (2 * std::max<size_t>(instances_.count, 2) - 1), "boxes of the top-level tree");
   const gpu::Definitions definitions = {{"WT_KEY_LEVEL", std::to_string(InstanceOrder::key_level)},
                                         {"WT_ITEMS", std::to_string(group_)}};
-  instance_keys_ = context.kernel("top_level", "instance_keys", definitions);
-  leaves_ = context.kernel("top_level", "leaves", definitions);
-  inner_boxes_ = context.kernel("top_level", "inner_boxes", definitions);
-  top_nodes_ = context.kernel("top_level", "top_nodes", definitions);
+  instance_keys_ = {context, definitions};
+  leaves_ = {context, definitions};
+  inner_boxes_ = {context, definitions};
+  top_nodes_ = {context, definitions};
 }
 
 InstanceOrder& TopLevelTree::keys(const DeviceScene& scene) {
-  instance_keys_({instances_.count, local_}, Stage::place, scene.exact_instances, bodies_, instances_.count,
-                 scene.extent_m, boxes_, instances_.keys);
+  instance_keys_({instances_.count, local_}, Stage::place,
+                 kernels::top_level::instance_keys{.instances = scene.exact_instances,
+                                                   .bodies = bodies_,
+                                                   .instance_count = instances_.count,
+                                                   .extent_m = scene.extent_m,
+                                                   .boxes = boxes_,
+                                                   .keys = instances_.keys});
   return instances_;
 }
 
 void TopLevelTree::operator()(DeviceScene& scene, uint32_t present) {
   const uint32_t leaf_count = std::max(present, 2u);
-  leaves_({leaf_count, local_}, Stage::place, instances_.order, scene.exact_instances, bodies_, boxes_, present,
-          leaf_count, tree_, scene.moving);
-  inner_boxes_({group_, group_}, Stage::place, leaf_count, tree_);
-  top_nodes_({leaf_count - 1, local_}, Stage::place, tree_, present, leaf_count, scene.extent_m, scene.moving);
+  leaves_({leaf_count, local_}, Stage::place,
+          kernels::top_level::leaves{.order = instances_.order,
+                                     .instances = scene.exact_instances,
+                                     .bodies = bodies_,
+                                     .boxes = boxes_,
+                                     .present = present,
+                                     .leaf_count = leaf_count,
+                                     .tree = tree_,
+                                     .moving = scene.moving});
+  inner_boxes_({group_, group_}, Stage::place,
+               kernels::top_level::inner_boxes{.leaf_count = leaf_count, .tree = tree_});
+  top_nodes_({leaf_count - 1, local_}, Stage::place,
+             kernels::top_level::top_nodes{.tree = tree_,
+                                           .present = present,
+                                           .leaf_count = leaf_count,
+                                           .extent_m = scene.extent_m,
+                                           .moving = scene.moving});
 }
 
 }  // namespace wavetracer

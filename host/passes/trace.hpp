@@ -2,6 +2,9 @@
 // trace: nearest hits of a queue of rays, and the hits of every block of rays; in launches of any shape.
 // At equal distances the lower primitive counts, so shapes, devices and trees all give the same hits.
 #pragma once
+#include "kernel_calls/trace_bvh2.hpp"
+#include "kernel_calls/trace_bvh8.hpp"
+#include "kernel_calls/trace_packet16.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/launch_shape.hpp"
 #include "passes/ray_queue.hpp"
@@ -20,7 +23,9 @@ class Trace {
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
 
  private:
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::trace_bvh2::trace> bvh2_;  // one of the three, by the shape
+  gpu::KernelOf<kernels::trace_bvh8::trace> bvh8_;
+  gpu::KernelOf<kernels::trace_packet16::trace> packet16_;
   TraceShape shape_;
   LaunchShape launch_;
   uint32_t block_, blocks_group_;

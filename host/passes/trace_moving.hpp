@@ -2,6 +2,7 @@
 // trace_moving: replaces hits of the static scene by those of instances that come before them. It needs a scene with
 // instances (passes/place.hpp), and hits by a Trace of Scope::fixed.
 #pragma once
+#include "kernel_calls/trace_moving.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
@@ -15,7 +16,7 @@ class TraceMoving {
 
  private:
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::trace_moving::trace_moving> kernel_;
 };
 
 }  // namespace wavetracer

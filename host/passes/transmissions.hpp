@@ -2,6 +2,7 @@
 // transmissions: enters the surfaces that solved paths pass through into their rows, in order along the path. It
 // replaces occlusion: it marks paths that pass more surfaces than they may, or an opaque one.
 #pragma once
+#include "kernel_calls/transmissions.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -22,7 +23,7 @@ class Transmissions {
  private:
   uint32_t most_, deepest_;
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::transmissions::transmissions> kernel_;
 };
 
 }  // namespace wavetracer

@@ -41,7 +41,7 @@ std::vector<uint32_t> earlier_in(const std::vector<uint32_t>& order, const std::
 
 Vegetation::Vegetation(gpu::Context& context, const VolumeTable& table)
     : context_(context),
-      kernel_(context.kernel("vegetation", "vegetation")),
+      kernel_(context),
       work_(tuning_of(context.info()).exact),
       kinds_(static_cast<uint32_t>(table.material.size())),
       triangles_(context.buffer(table.triangles, "triangles of vegetation")) {
@@ -65,12 +65,21 @@ const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const S
   if (lengths_.size() < lengths)
     lengths_ = context_.buffer<double>(lengths + lengths / 4, {"lengths in vegetation", advice::links});
   if (lengths > 0)
-    kernel_(work_.range(visible.count), Stage::vegetation, nodes_, volumes_, triangles_, earlier_, ends.transmitters,
-            ends.receivers, visible.headers, visible.vertices, counters.buffer(), lengths_,
-            wt_vegetation_arguments{.visible_count = visible.count,
-                                    .visible_counter = visible.counter,
-                                    .max_depth = visible.max_depth,
-                                    .kinds = kinds_});
+    kernel_(work_.range(visible.count), Stage::vegetation,
+            kernels::vegetation::vegetation{.nodes = nodes_,
+                                            .volumes = volumes_,
+                                            .triangles = triangles_,
+                                            .earlier = earlier_,
+                                            .transmitters = ends.transmitters,
+                                            .receivers = ends.receivers,
+                                            .visible = visible.headers,
+                                            .vertices = visible.vertices,
+                                            .counters = counters.buffer(),
+                                            .lengths = lengths_,
+                                            .args = wt_vegetation_arguments{.visible_count = visible.count,
+                                                                            .visible_counter = visible.counter,
+                                                                            .max_depth = visible.max_depth,
+                                                                            .kinds = kinds_}});
   return lengths_;
 }
 

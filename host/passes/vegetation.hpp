@@ -2,6 +2,7 @@
 // vegetation: the lengths of visible paths inside of each kind of vegetation of the scene. It is made where a scene has
 // any. Rays and exact paths do not depend on it: leaves neither turn nor stop a wave.
 #pragma once
+#include "kernel_calls/vegetation.hpp"
 #include "passes/counters.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
@@ -19,7 +20,7 @@ class Vegetation {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::vegetation::vegetation> kernel_;
   Work work_;
   uint32_t kinds_;
   gpu::Buffer<wt_bvh2_node> nodes_;

@@ -10,7 +10,7 @@
 namespace wavetracer {
 
 Visible::Visible(gpu::Context& context, uint32_t max_depth)
-    : context_(context), kernel_(context.kernel("visible", "visible")), local_(context.info().simple_local_size()) {
+    : context_(context), kernel_(context), local_(context.info().simple_local_size()) {
   visible_.max_depth = std::max(max_depth, 1u);
   visible_.counter = counter_word(&wt_counters::visible);
   visible_.reserve(context, 1 << 12);
@@ -21,9 +21,18 @@ void Visible::operator()(const SolvedList& solved, Counters& counters) {
   visible_.count = fill_list(
       counters, &wt_counters::visible, Stage::visible, [&] { return visible_.headers.size(); },
       [&] {
-        kernel_({solved.count, local_}, Stage::visible, solved.headers, solved.vertices, solved.sequences, solved.count,
-                solved.counter, solved.max_depth, visible_.headers, visible_.vertices, visible_.sequences,
-                static_cast<uint32_t>(visible_.headers.size()), counters.buffer());
+        kernel_({solved.count, local_}, Stage::visible,
+                kernels::visible::visible{.solved = solved.headers,
+                                          .vertices = solved.vertices,
+                                          .sequences = solved.sequences,
+                                          .solved_count = solved.count,
+                                          .solved_counter = solved.counter,
+                                          .max_depth = solved.max_depth,
+                                          .out = visible_.headers,
+                                          .out_vertices = visible_.vertices,
+                                          .out_sequences = visible_.sequences,
+                                          .capacity = static_cast<uint32_t>(visible_.headers.size()),
+                                          .counters = counters.buffer()});
       },
       [&](size_t rows) {
         SolvedList larger;

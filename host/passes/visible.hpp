@@ -3,6 +3,7 @@
 // all kinds, one after the other. The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/visible.hpp"
 #include "passes/counters.hpp"
 #include "passes/solved_list.hpp"
 
@@ -19,7 +20,7 @@ class Visible {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::visible::visible> kernel_;
   uint32_t local_;
   SolvedList visible_;
 };

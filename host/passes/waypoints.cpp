@@ -9,8 +9,8 @@ namespace wavetracer {
 
 Waypoints::Waypoints(gpu::Context& context, uint32_t max_depth)
     : context_(context),
-      kernel_(context.kernel("waypoints", "waypoints")),
-      gather_(context.kernel("waypoints", "gather_waypoints")),
+      kernel_(context),
+      gather_(context),
       stride_(max_depth + 1),
       local_(context.info().simple_local_size()) {}
 
@@ -25,8 +25,16 @@ void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
 
 void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
                            const gpu::Buffer<float>* traced) {
-  kernel_({rays.count, local_}, Stage::waypoints, rays.planes, hits.planes, traced, rays.capacity, rays.count,
-          first_sample_, depth, stride_, list_);
+  kernel_({rays.count, local_}, Stage::waypoints,
+          kernels::waypoints::waypoints{.rays = rays.planes,
+                                        .hits = hits.planes,
+                                        .traced = traced,
+                                        .capacity = rays.capacity,
+                                        .ray_count = rays.count,
+                                        .first_sample = first_sample_,
+                                        .depth = depth,
+                                        .stride = stride_,
+                                        .out = list_});
 }
 
 std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
@@ -40,7 +48,12 @@ std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
   for (uint32_t& slot : slots) slot -= first_sample_;
   samples_.write(slots);
   const size_t count = samples.size() * stride_;
-  gather_({count, local_}, Stage::waypoints, list_, samples_, static_cast<uint32_t>(samples.size()), stride_, rows_);
+  gather_({count, local_}, Stage::waypoints,
+          kernels::waypoints::gather_waypoints{.rows = list_,
+                                               .list = samples_,
+                                               .count = static_cast<uint32_t>(samples.size()),
+                                               .stride = stride_,
+                                               .out = rows_});
   return rows_.read(0, count, Stage::waypoints);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 
+#include "kernel_calls/waypoints.hpp"
 #include "passes/ray_queue.hpp"
 #include "wavetracer/device/waypoints.h"
 
@@ -28,7 +29,8 @@ class Waypoints {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_, gather_;
+  gpu::KernelOf<kernels::waypoints::waypoints> kernel_;
+  gpu::KernelOf<kernels::waypoints::gather_waypoints> gather_;
   uint32_t stride_, local_, first_sample_ = 0;
   gpu::Buffer<wt_waypoint> list_, rows_;
   gpu::Buffer<uint32_t> samples_;

@@ -12,7 +12,7 @@ WedgeChains::WedgeChains(gpu::Context& context, const WedgeGrid& grid, uint32_t 
                          double wavelength_m)
     : context_(context),
       work_(tuning_of(context.info()).exact),
-      roofs_(context.kernel("wedge_chains", "roof_chains")),
+      roofs_(context),
       most_edges_(most_edges),
       wavelength_m_(wavelength_m),
       map_(grid.map),
@@ -30,16 +30,28 @@ SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& w
                                     Counters& counters) {
   const auto run = [&] {
     roofs_(work_.range(size_t{WT_STRINGS} * ends.transmitter_count * ends.receiver_capacity), Stage::wedge_chains,
-           wedges.wedges, first_, listed_, radii_, uprights_, scene.exact_instances, ends.transmitters, ends.receivers,
-           ends.links, solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
-           wt_wedge_chains_arguments{.map = map_,
-                                     .wavelength_m = wavelength_m_,
-                                     .transmitter_count = ends.transmitter_count,
-                                     .receiver_capacity = ends.receiver_capacity,
-                                     .most_edges = most_edges_,
-                                     .max_depth = solved_.max_depth,
-                                     .capacity = static_cast<uint32_t>(solved_.headers.size()),
-                                     .padding = 0});
+           kernels::wedge_chains::roof_chains{
+               .wedges = wedges.wedges,
+               .first = first_,
+               .listed = listed_,
+               .radii = radii_,
+               .uprights = uprights_,
+               .instances = scene.exact_instances,
+               .transmitters = ends.transmitters,
+               .receivers = ends.receivers,
+               .links = ends.links,
+               .solved = solved_.headers,
+               .vertices = solved_.vertices,
+               .sequences = solved_.sequences,
+               .counters = counters.buffer(),
+               .args = wt_wedge_chains_arguments{.map = map_,
+                                                 .wavelength_m = wavelength_m_,
+                                                 .transmitter_count = ends.transmitter_count,
+                                                 .receiver_capacity = ends.receiver_capacity,
+                                                 .most_edges = most_edges_,
+                                                 .max_depth = solved_.max_depth,
+                                                 .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                                                 .padding = 0}});
   };
   solved_.count = fill_list(
       counters, &wt_counters::chains, Stage::wedge_chains, [&] { return solved_.headers.size(); }, run,

@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 
+#include "kernel_calls/wedge_chains.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -26,7 +27,7 @@ class WedgeChains {
  private:
   gpu::Context& context_;
   Work work_;
-  gpu::Kernel roofs_;
+  gpu::KernelOf<kernels::wedge_chains::roof_chains> roofs_;
   uint32_t most_edges_;
   double wavelength_m_;
   wt_edge_map_arguments map_;

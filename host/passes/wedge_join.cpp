@@ -31,7 +31,7 @@ uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
 WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
                      uint32_t row_depth)
     : context_(context),
-      kernel_(context.kernel("wedge_join", "wedge_join")),
+      kernel_(context),
       max_depth_(max_depth),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
@@ -58,8 +58,16 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .groups = ends.receiver_capacity / 16,
                                             .max_depth = max_depth_,
                                             .capacity = static_cast<uint32_t>(list_.size())};
-    kernel_({items, group_}, Stage::wedge_join, prefixes.keys, prefixes.sorted, receiver_of_origin_, ends.links,
-            wedges.wedges, scene.surfaces, list_, counters.buffer(), arguments);
+    kernel_({items, group_}, Stage::wedge_join,
+            kernels::wedge_join::wedge_join{.keys = prefixes.keys,
+                                            .prefixes = prefixes.sorted,
+                                            .receiver_of_origin = receiver_of_origin_,
+                                            .links = ends.links,
+                                            .wedges = wedges.wedges,
+                                            .surfaces = scene.surfaces,
+                                            .out = list_,
+                                            .counters = counters.buffer(),
+                                            .args = arguments});
     if (pairs && max_depth_ >= 2)
       (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
   };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "kernel_calls/wedge_join.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -35,7 +36,7 @@ class WedgeJoin {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::wedge_join::wedge_join> kernel_;
   uint32_t max_depth_, lanes_, group_, most_;
   gpu::Buffer<uint32_t> receiver_of_origin_;
   gpu::Buffer<wt_wedge_candidate> list_;

@@ -23,8 +23,8 @@ uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
 WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
     : sight(context, device_scene, scene, transmission),
       context_(context),
-      kernel_(context.kernel("wedge_pairs", "wedge_pairs", device_scene.definitions)),
-      mark_(context.kernel("wedge_pairs", "mark_runs", device_scene.definitions)),
+      kernel_(context, device_scene.definitions),
+      mark_(context, device_scene.definitions),
       mark_work_(tuning_of(context.info()).exact),
       compact_(context),
       scan_(context),
@@ -43,7 +43,11 @@ void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefi
   }
   run_count_ = 0;
   if (prefixes.count == 0) return;
-  mark_(mark_work_.range(prefixes.count), Stage::wedge_pairs, prefixes.keys, wedges.wedges, heads_, prefixes.count);
+  mark_(mark_work_.range(prefixes.count), Stage::wedge_pairs,
+        kernels::wedge_pairs::mark_runs{.keys = prefixes.keys,
+                                        .wedges = wedges.wedges,
+                                        .heads = gpu::Global<uint32_t>::bits_of(heads_),
+                                        .count = prefixes.count});
   compact_.count_blocks(heads_, 0, prefixes.count, blocks_);
   run_count_ = scan_(blocks_, compact_.blocks(prefixes.count), Stage::wedge_pairs);
   compact_(heads_, 0, prefixes.count, blocks_, runs_);
@@ -55,10 +59,25 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             Counters& counters) {
   wt_wedge_join_arguments own = join;
   own.lanes = lanes_;
-  kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs, scene.leg_nodes(), scene.leg_leaves(),
-          scene.exact_surfaces, sight.first_sides(), sight.sides(), kept_, prefixes.keys, runs_, prefixes.sorted,
-          receiver_of_origin, ends.links, wedges.wedges, scene.surfaces, list, counters.buffer(), own,
-          sight.arguments(scene, join.count, kept_wedges_), run_count_);
+  kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs,
+          kernels::wedge_pairs::wedge_pairs{.nodes = scene.leg_nodes(),
+                                            .triangles = scene.leg_leaves(),
+                                            .surfaces = scene.exact_surfaces,
+                                            .first_sides = sight.first_sides(),
+                                            .sides = sight.sides(),
+                                            .kept = kept_,
+                                            .keys = prefixes.keys,
+                                            .runs = runs_,
+                                            .prefixes = prefixes.sorted,
+                                            .receiver_of_origin = receiver_of_origin,
+                                            .links = ends.links,
+                                            .wedges = wedges.wedges,
+                                            .boxes = scene.surfaces,
+                                            .out = list,
+                                            .counters = counters.buffer(),
+                                            .args = own,
+                                            .sight_args = sight.arguments(scene, join.count, kept_wedges_),
+                                            .run_count = run_count_});
 }
 
 }  // namespace wavetracer

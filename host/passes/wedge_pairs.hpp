@@ -3,6 +3,7 @@
 // out, which loses no path (wedge_sight).
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/wedge_pairs.hpp"
 #include "passes/compact.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
@@ -31,7 +32,8 @@ class WedgePairs {
 
  private:
   gpu::Context& context_;
-  gpu::Kernel kernel_, mark_;
+  gpu::KernelOf<kernels::wedge_pairs::wedge_pairs> kernel_;
+  gpu::KernelOf<kernels::wedge_pairs::mark_runs> mark_;
   Work mark_work_;
   Compact compact_;
   Scan scan_;

@@ -10,10 +10,7 @@
 namespace wavetracer {
 
 WedgePrefixes::WedgePrefixes(gpu::Context& context)
-    : context_(context),
-      work_(tuning_of(context.info()).prefixes),
-      kernel_(context.kernel("wedge_prefixes", "wedge_prefixes")),
-      place_(context.kernel("wedge_prefixes", "place_prefixes")) {
+    : context_(context), work_(tuning_of(context.info()).prefixes), kernel_(context), place_(context) {
   reserve(1 << 14);
 }
 
@@ -31,11 +28,23 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   const Counters::Count count = &wt_counters::wedge_prefixes;
   list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
-        kernel_(work_.range(node_count), Stage::wedge_prefixes, trie, quarters, nodes, ends.transmitters,
-                scene.exact_surfaces, scene.surfaces, wedges.first, wedges.sides, wedges.of_surfaces, wedges.wedges,
-                list_.keys, list_.prefixes, counters.buffer(),
-                wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
-                                            static_cast<uint32_t>(list_.keys.size())});
+        kernel_(work_.range(node_count), Stage::wedge_prefixes,
+                kernels::wedge_prefixes::wedge_prefixes{
+                    .table = trie,
+                    .quarters = quarters,
+                    .nodes = nodes,
+                    .origins = ends.transmitters,
+                    .surfaces = scene.exact_surfaces,
+                    .boxes = scene.surfaces,
+                    .first_wedges = wedges.first,
+                    .sides = wedges.sides,
+                    .surface_wedges = wedges.of_surfaces,
+                    .wedges = wedges.wedges,
+                    .keys = list_.keys,
+                    .prefixes = list_.prefixes,
+                    .counters = counters.buffer(),
+                    .args = wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
+                                                        static_cast<uint32_t>(list_.keys.size())}});
       },
       [&] { return counters.read(Stage::wedge_prefixes).*count; }, [&] { return list_.keys.size(); },
       [&](size_t entries) {
@@ -47,8 +56,12 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
 
 void WedgePrefixes::place(WedgePrefixList& list) {
   if (list.count > 0)
-    place_(work_.range(list.count), Stage::wedge_prefixes, list.keys, list.order, list.prefixes, list.sorted,
-           list.count);
+    place_(work_.range(list.count), Stage::wedge_prefixes,
+           kernels::wedge_prefixes::place_prefixes{.keys = list.keys,
+                                                   .order = list.order,
+                                                   .prefixes = list.prefixes,
+                                                   .sorted = list.sorted,
+                                                   .count = list.count});
 }
 
 }  // namespace wavetracer

@@ -3,6 +3,7 @@
 // The list grows until it holds them.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/wedge_prefixes.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -26,7 +27,8 @@ class WedgePrefixes {
 
   gpu::Context& context_;
   Work work_;
-  gpu::Kernel kernel_, place_;
+  gpu::KernelOf<kernels::wedge_prefixes::wedge_prefixes> kernel_;
+  gpu::KernelOf<kernels::wedge_prefixes::place_prefixes> place_;
   WedgePrefixList list_;
 };
 

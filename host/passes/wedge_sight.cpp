@@ -18,9 +18,7 @@ std::vector<double> numbers(const std::vector<glm::dvec4>& sides) {
 }  // namespace
 
 WedgeSight::WedgeSight(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
-    : kernel_(context.kernel("wedge_sight", "wedge_sight", device_scene.definitions)),
-      work_(tuning_of(context.info()).exact),
-      transmission_(transmission) {
+    : kernel_(context, device_scene.definitions), work_(tuning_of(context.info()).exact), transmission_(transmission) {
   const ConvexFaces faces = convex_faces(scene);
   first_sides_ = context.buffer(faces.first, "first sides of surfaces");
   sides_ = context.buffer(numbers(faces.sides), "sides of surfaces");
@@ -37,8 +35,16 @@ wt_sight_arguments WedgeSight::arguments(const DeviceScene& scene, uint32_t coun
 
 void WedgeSight::operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes) {
   if (prefixes.count == 0) return;
-  kernel_(work_.range(prefixes.count), Stage::wedge_sight, scene.leg_nodes(), scene.leg_leaves(), scene.exact_surfaces,
-          first_sides_, sides_, wedges.wedges, prefixes.keys, prefixes.prefixes, arguments(scene, prefixes.count, 0));
+  kernel_(work_.range(prefixes.count), Stage::wedge_sight,
+          kernels::wedge_sight::wedge_sight{.nodes = scene.leg_nodes(),
+                                            .triangles = scene.leg_leaves(),
+                                            .surfaces = scene.exact_surfaces,
+                                            .first_sides = first_sides_,
+                                            .sides = sides_,
+                                            .wedges = wedges.wedges,
+                                            .keys = prefixes.keys,
+                                            .prefixes = prefixes.prefixes,
+                                            .args = arguments(scene, prefixes.count, 0)});
 }
 
 }  // namespace wavetracer

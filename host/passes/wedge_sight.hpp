@@ -3,6 +3,7 @@
 // surely hide them (kernels/lib/sight.clh). No path is lost by it; moving surfaces hide nothing here.
 #pragma once
 #include "gpu/gpu.hpp"
+#include "kernel_calls/wedge_sight.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/tuning.hpp"
 #include "passes/wedge_lists.hpp"
@@ -24,7 +25,7 @@ class WedgeSight {
   wt_sight_arguments arguments(const DeviceScene& scene, uint32_t count, uint32_t kept_wedges) const;
 
  private:
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::wedge_sight::wedge_sight> kernel_;
   Work work_;
   bool transmission_;
   gpu::Buffer<uint32_t> first_sides_;  // see ConvexFaces

@@ -11,7 +11,7 @@ namespace wavetracer {
 WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m)
     : context_(context),
       work_(tuning_of(context.info()).exact),
-      kernel_(context.kernel("wedge_solve", "wedge_solve")),
+      kernel_(context),
       wavelength_m_(static_cast<float>(wavelength_m)) {
   solved_.max_depth = max_depth;
   solved_.counter = counter_word(&wt_counters::wedge_solved);
@@ -22,15 +22,26 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                                    uint32_t candidate_count, Counters& counters) {
   const auto run = [&] {
-    kernel_(work_.range(candidate_count), Stage::wedge_solve, trie, ends.transmitters, ends.receivers,
-            scene.exact_surfaces, scene.exact_triangles, scene.exact_instances, wedges.wedges, candidates,
-            solved_.headers, solved_.vertices, solved_.sequences, counters.buffer(),
-            wt_solve_arguments{.candidate_count = candidate_count,
-                               .max_depth = solved_.max_depth,
-                               .capacity = static_cast<uint32_t>(solved_.headers.size()),
-                               .triangle_slots = 0,
-                               .blocker_mask = 0,
-                               .wavelength_m = wavelength_m_});
+    kernel_(work_.range(candidate_count), Stage::wedge_solve,
+            kernels::wedge_solve::wedge_solve{
+                .table = trie,
+                .origins = ends.transmitters,
+                .receivers = ends.receivers,
+                .surfaces = scene.exact_surfaces,
+                .triangles = scene.exact_triangles,
+                .instances = scene.exact_instances,
+                .wedges = wedges.wedges,
+                .candidates = candidates,
+                .solved = solved_.headers,
+                .vertices = solved_.vertices,
+                .sequences = solved_.sequences,
+                .counters = counters.buffer(),
+                .args = wt_solve_arguments{.candidate_count = candidate_count,
+                                           .max_depth = solved_.max_depth,
+                                           .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                                           .triangle_slots = 0,
+                                           .blocker_mask = 0,
+                                           .wavelength_m = wavelength_m_}});
   };
   solved_.count = fill_list(
       counters, &wt_counters::wedge_solved, Stage::wedge_solve, [&] { return solved_.headers.size(); }, run,

@@ -2,6 +2,7 @@
 // wedge_solve: exact points of diffracted paths, on their edges and in their surfaces, in double on the device.
 // The list grows until it holds every solved candidate.
 #pragma once
+#include "kernel_calls/wedge_solve.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -23,7 +24,7 @@ class WedgeSolve {
  private:
   gpu::Context& context_;
   Work work_;
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::wedge_solve::wedge_solve> kernel_;
   SolvedList solved_;
   float wavelength_m_;
 };

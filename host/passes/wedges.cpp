@@ -42,7 +42,7 @@ uint32_t seen_from(const wt_wedge& wedge, int face, const glm::dvec3& normal) {
 
 Wedges::Wedges(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
                const std::vector<Instance>& instances, bool free_edges)
-    : kernel_(context.kernel("wedges", "wedges")), local_(context.info().simple_local_size()) {
+    : kernel_(context), local_(context.info().simple_local_size()) {
   const std::vector<wt_wedge> records = wedge_records(scene, models, instances);
   static_count_ = static_cast<uint32_t>(scene.wedges.size());
   moving_count_ = static_cast<uint32_t>(records.size()) - static_count_;
@@ -82,8 +82,12 @@ unsigned Wedges::key_bits() const {
 
 void Wedges::operator()(const DeviceScene& scene) {
   if (moving_count_ > 0)
-    kernel_({moving_count_, local_}, Stage::wedges, scene.exact_instances, models_, static_count_, moving_count_,
-            list_.wedges);
+    kernel_({moving_count_, local_}, Stage::wedges,
+            kernels::wedges::wedges{.instances = scene.exact_instances,
+                                    .models = models_,
+                                    .first = static_count_,
+                                    .count = moving_count_,
+                                    .out = list_.wedges});
 }
 
 }  // namespace wavetracer

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "kernel_calls/wedges.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/wedge_lists.hpp"
 #include "wavetracer/scene.hpp"
@@ -25,7 +26,7 @@ class Wedges {
   const WedgeList& list() const { return list_; }
 
  private:
-  gpu::Kernel kernel_;
+  gpu::KernelOf<kernels::wedges::wedges> kernel_;
   uint32_t local_, static_count_ = 0, moving_count_ = 0, diffracting_ = 0;
   gpu::Buffer<wt_wedge> models_;
   WedgeList list_;

@@ -8,7 +8,8 @@ format  every source is formatted by clang-format with .clang-format
 names   tests are called NAME_test.cpp, in a folder with the name of the folder of host/ that they test
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
 types   no two types of one namespace have the same name: the linker would merge their functions and keep either
-kernels every kernel has a row in bench/kernel_costs.cpp, which gives its minimal work; sorts have bench_sort
+kernels every kernel has a row in bench/kernel_costs.cpp, which gives its minimal work; sorts have bench_sort; passes
+        launch kernels by the names of their arguments (host/gpu/kernel_of.hpp)
 english no comment or docstring begins with a bare "Of", "What", "Who", "Whether" and the like: it has a subject and a verb
 project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
 licence every source file begins with the line of its licence, after an interpreter's line or a document type
@@ -147,6 +148,9 @@ def unmeasured(root):
         for kernel in sorted(set(re.findall(r"\bkernel void (\w+)\(", path.read_text()))):
             if f'{{"{path.stem}/{kernel}",' not in rows:
                 faults.append(f"kernels/{path.name}: {kernel} has no row in bench/kernel_costs.cpp")
+    for path in sorted((root / "host").glob("*/*.[ch]pp")):
+        if path.parent.name != "gpu" and re.search(r"\bgpu::Kernel\b|\.kernel\(", path.read_text()):
+            faults.append(f"{path.relative_to(root)}: a kernel without its declaration; use gpu::KernelOf")
     return faults
 
 
