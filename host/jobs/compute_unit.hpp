@@ -16,7 +16,7 @@ void say_damaged(const Shards& shards, Progress& progress);
 // The fate of the frames that were solved if an interrupt ends a unit early.
 enum class Interrupted {
   drop,  // they are lost: the unit is computed again as a whole
-  keep   // they stay in the writer, see UnitWriter::unfinished(): the outputs get them
+  keep   // they stay in the writer, see UnitWriter::take_unfinished(): the outputs get them
 };
 
 // Solves the unit's frames and hands them to the writer. Returns false if an interrupt came before its last frame.

@@ -86,21 +86,20 @@ Results drive(const DriveTask& task, Progress& progress) {
   if (shards.complete()) return {shards.totals(), statistics_of(task.run), shards.outputs()};
   Results results;
   const Units units = units_of(task);
-  MergeAhead ahead(task.run.config, units, directory);
   UnitWriter writer(task.run, shards, progress);
-  writer.tell(ahead);
+  writer.follow(std::make_unique<MergeAhead>(task.run.config, units, directory));
   for_each_unit(
       units, {.count = units.count()},
       {.finished = [&](const Unit& unit) { return shards.finished(unit); },
        .choose = [](const Unit&) { return interrupted() ? UnitChoice::stop : UnitChoice::compute; },
        .compute = [&](const Unit& unit) { return compute_unit(task, unit, Interrupted::keep, writer, progress); }});
-  writer.finish();
-  std::unique_ptr<OpenUnit> unfinished = writer.unfinished();
+  std::unique_ptr<OpenUnit> unfinished = writer.take_unfinished();
   results.totals = shards.totals();
   if (unfinished) add(results.totals, unfinished->totals());
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(task.run, std::move(unfinished), &ahead, &results.links);
+    const std::unique_ptr<MergeAhead> ahead = writer.take_ahead();
+    results.files = shards.merge(task.run, std::move(unfinished), ahead.get(), &results.links);
     shards.remove_merged();
   }
   return results;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include "base/hash.hpp"
@@ -53,7 +54,8 @@ class Team {
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
-    shared.results.files = shards_.merge(task_.run, {}, ahead_ ? &*ahead_ : nullptr, &shared.results.links);
+    const std::unique_ptr<MergeAhead> ahead = writer_.take_ahead();
+    shared.results.files = shards_.merge(task_.run, {}, ahead.get(), &shared.results.links);
     mark(true);
     shards_.remove_merged();
     remove_claims(shards_.folder());
@@ -69,9 +71,9 @@ class Team {
   Shards shards_;
   Claims claims_;
   Units units_;
-  std::optional<MergeAhead> ahead_;  // only in the process that is to merge
   UnitWriter writer_;
   std::string name_;
+  bool leads_ = false;  // this process prepares the merge
 
   fs::path job_file() const { return shards_.folder() / "job.json"; }
 
@@ -133,8 +135,8 @@ class Team {
   // One process prepares the merge while all compute, and merges in the end if it lives.
   void lead() {
     if (task_.blocks > 1 || !claims_.take(leading)) return;
-    ahead_.emplace(task_.run.config, units_, task_.run.config.output.directory);
-    writer_.tell(*ahead_);
+    leads_ = true;
+    writer_.follow(std::make_unique<MergeAhead>(task_.run.config, units_, task_.run.config.output.directory));
   }
 
   bool compute(const Unit& unit) { return compute_unit(task_, unit, Interrupted::drop, writer_, progress_); }
@@ -170,7 +172,7 @@ class Team {
       claims_.look();  // before the manifests, as in run()
       shards_.look();
       if (merged()) return 0;  // asked after the manifests were read, as in run()
-      if (ahead_) ahead_->look();
+      writer_.look_ahead();
       const UnitCounts counts = for_each_unit(units_, {.count = units_.count()},
                                               {.finished = [this](const Unit& unit) { return shards_.finished(unit); },
                                                .choose = [this](const Unit& unit) { return take_over(unit); },
@@ -189,7 +191,7 @@ class Team {
   bool take_merge(bool whole) {
     for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
       claims_.look();
-      if (!ahead_ && claims_.state(leading) == ClaimState::taken) continue;  // that process is about to merge
+      if (!leads_ && claims_.state(leading) == ClaimState::taken) continue;  // that process is about to merge
       const bool taken = claims_.take("merge");
       if (taken && merged()) remove_claims(shards_.folder());  // this process came after the others had gone
       if (taken || !whole) return taken && !merged();
