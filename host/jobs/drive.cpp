@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over units and their frames.
-// catch_interrupts() must have been called, so that an interrupt ends the frame in progress at its next step.
+// Runs of one process: a world where nothing moves, a drive, and a part of a run whose other parts run elsewhere.
 #include "jobs/drive.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,11 +7,10 @@
 #include <optional>
 #include <utility>
 #include "jobs/claims.hpp"
+#include "jobs/compute_unit.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
-#include "jobs/shards.hpp"
 #include "jobs/solve_frame.hpp"
-#include "jobs/team.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -76,86 +74,9 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   return results;
 }
 
-void say_damaged(const Shards& shards, Progress& progress) {
-  for (const std::string& damage : shards.damaged())
-    progress.line(fmt::format("damaged: {}; its frames are computed again", damage));
-}
-
-Units units_of(const DriveTask& task) {
-  return {task.identity.first, task.identity.last, task.run.config.output.shard_frames, task.blocks};
-}
-
-namespace {
-
-std::optional<TransmitterRange> block_of(const DriveTask& task, const Unit& unit) {
-  if (unit.blocks <= 1) return std::nullopt;
-  const uint64_t all = task.run.config.transmitters.size();
-  return TransmitterRange{static_cast<uint32_t>(all * unit.block / unit.blocks),
-                          static_cast<uint32_t>(all * (unit.block + 1) / unit.blocks)};
-}
-
-// Solves one frame in one of the repeats of its unit, counted from 0.
-std::optional<FrameResult> solve_repeat(const DriveTask& task, const Unit& unit, uint64_t frame, uint32_t repeat,
-                                        Progress& progress) {
-  const RunIdentity& asked = task.identity;
-  if (interrupted()) return std::nullopt;
-  if (unit.blocks <= 1) {
-    const std::string which = asked.repeat > 1 ? fmt::format(", repeat {} of {}", repeat + 1, asked.repeat) : "";
-    const uint64_t before = (unit.first - asked.first) * uint64_t{asked.repeat} + repeat * unit.frames();
-    progress.bar(fmt::format("frame {}{}", frame, which), before + frame - unit.first,
-                 FrameRange{asked.first, asked.last}.count() * asked.repeat, "frames");
-  }
-  const bool alone = task.simulation.frame_count() == 1 && asked.repeat == 1 && unit.blocks <= 1;
-  return solve_frame(task.simulation, static_cast<uint32_t>(frame), alone, progress, block_of(task, unit));
-}
-
-}  // namespace
-
-bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
-  const RunIdentity& asked = task.identity;
-  std::vector<FrameRepeats> told(unit.frames());
-  for (uint32_t repeat = 0; repeat + 1 < asked.repeat; ++repeat) {
-    task.simulation.forget();
-    for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
-      const std::optional<FrameResult> result = solve_repeat(task, unit, frame, repeat, progress);
-      if (!result) return false;  // interrupted
-      told[frame - unit.first].add(*result);
-    }
-  }
-  // The last repeat is written.
-  task.simulation.forget();
-  writer.begin(unit);
-  bool explained = false;
-  for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
-    std::optional<FrameResult> result = solve_repeat(task, unit, frame, asked.repeat - 1, progress);
-    if (!result) return false;  // interrupted
-    told[frame - unit.first].add(*result);
-    told[frame - unit.first].finish(*result, repeats_agree(task.simulation.config()));
-    const bool stop = frame == unit.last || interrupted();
-    // Why a drive has no path at all is asked once per unit; if other processes have found one, the answer is not used.
-    const bool ask = unit.blocks > 1 || asked.first == asked.last || result->paths.size() == 0;
-    if (!explained && !result->world.links.empty() && ask) {
-      result->missing = task.simulation.explain_missing(*result);
-      explained = true;
-    }
-    writer.add(std::move(*result));
-    if (stop) return frame == unit.last;
-  }
-  return true;
-}
-
-bool compute_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Progress& progress) {
-  const bool whole = solve_unit(task, unit, writer, progress);
-  if (whole)
-    writer.end();
-  else
-    writer.drop();
-  return whole;
-}
-
 Results drive(const DriveTask& task, Progress& progress) {
   const std::string& directory = task.run.config.output.directory;
-  Shards shards(directory, task.identity, task.run.summary.inputs, task.run.config.text);
+  Shards shards = shards_of(task);
   remove_claims(shards.folder());  // left by processes that shared the folder and were killed
   remove_dead_temporaries(shards.folder());
   if (task.resume) {
@@ -165,25 +86,45 @@ Results drive(const DriveTask& task, Progress& progress) {
   if (shards.complete()) return {shards.totals(), statistics_of(task.run), shards.outputs()};
   Results results;
   const Units units = units_of(task);
-  MergeAhead ahead(task.run.config, units, directory);
   UnitWriter writer(task.run, shards, progress);
-  writer.tell(ahead);
-  for (uint64_t index = 0; index < units.count() && !interrupted(); ++index) {
-    const Unit unit = units.at(index);
-    if (shards.finished(unit)) continue;
-    if (!solve_unit(task, unit, writer, progress)) break;
-    writer.end();
-  }
-  writer.finish();
-  std::unique_ptr<OpenUnit> unfinished = writer.unfinished();
+  writer.follow(std::make_unique<MergeAhead>(task.run.config, units, directory));
+  for_each_unit(
+      units, {.count = units.count()},
+      {.finished = [&](const Unit& unit) { return shards.finished(unit); },
+       .choose = [](const Unit&) { return interrupted() ? UnitChoice::stop : UnitChoice::compute; },
+       .compute = [&](const Unit& unit) { return compute_unit(task, unit, Interrupted::keep, writer, progress); }});
+  std::unique_ptr<OpenUnit> unfinished = writer.take_unfinished();
   results.totals = shards.totals();
   if (unfinished) add(results.totals, unfinished->totals());
   if (results.totals.frames > 0) {
     progress.line("writing to " + directory);
-    results.files = shards.merge(task.run, std::move(unfinished), &ahead, &results.links);
+    const std::unique_ptr<MergeAhead> ahead = writer.take_ahead();
+    results.files = shards.merge(task.run, std::move(unfinished), ahead.get(), &results.links);
     shards.remove_merged();
   }
   return results;
+}
+
+Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
+  Shards shards = shards_of(task);
+  remove_claims(shards.folder());  // left by processes that shared the folder in another way, and were killed
+  remove_dead_temporaries(shards.folder());
+  if (task.resume) shards.find_complete();
+  shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
+  say_damaged(shards, progress);
+  UnitWriter writer(task.run, shards, progress);
+  const Units units = units_of(task);
+  Shared shared;
+  shared.units = units.count() > part.index ? (units.count() - part.index - 1) / part.count + 1 : 0;
+  if (shared.units == 0) shards.note_empty(task.run);
+  const UnitCounts counts = for_each_unit(
+      units, {.first = part.index, .step = part.count, .count = shared.units},
+      {.finished = [&](const Unit& unit) { return task.resume && shards.finished(unit); },
+       .choose = [](const Unit&) { return interrupted() ? UnitChoice::leave : UnitChoice::compute; },
+       .compute = [&](const Unit& unit) { return compute_unit(task, unit, Interrupted::drop, writer, progress); }});
+  shared.missing = counts.missing();
+  writer.finish();
+  return shared;
 }
 
 }  // namespace wavetracer

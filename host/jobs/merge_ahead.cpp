@@ -17,7 +17,7 @@ MergeAhead::MergeAhead(const Config& config, const Units& units, fs::path direct
       lines_(directory_ / "shards") {}
 
 void MergeAhead::look() noexcept {
-  if (given_up_) return;
+  if (state_ != State::following) return;
   try {
     for (const Shard& shard : lines_.read()) {
       std::vector<std::string>& names = finished_[shard.unit.first];
@@ -31,7 +31,7 @@ void MergeAhead::look() noexcept {
     }
     if (next_ < units_.count()) finished_.erase(finished_.begin(), finished_.lower_bound(units_.at(next_).first));
   } catch (const std::exception&) {
-    given_up_ = true;
+    state_ = State::failed;
   }
 }
 
@@ -57,7 +57,9 @@ size_t MergeAhead::chunks() const {
 
 OutputAhead* MergeAhead::of(size_t output, std::span<const fs::path> parts) {
   if (threads_) threads_->stop();
-  if (given_up_ || output >= ahead_.size()) return nullptr;
+  if (state_ == State::failed) return nullptr;
+  state_ = State::merging;
+  if (output >= ahead_.size()) return nullptr;
   const std::vector<fs::path>& known = ahead_[output]->parts.parts();
   const bool same = known.size() <= parts.size() && std::ranges::equal(known, parts.first(known.size()));
   return same ? ahead_[output].get() : nullptr;

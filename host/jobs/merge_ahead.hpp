@@ -26,6 +26,7 @@ struct OutputAhead {
   PackedAhead chunks;
 };
 
+// It follows the run until the merge asks for what it has, or until it fails: then look() does nothing any more.
 class MergeAhead {
  public:
   // directory: folder of the run; no file is touched yet. units: of frames.
@@ -39,7 +40,6 @@ class MergeAhead {
   size_t chunks() const;
 
   // For the merge: returns what is known about an output (its index in h5_outputs()) made of these parts, or null.
-  // look() must not be called afterwards.
   OutputAhead* of(size_t output, std::span<const std::filesystem::path> parts);
 
  private:
@@ -51,9 +51,9 @@ class MergeAhead {
   uint64_t next_ = 0;  // index of the first unit that was not taken
   // By first frame: names of files of finished units that wait for an earlier unit.
   std::map<uint32_t, std::vector<std::string>> finished_;
-  bool given_up_ = false;
+  enum class State { following, failed, merging } state_ = State::following;
   std::vector<std::unique_ptr<OutputAhead>> ahead_;  // one per output, from the first unit on
-  std::unique_ptr<IdleThreads> threads_;             // declared last, since the threads use the other members
+  std::unique_ptr<IdleThreads> threads_;             // their destructor ends them before the other members go
 
   void take(const std::vector<std::string>& files);
 };

@@ -9,6 +9,7 @@
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_outputs.hpp"
 #include "jobs/run_record.hpp"
+#include "jobs/shard_files.hpp"
 #include "output/h5_outputs.hpp"
 #include "output/head_h5.hpp"
 #include "output/inputs.hpp"

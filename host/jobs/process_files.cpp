@@ -10,9 +10,11 @@
 #include <unistd.h>
 #include <array>
 #include <cerrno>
+#include <condition_variable>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <span>
@@ -204,19 +206,20 @@ Presence::Presence(fs::path folder, ProcessInfo process) : process_(std::move(pr
     }
     remove_dead_processes(folder);
   }
-  heart_ = std::thread([this] {
-    std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, std::chrono::duration<double>(heartbeat_s), [this] { return done_; }))
-      ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);  // sets the time of the file system
+  heart_ = std::jthread([path = file_](const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    const auto beat = std::chrono::duration<double>(heartbeat_s);
+    while (!stop.stop_requested()) {
+      wake.wait_for(lock, stop, beat, [] { return false; });  // until the next beat, or until the end
+      if (!stop.stop_requested()) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // the time of the file system
+    }
   });
 }
 
 Presence::~Presence() {
-  {
-    const std::lock_guard lock(mutex_);
-    done_ = true;
-  }
-  wake_.notify_all();
+  heart_.request_stop();
   heart_.join();
   std::error_code none;
   fs::remove(file_, none);

@@ -5,10 +5,8 @@
 // in the last heartbeat_limit_s, by the clock of the file system.
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,10 +64,7 @@ class Presence {
  private:
   std::filesystem::path file_;
   ProcessInfo process_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool done_ = false;
-  std::thread heart_;
+  std::jthread heart_;
 };
 
 }  // namespace wavetracer

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of writes makes it safe to be killed at any time: files of a shard come first, then its line in the
-// manifest. A file that no manifest lists is garbage; one that is listed is complete. If two manifests list a unit,
-// both parts are equal.
+// Finished units are those that the manifests of the folder list, and whose files are there with their full length.
 #include "jobs/shards.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,8 +7,8 @@
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_outputs.hpp"
 #include "jobs/merged_record.hpp"
-#include "jobs/run_record.hpp"
 #include "jobs/same_run.hpp"
+#include "jobs/shard_files.hpp"
 #include "output/hdf5_read.hpp"
 #include "output/head_h5.hpp"
 #include "output/inputs.hpp"
@@ -21,23 +19,6 @@ namespace wavetracer {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-const char* const manifest_name = "manifest.jsonl";
-const char* const record_name = "run.json";
-constexpr uint32_t shard_compression = 0;  // they are read again soon, and merging copies their bytes
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
-
-// Returns the files of a unit.
-std::vector<fs::path> files_of(const Unit& unit, const Config& config, const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (const H5Output& output : h5_outputs(config)) paths.push_back(folder / (unit_name(unit) + output.part_suffix));
-  paths.push_back(folder / (unit_name(unit) + ".csv"));
-  return paths;
-}
 
 // Checks that the merged file has all rows of the shards.
 void check_merged(const fs::path& directory, const Run& run, const Totals& totals) {
@@ -90,15 +71,13 @@ MergeParts parts_of(const ShardMap& shards, const std::function<fs::path(const S
 Shards::Shards(fs::path directory, RunIdentity run, std::vector<InputFile> inputs, std::string config)
     : directory_(std::move(directory)),
       folder_(directory_ / "shards"),
-      manifest_(folder_ / manifest_name),
       run_(std::move(run)),
       inputs_(std::move(inputs)),
-      config_(std::move(config)) {}
+      config_(std::move(config)),
+      writing_(directory_, run_) {}
 
 void Shards::take(std::vector<Shard> lines) {
-  for (const Shard& shard : lines) {
-    check_same_run(shard.run, run_, folder_, config_, inputs_);
-  }
+  for (const Shard& shard : lines) check_same_run(shard.run, run_, folder_, config_, inputs_);
   for (Shard& shard : lines)
     if (!finished(shard.unit) && is_whole(shard, folder_)) shards_.emplace(key(shard.unit), std::move(shard));
 }
@@ -114,10 +93,24 @@ std::vector<Shard> Shards::undamaged(std::vector<Shard> lines) {
   return out;
 }
 
+bool Shards::complete() const {
+  mine();
+  return std::holds_alternative<InOutputs>(run_is_);
+}
+
+size_t Shards::count() const {
+  mine();
+  return shards_.size();
+}
+
+bool Shards::finished(const Unit& unit) const { return complete() || shards_.contains(key(unit)); }
+
 bool Shards::find_complete() {
-  complete_ = read_merged_record(directory_, damaged_);
-  if (!complete_) return false;
-  check_same_run(complete_->run, run_, folder_, config_, inputs_);
+  mine();
+  std::optional<Shard> whole = read_merged_record(directory_, damaged_);
+  if (!whole) return false;
+  check_same_run(whole->run, run_, folder_, config_, inputs_);
+  run_is_ = InOutputs{std::move(*whole)};
   return true;
 }
 
@@ -132,75 +125,54 @@ size_t Shards::resume() {
   if (lines.empty()) return 0;
   for (const Shard& shard : lines) check_same_run(shard.run, run_, folder_, config_, inputs_);
   take(undamaged(std::move(lines)));
-  fresh_ = false;
   std::vector<Shard> whole;
   for (const auto& [key, shard] : shards_) whole.push_back(shard);
-  save(whole);  // removes an incomplete line, after which nothing could be appended
-  for (const fs::path& file : manifests_in(folder_))
-    if (file != manifest_) fs::remove(file);
-  remove_temporaries(folder_);
-  remove_temporaries(directory_);
+  writing_.with([&](UnitFolder& folder) { folder.take_over(whole); });
   return shards_.size();
 }
 
 void Shards::clear() {
+  mine();
   remove_shards(directory_);
   remove_outputs(directory_);
   remove_temporaries(directory_);
 }
 
 void Shards::share(const std::string& name, bool keep) {
-  manifest_ = folder_ / fmt::format("manifest.{}.jsonl", name);
-  shared_ = true;
-  fresh_ = false;
-  own_ = keep ? undamaged(read_manifest(manifest_)) : std::vector<Shard>();
+  mine();
+  const fs::path manifest = writing_.with([&](UnitFolder& folder) { return folder.share(name); });
+  const std::vector<Shard> own = keep ? undamaged(read_manifest(manifest)) : std::vector<Shard>();
   std::error_code none;
-  if (fs::exists(manifest_, none)) save(own_);
+  if (fs::exists(manifest, none)) writing_.with([&](UnitFolder& folder) { folder.write_manifest(own); });
   look();
 }
 
-void Shards::write_record(const Run& run) const {
-  const std::string record = encode_run_record(run);
-  PendingFile(folder_ / record_name, bytes(record)).commit();
+void Shards::write_record(const Run& run) {
+  writing_.with([&](UnitFolder& folder) { folder.write_record(run); });
 }
 
-void Shards::note_empty(const Run& run) const {
-  write_record(run);
-  save({});
+void Shards::note_empty(const Run& run) {
+  writing_.with([&](UnitFolder& folder) {
+    folder.write_record(run);
+    folder.write_manifest({});
+  });
 }
 
-void Shards::look() { take(all_lines(folder_)); }
+void Shards::look() {
+  mine();
+  take(all_lines(folder_));
+}
 
-Totals Shards::totals() const { return complete_ ? complete_->totals : totals_of(shards_); }
+Totals Shards::totals() const {
+  mine();
+  const auto* outputs = std::get_if<InOutputs>(&run_is_);
+  return outputs ? outputs->whole.totals : totals_of(shards_);
+}
 
 std::vector<fs::path> Shards::outputs() const {
   std::vector<fs::path> out;
-  for (const ShardFile& file : complete_->files) out.push_back(directory_ / file.name);
+  for (const ShardFile& file : std::get<InOutputs>(run_is_).whole.files) out.push_back(directory_ / file.name);
   return out;
-}
-
-void Shards::save(const std::vector<Shard>& lines) const {
-  std::string text;
-  for (const Shard& shard : lines) text += encode_manifest_line(shard);
-  PendingFile(manifest_, bytes(text)).commit();
-}
-
-void Shards::note(const Shard& shard) {
-  std::error_code none;
-  if (fresh_ || !fs::exists(manifest_, none))
-    save({shard});
-  else
-    append_to_file(manifest_, bytes(encode_manifest_line(shard)));
-  fresh_ = false;
-}
-
-OpenUnit::OpenUnit(const Run& run, const Unit& unit, const fs::path& directory, const fs::path& folder)
-    : run_(run), unit_(unit), directory_(directory), folder_(folder), files_(run, files_of(unit, run.config, folder)) {}
-
-void OpenUnit::add(const FrameResult& frame) {
-  const Clock::time_point start = Clock::now();
-  files_.add(frame);
-  seconds_ += since(start);
 }
 
 std::unique_ptr<OpenUnit> Shards::open(const Run& run, const Unit& unit) const {
@@ -208,24 +180,7 @@ std::unique_ptr<OpenUnit> Shards::open(const Run& run, const Unit& unit) const {
 }
 
 Shard Shards::close(OpenUnit& unit) {
-  const Clock::time_point start = Clock::now();
-  std::vector<PendingFile> files = unit.files_.finish(shard_compression);
-  Shard shard{run_, unit.unit_, unit.totals(), {}};
-  for (const PendingFile& file : files) shard.files.push_back(written_as(file));
-  const std::string record = encode_run_record(unit.run_);
-  if (!recorded_) files.emplace_back(folder_ / record_name, bytes(record));
-  if (fresh_) {
-    remove_shards(directory_, files);
-    remove_temporaries(directory_);
-  }
-  if (fresh_ || shared_) remove_outputs(directory_);
-  commit_together(files);
-  recorded_ = true;
-  unit.directory_.keep();
-  unit.folder_.keep();
-  note(shard);
-  write_seconds_ += unit.seconds_ + since(start);
-  return shard;
+  return writing_.with([&](UnitFolder& folder) { return folder.close(unit); });
 }
 
 void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t blocks) {
@@ -235,19 +190,21 @@ void Shards::write(const Run& run, Frames frames, uint32_t block, uint32_t block
 }
 
 void Shards::finish(Shard shard) {
+  mine();
   const ShardMap::key_type unit = key(shard.unit);
   shards_.insert_or_assign(unit, std::move(shard));
 }
 
 std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> unfinished, MergeAhead* ahead,
                                     LinkStatistics* links) {
-  const Clock::time_point start = Clock::now();
+  mine();
+  const auto start = std::chrono::steady_clock::now();
   PendingDirectory directory(directory_);
   MergeParts parts = parts_of(shards_, [this](const Shard&) { return folder_; });
   std::vector<PendingFile> parts_on_the_way;
   Totals totals = this->totals();
   if (unfinished && unfinished->totals().frames > 0) {
-    parts_on_the_way = unfinished->files_.finish(shard_compression);
+    parts_on_the_way = unfinished->finish();
     parts.files.resize(parts_on_the_way.size());
     for (size_t i = 0; i < parts_on_the_way.size(); ++i) parts.files[i].push_back(parts_on_the_way[i].temporary());
     add(totals, unfinished->totals());
@@ -259,16 +216,17 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
       [&](const fs::path& links_csv) {
         if (links) *links = link_statistics(links_csv, run.config);
       });
-  const std::string summary = encode_summary_json(run, totals, write_seconds_ + since(start), shards_.size());
-  files.emplace_back(directory_ / "summary.json", bytes(summary));
-  if (fresh_) remove_shards(directory_);
-  remove_outputs(directory_, files);
-  commit_together(files);
+  writing_.with([&](UnitFolder& folder) {
+    const std::chrono::duration<double> merging = std::chrono::steady_clock::now() - start;
+    const std::string summary = encode_summary_json(run, totals, folder.seconds() + merging.count(), shards_.size());
+    files.emplace_back(directory_ / "summary.json", std::as_bytes(std::span(summary)));
+    folder.put_outputs(files);
+  });
   directory.keep();
   if (removes) {
     check_merged(directory_, run, totals);
     write_merged_record(directory_, run_, totals, files);
-    proved_ = true;
+    run_is_ = InBoth{};
   }
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
@@ -276,7 +234,8 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
 }
 
 void Shards::remove_merged() {
-  if (proved_) remove_merged_shards(directory_);
+  mine();
+  if (std::holds_alternative<InBoth>(run_is_)) remove_merged_shards(directory_);
 }
 
 }  // namespace wavetracer

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Processes that share a folder. One of them prepares it, all take units, one of them leads and merges: each role is a
 // claim (jobs/claims.hpp). DIR/shards/job.json says which job the folder was prepared for, and whether it is merged.
-#include "jobs/team.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/pending_file.hpp"
 #include "jobs/claims.hpp"
+#include "jobs/compute_unit.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
 #include "wavetracer/error.hpp"
@@ -29,7 +31,7 @@ class Team {
       : task_(task),
         ranks_(ranks),
         progress_(progress),
-        shards_(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text),
+        shards_(shards_of(task)),
         claims_(shards_.folder(), me),
         units_(units_of(task)),
         writer_(task.run, shards_, progress),
@@ -52,7 +54,8 @@ class Team {
     if (shared.missing > 0) return say_missing(shared);
     shared.results.totals = shards_.totals();
     progress_.line("writing to " + task_.run.config.output.directory);
-    shared.results.files = shards_.merge(task_.run, {}, ahead_ ? &*ahead_ : nullptr, &shared.results.links);
+    const std::unique_ptr<MergeAhead> ahead = writer_.take_ahead();
+    shared.results.files = shards_.merge(task_.run, {}, ahead.get(), &shared.results.links);
     mark(true);
     shards_.remove_merged();
     remove_claims(shards_.folder());
@@ -68,9 +71,9 @@ class Team {
   Shards shards_;
   Claims claims_;
   Units units_;
-  std::optional<MergeAhead> ahead_;  // only in the process that is to merge
   UnitWriter writer_;
   std::string name_;
+  bool leads_ = false;  // this process prepares the merge
 
   fs::path job_file() const { return shards_.folder() / "job.json"; }
 
@@ -132,44 +135,54 @@ class Team {
   // One process prepares the merge while all compute, and merges in the end if it lives.
   void lead() {
     if (task_.blocks > 1 || !claims_.take(leading)) return;
-    ahead_.emplace(task_.run.config, units_, task_.run.config.output.directory);
-    writer_.tell(*ahead_);
+    leads_ = true;
+    writer_.follow(std::make_unique<MergeAhead>(task_.run.config, units_, task_.run.config.output.directory));
   }
+
+  bool compute(const Unit& unit) { return compute_unit(task_, unit, Interrupted::drop, writer_, progress_); }
 
   // Each process takes the first unit that is left, so that the finished units have few gaps and can be merged ahead.
   void first_pass() {
-    const uint64_t count = units_.count();
-    for (uint64_t i = 0; i < count && !interrupted(); ++i) {
-      const Unit unit = units_.at((ranks_.rank + i) % count);
-      if (shards_.finished(unit) || !claims_.take(unit_name(unit))) continue;
-      if (merged()) break;  // the claims of the others are gone, as all is done
-      compute_unit(task_, unit, writer_, progress_);
-    }
+    for_each_unit(units_, {.first = ranks_.rank, .count = units_.count()},
+                  {.finished = [this](const Unit& unit) { return shards_.finished(unit); },
+                   .choose =
+                       [this](const Unit& unit) {
+                         if (interrupted()) return UnitChoice::stop;
+                         if (!claims_.take(unit_name(unit))) return UnitChoice::elsewhere;
+                         // If all is merged, the claims of the others are gone.
+                         return merged() ? UnitChoice::stop : UnitChoice::compute;
+                       },
+                   .compute = [this](const Unit& unit) { return compute(unit); }});
     writer_.finish();
+  }
+
+  // Takes over a unit that no living process computes.
+  UnitChoice take_over(const Unit& unit) {
+    if (interrupted()) return UnitChoice::leave;
+    if (claims_.take(unit_name(unit))) {
+      progress_.line(unit_words(unit) + ": taken over from a process that ended too early");
+      return UnitChoice::compute;
+    }
+    return claims_.state(unit_name(unit)) == ClaimState::taken ? UnitChoice::elsewhere : UnitChoice::leave;
   }
 
   // Computes what dead processes left, until no process computes any more. Returns the number of missing units.
   uint64_t last_passes() {
     for (;; std::this_thread::sleep_for(poll_interval)) {
-      claims_.look();  // for the same reason as above
+      claims_.look();  // before the manifests, as in run()
       shards_.look();
-      if (merged()) return 0;  // asked after look(), for the same reason as above
-      if (ahead_) ahead_->look();
-      uint64_t taken = 0, missing = 0;
-      for (uint64_t index = 0; index < units_.count(); ++index) {
-        const Unit unit = units_.at(index);
-        if (shards_.finished(unit)) continue;
-        ++missing;
-        if (interrupted()) continue;
-        if (claims_.take(unit_name(unit))) {
-          progress_.line(unit_words(unit) + ": taken over from a process that ended too early");
-          if (compute_unit(task_, unit, writer_, progress_)) --missing;
-          writer_.finish();
-        } else if (claims_.state(unit_name(unit)) == ClaimState::taken) {
-          ++taken;
-        }
-      }
-      if (taken == 0 || interrupted()) return missing;
+      if (merged()) return 0;  // asked after the manifests were read, as in run()
+      writer_.look_ahead();
+      const UnitCounts counts = for_each_unit(units_, {.count = units_.count()},
+                                              {.finished = [this](const Unit& unit) { return shards_.finished(unit); },
+                                               .choose = [this](const Unit& unit) { return take_over(unit); },
+                                               .compute =
+                                                   [this](const Unit& unit) {
+                                                     const bool whole = compute(unit);
+                                                     writer_.finish();
+                                                     return whole;
+                                                   }});
+      if (counts.elsewhere == 0 || interrupted()) return counts.missing();
     }
   }
 
@@ -178,7 +191,7 @@ class Team {
   bool take_merge(bool whole) {
     for (; !interrupted() && !merged(); std::this_thread::sleep_for(poll_interval)) {
       claims_.look();
-      if (!ahead_ && claims_.state(leading) == ClaimState::taken) continue;  // that process is about to merge
+      if (!leads_ && claims_.state(leading) == ClaimState::taken) continue;  // that process is about to merge
       const bool taken = claims_.take("merge");
       if (taken && merged()) remove_claims(shards_.folder());  // this process came after the others had gone
       if (taken || !whole) return taken && !merged();
@@ -190,15 +203,23 @@ class Team {
   }
 
   Shared say_missing(const Shared& shared) {
-    std::string which;
-    for (uint64_t index = 0, shown = 0; index < units_.count() && shown < 5; ++index)
-      if (const Unit unit = units_.at(index); !shards_.finished(unit))
-        which += (shown++ ? ", " : "") + unit_words(unit);
+    constexpr size_t most_named = 5;
+    std::vector<std::string> named;
+    for_each_unit(units_, {.count = units_.count()},
+                  {.finished = [this](const Unit& unit) { return shards_.finished(unit); },
+                   .choose =
+                       [&](const Unit& unit) {
+                         if (named.size() == most_named) return UnitChoice::stop;
+                         named.push_back(unit_words(unit));
+                         return UnitChoice::leave;
+                       },
+                   .compute = {}});
+    const std::string more =
+        shared.missing > most_named ? fmt::format(" and {} more parts", shared.missing - most_named) : "";
     progress_.line(
         fmt::format("missing: {}{}; the processes that computed them ended too early. Continue with --resume, "
                     "or write what is computed with `wavetracer merge --partial {}`",
-                    which, shared.missing > 5 ? fmt::format(" and {} more parts", shared.missing - 5) : "",
-                    task_.run.config.output.directory));
+                    fmt::join(named, ", "), more, task_.run.config.output.directory));
     return shared;
   }
 };
@@ -207,27 +228,6 @@ class Team {
 
 Shared drive_together(const DriveTask& task, const Ranks& ranks, const ProcessInfo& me, Progress& progress) {
   return Team(task, ranks, me, progress).run();
-}
-
-Shared drive_part(const DriveTask& task, const ShardChoice& part, Progress& progress) {
-  Shards shards(task.run.config.output.directory, task.identity, task.run.summary.inputs, task.run.config.text);
-  remove_claims(shards.folder());  // left by processes that shared the folder in another way, and were killed
-  remove_dead_temporaries(shards.folder());
-  if (task.resume) shards.find_complete();
-  shards.share(fmt::format("{}_of_{}", part.index, part.count), task.resume);
-  say_damaged(shards, progress);
-  UnitWriter writer(task.run, shards, progress);
-  const Units units = units_of(task);
-  Shared shared;
-  shared.units = units.count() > part.index ? (units.count() - part.index - 1) / part.count + 1 : 0;
-  if (shared.units == 0) shards.note_empty(task.run);
-  for (uint64_t index = part.index; index < units.count(); index += part.count) {
-    const Unit unit = units.at(index);
-    if (task.resume && shards.finished(unit)) continue;
-    if (interrupted() || !compute_unit(task, unit, writer, progress)) ++shared.missing;
-  }
-  writer.finish();
-  return shared;
 }
 
 }  // namespace wavetracer

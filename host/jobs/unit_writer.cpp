@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread alone calls HDF5 until it has finished.
+// The caller and the thread share mail; the thread alone works at the desk until it is idle.
 // Objects that a Run refers to must not change while frames are computed.
 #include "jobs/unit_writer.hpp"
 #include <fmt/format.h>
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace wavetracer {
 namespace {
@@ -20,111 +23,129 @@ size_t bytes_of(const FrameResult& frame) {
          (world.transmitters.size() + world.receivers.size()) * sizeof(EndState);
 }
 
+// Does the same for a request; zero unless it brings a frame.
+size_t bytes_in(const auto& request) {
+  const auto* frame = std::get_if<FrameResult>(&request);
+  return frame ? bytes_of(*frame) : 0;
+}
+
 }  // namespace
 
 UnitWriter::UnitWriter(const Run& run, Shards& shards, Progress& progress)
-    : run_(run), shards_(shards), progress_(progress), thread_([this] { work(); }) {}
+    : run_(run), shards_(shards), progress_(progress) {
+  thread_ = std::thread([this] { work(); });
+}
 
 UnitWriter::~UnitWriter() {
-  {
-    const std::lock_guard lock(mutex_);
-    done_ = true;
-  }
-  changed_.notify_all();
+  mail_.with([](Mail& mail) { mail.requests.emplace_back(Quit{}); });
   thread_.join();
 }
 
-void UnitWriter::tell(MergeAhead& ahead) {
-  enqueue(0, [this, &ahead] { ahead_ = &ahead; });
-}
+void UnitWriter::follow(std::unique_ptr<MergeAhead> ahead) { request(Follow{std::move(ahead)}); }
 
-void UnitWriter::begin(const Unit& unit) {
-  enqueue(0, [this, unit] { open_ = shards_.open(run_, unit); });
-}
+void UnitWriter::look_ahead() { request(Look{}); }
 
-void UnitWriter::add(FrameResult frame) {
-  const auto kept = std::make_shared<const FrameResult>(std::move(frame));  // tasks must be copyable
-  enqueue(bytes_of(*kept), [this, kept] { open_->add(*kept); });
-}
+void UnitWriter::begin(const Unit& unit) { request(Begin{unit}); }
+
+void UnitWriter::add(FrameResult frame) { request(std::move(frame)); }
 
 void UnitWriter::end() {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !closing_ || failure_; });
-    closing_ = true;
-  }
-  enqueue(0, [this] {
-    Shard shard = shards_.close(*open_);
-    open_.reset();
-    const std::lock_guard lock(mutex_);
-    written_.push_back(std::move(shard));
-    closing_ = false;
-  });
-  enqueue(0, [this] {
-    if (ahead_) ahead_->look();
-  });
+  const auto none_ends = [](const Mail& mail) {
+    return mail.news.failure || std::ranges::none_of(mail.requests, [](const Request& request) {
+             return std::holds_alternative<End>(request);
+           });
+  };
+  mail_.when(none_ends, [](Mail&) {});
+  request(End{});
+  look_ahead();
 }
 
-void UnitWriter::drop() {
-  enqueue(0, [this] { open_.reset(); });
-}
+void UnitWriter::drop() { request(Drop{}); }
 
 void UnitWriter::finish() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return tasks_.empty() && !busy_; });
-  collect(lock);
+  collect(mail_.when([](const Mail& mail) { return mail.requests.empty(); }, take_news));
 }
 
-void UnitWriter::enqueue(size_t bytes, std::function<void()> task) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_bytes_ <= most_waiting_bytes; });
-  collect(lock);
-  tasks_.push_back({std::move(task), bytes});
-  waiting_bytes_ += bytes;
-  lock.unlock();
-  changed_.notify_all();
+std::unique_ptr<OpenUnit> UnitWriter::take_unfinished() {
+  finish();
+  return desk_.with([](Desk& desk) { return std::move(desk.open); });
 }
 
-// Units written so far count as finished from here on; throws the writer's exception.
-void UnitWriter::collect(std::unique_lock<std::mutex>& lock) {
-  const std::vector<Shard> written = std::exchange(written_, {});
-  const std::exception_ptr failure = failure_;
-  lock.unlock();
-  for (const Shard& shard : written) {
+std::unique_ptr<MergeAhead> UnitWriter::take_ahead() {
+  finish();
+  return desk_.with([](Desk& desk) { return std::move(desk.ahead); });
+}
+
+UnitWriter::News UnitWriter::take_news(Mail& mail) { return {std::exchange(mail.news.written, {}), mail.news.failure}; }
+
+// Units written so far count as finished from here on; throws the exception of the thread.
+void UnitWriter::collect(const News& news) {
+  for (const Shard& shard : news.written) {
     shards_.finish(shard);
     progress_.line(fmt::format("{}: {} paths", unit_words(shard.unit), shard.totals.counts.paths));
   }
-  if (failure) std::rethrow_exception(failure);
-  lock.lock();
+  if (news.failure) std::rethrow_exception(news.failure);
+}
+
+void UnitWriter::request(Request request) {
+  collect(mail_.when([](const Mail& mail) { return mail.frame_bytes <= most_waiting_bytes; }, take_news));
+  mail_.with([&](Mail& mail) {
+    mail.frame_bytes += bytes_in(request);
+    mail.requests.push_back(std::move(request));
+  });
 }
 
 void UnitWriter::work() {
-  std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return done_ || !tasks_.empty(); });
-    if (tasks_.empty()) return;
-    busy_ = true;
-    {
-      const Task task = std::move(tasks_.front());
-      tasks_.pop_front();
-      const bool failed = failure_ != nullptr;
-      lock.unlock();
-      if (!failed) perform(task.run);
-      lock.lock();
-      waiting_bytes_ -= task.bytes;
-    }
-    busy_ = false;
-    changed_.notify_all();
+    bool failed = false;
+    // An empty request of the same kind stays in the mail until this one is done.
+    Request first = mail_.when([](const Mail& mail) { return !mail.requests.empty(); },
+                               [&](Mail& mail) {
+                                 failed = mail.news.failure != nullptr;
+                                 return std::move(mail.requests.front());
+                               });
+    if (std::holds_alternative<Quit>(first)) return;
+    const size_t bytes = bytes_in(first);
+    if (!failed) perform(first);
+    first = Look{};  // frees the memory of a frame
+    mail_.with([&](Mail& mail) {
+      mail.requests.pop_front();
+      mail.frame_bytes -= bytes;
+    });
   }
 }
 
-void UnitWriter::perform(const std::function<void()>& task) {
+void UnitWriter::perform(Request& request) {
   try {
-    task();
+    desk_.with([&](Desk& desk) { std::visit([&](auto& what) { perform(desk, what); }, request); });
   } catch (...) {
-    const std::lock_guard lock(mutex_);
-    failure_ = std::current_exception();
+    mail_.with([](Mail& mail) { mail.news.failure = std::current_exception(); });
   }
 }
+
+void UnitWriter::perform(Desk& desk, Follow& request) { desk.ahead = std::move(request.ahead); }
+
+void UnitWriter::perform(Desk& desk, Look&) {
+  if (desk.ahead) desk.ahead->look();
+}
+
+void UnitWriter::perform(Desk& desk, Begin& request) {
+  if (desk.open) throw std::logic_error("unit writer: a unit was begun before the one before was ended");
+  desk.open = shards_.open(run_, request.unit);
+}
+
+void UnitWriter::perform(Desk& desk, FrameResult& frame) {
+  if (!desk.open) throw std::logic_error("unit writer: a frame came without a unit");
+  desk.open->add(frame);
+}
+
+void UnitWriter::perform(Desk& desk, End&) {
+  if (!desk.open) throw std::logic_error("unit writer: no unit was begun that could end");
+  Shard shard = shards_.close(*desk.open);
+  desk.open.reset();
+  mail_.with([&](Mail& mail) { mail.news.written.push_back(std::move(shard)); });
+}
+
+void UnitWriter::perform(Desk& desk, Drop&) { desk.open.reset(); }
 
 }  // namespace wavetracer

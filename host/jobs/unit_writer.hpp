@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the units of a run, frame by frame, while the next frames are computed.
+// Writes the units of a run, frame by frame, on a thread of its own, while the next frames are computed.
+// HDF5 has one thread: as long as this object exists, only its thread calls it. So the thread has the open unit and the
+// merge that is made ahead, and the caller gets them with take_unfinished() and take_ahead(), once it is idle.
 #pragma once
-#include <condition_variable>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
+#include <variant>
 #include <vector>
+#include "base/guarded.hpp"
+#include "jobs/merge_ahead.hpp"
 #include "jobs/progress.hpp"
 #include "jobs/shards.hpp"
 
 namespace wavetracer {
 
+// A unit is begun, gets its frames, and is ended or dropped. Units follow each other. All functions are for one thread,
+// the one that made the shards.
 class UnitWriter {
  public:
   // All arguments must outlive this object.
@@ -23,48 +27,78 @@ class UnitWriter {
   UnitWriter(const UnitWriter&) = delete;
   UnitWriter& operator=(const UnitWriter&) = delete;
 
-  // From now on, the writing thread tells `ahead` of each whole unit. It must outlive this object.
-  void tell(MergeAhead& ahead);
+  // All functions below throw the exception of the writing thread; it does nothing more after that.
+
+  // From now on, the thread looks for finished units after each that it has written, see MergeAhead::look().
+  void follow(std::unique_ptr<MergeAhead> ahead);
+  // Makes the thread look for units that other processes have finished.
+  void look_ahead();
   // The following frames belong to this unit.
   void begin(const Unit& unit);
-  // Waits while frames of more than some megabytes wait to be written. Like all functions below, it throws the writer's
-  // exception.
+  // Waits while frames of more than some megabytes wait to be written.
   void add(FrameResult frame);
   // Ends the unit. Waits until the one before is on the disk, so that a process that is killed loses two at most.
   void end();
   // Drops the unit that was begun.
   void drop();
-  // Waits until everything is written; whole units count as finished then. Before that, no other code may touch files
-  // of the shards.
+  // Waits until everything is written; whole units count as finished then.
   void finish();
-  // After finish(): returns the unit that was begun and neither ended nor dropped, or null.
-  std::unique_ptr<OpenUnit> unfinished() { return std::move(open_); }
+  // Does the same, and returns the unit that was begun and neither ended nor dropped, or null.
+  std::unique_ptr<OpenUnit> take_unfinished();
+  // Does the same, and returns what follow() was given, or null.
+  std::unique_ptr<MergeAhead> take_ahead();
 
  private:
-  struct Task {
-    std::function<void()> run;
-    size_t bytes;  // size of its frames
+  struct Follow {
+    std::unique_ptr<MergeAhead> ahead;
   };
+  struct Look {};
+  struct Begin {
+    Unit unit;
+  };
+  struct End {};
+  struct Drop {};
+  struct Quit {};  // the last request
+  using Request = std::variant<Follow, Look, Begin, FrameResult, End, Drop, Quit>;
+
+  // The thread tells the caller:
+  struct News {
+    std::vector<Shard> written;  // units that do not count as finished yet
+    std::exception_ptr failure;  // the thread does nothing more once it is set
+  };
+  // All that passes between the caller and the thread.
+  struct Mail {
+    std::deque<Request> requests;  // the first is being done; it is removed after that, so the thread is idle if none
+                                   // is left
+    size_t frame_bytes = 0;        // the memory of all frames among them
+    News news;
+  };
+  // The things that only one thread may use at a time.
+  struct Desk {
+    std::unique_ptr<OpenUnit> open;
+    std::unique_ptr<MergeAhead> ahead;
+  };
+
   const Run& run_;
   Shards& shards_;
   Progress& progress_;
-  // Used by the thread, between finish() and begin() of the caller.
-  MergeAhead* ahead_ = nullptr;
-  std::unique_ptr<OpenUnit> open_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  // The mutex guards the following members.
-  std::deque<Task> tasks_;
-  size_t waiting_bytes_ = 0;
-  bool busy_ = false, closing_ = false, done_ = false;
-  std::vector<Shard> written_;  // units that do not count as finished yet
-  std::exception_ptr failure_;
-  std::thread thread_;  // declared last, since it uses all other members
+  Guarded<Mail> mail_;
+  Guarded<Desk> desk_;
+  std::thread thread_;  // started when all other members exist, and joined before they go
 
-  void enqueue(size_t bytes, std::function<void()> task);
+  static News take_news(Mail& mail);
+  void collect(const News& news);
+  void request(Request request);
+
   void work();
-  void perform(const std::function<void()>& task);
-  void collect(std::unique_lock<std::mutex>& lock);
+  void perform(Request& request);
+  void perform(Desk& desk, Follow& request);
+  void perform(Desk& desk, Look& request);
+  void perform(Desk& desk, Begin& request);
+  void perform(Desk& desk, FrameResult& frame);
+  void perform(Desk& desk, End& request);
+  void perform(Desk& desk, Drop& request);
+  void perform(Desk&, Quit&) {}
 };
 
 }  // namespace wavetracer

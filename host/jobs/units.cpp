@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is arithmetic only: a run may have 2^32 frames, so units are never listed.
+// A run may have 2^32 frames, so units are never listed: their bounds are computed.
 // first <= last and shard_frames > 0.
 #include "jobs/units.hpp"
 #include <fmt/format.h>
@@ -28,6 +28,23 @@ Unit Units::at(uint64_t index) const {
   const uint64_t begin = (first_ / shard_frames_ + index) * shard_frames_;
   return {static_cast<uint32_t>(std::max<uint64_t>(begin, first_)),
           static_cast<uint32_t>(std::min<uint64_t>(begin + shard_frames_ - 1, last_)), 0, 1};
+}
+
+UnitCounts for_each_unit(const Units& units, const UnitOrder& order, const UnitLoop& loop) {
+  UnitCounts counts;
+  for (uint64_t i = 0; i < order.count; ++i) {
+    const Unit unit = units.at((order.first + i * order.step) % units.count());
+    if (loop.finished(unit)) continue;
+    const UnitChoice choice = loop.choose(unit);
+    if (choice == UnitChoice::stop) break;
+    if (choice == UnitChoice::elsewhere)
+      ++counts.elsewhere;
+    else if (choice == UnitChoice::compute && loop.compute(unit))
+      ++counts.computed;
+    else
+      ++counts.left;
+  }
+  return counts;
 }
 
 }  // namespace wavetracer

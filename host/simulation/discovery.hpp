@@ -33,8 +33,8 @@ class Discovery {
   // The same for several launches, which share a batch if they fit into one and are not followed.
   DiscoveryCounts find_all(const DeviceScene& scene, std::span<const Launch> launches);
   // The same with as many rays as trace.recall asks for, at most trace.max_rays for each launcher: the launch is
-  // refined where it still finds something. Needs trace.rays = 0 ("auto"). frame: the number of frames since the last
-  // cold one, see Refinement.
+  // refined where it still finds something. trace.rays must be "auto" (without a number). frame: the number of
+  // frames since the last cold one, see Refinement.
   DiscoveryCounts find_refined(const DeviceScene& scene, const std::vector<Launcher>& who, uint64_t frame);
   Sequences& sequences() { return sequences_; }
 

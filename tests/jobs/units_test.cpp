@@ -70,6 +70,58 @@ TEST_CASE("units cover every frame once and begin at absolute multiples of the s
   CHECK(unit_name({3, 9, 0, 1}) == "frames_000003_000009");
 }
 
+TEST_CASE("a loop over units skips what is finished, computes what is chosen, and counts the rest") {
+  const Units units(0, 9, 1);
+  const auto visited = [&](const UnitOrder& order, const std::set<uint32_t>& finished, auto choose, bool whole = true) {
+    std::vector<uint32_t> chosen, computed;
+    const UnitCounts counts =
+        for_each_unit(units, order,
+                      {.finished = [&](const Unit& unit) { return finished.contains(unit.first); },
+                       .choose =
+                           [&](const Unit& unit) {
+                             chosen.push_back(unit.first);
+                             return choose(unit.first);
+                           },
+                       .compute =
+                           [&](const Unit& unit) {
+                             computed.push_back(unit.first);
+                             return whole;
+                           }});
+    return std::tuple{chosen, computed, counts};
+  };
+  using List = std::vector<uint32_t>;
+  const auto all = [](uint32_t) { return UnitChoice::compute; };
+
+  // The second of three ranks begins with its own unit and comes to all.
+  const auto [wrapped, wrapped_computed, wrapped_counts] = visited({.first = 7, .count = 10}, {8, 0}, all);
+  CHECK(wrapped == List{7, 9, 1, 2, 3, 4, 5, 6});
+  CHECK(wrapped_computed == wrapped);
+  CHECK(wrapped_counts.computed == 8);
+  CHECK(wrapped_counts.missing() == 0);
+
+  // Part 1 of 4 has units 1, 5 and 9.
+  const auto [part, part_computed, part_counts] = visited({.first = 1, .step = 4, .count = 3}, {5}, all);
+  CHECK(part == List{1, 9});
+
+  // An interrupt in the middle of a unit leaves it.
+  const auto [cut, cut_computed, cut_counts] = visited({.count = 10}, {}, all, false);
+  CHECK(cut_computed.size() == 10);
+  CHECK(cut_counts.computed == 0);
+  CHECK(cut_counts.left == 10);
+
+  const auto [mixed, mixed_computed, mixed_counts] = visited({.count = 10}, {2}, [](uint32_t first) {
+    if (first == 7) return UnitChoice::stop;
+    if (first % 3 == 0) return UnitChoice::elsewhere;
+    return first == 4 ? UnitChoice::leave : UnitChoice::compute;
+  });
+  CHECK(mixed == List{0, 1, 3, 4, 5, 6, 7});
+  CHECK(mixed_computed == List{1, 5});
+  CHECK(mixed_counts.computed == 2);
+  CHECK(mixed_counts.elsewhere == 3);
+  CHECK(mixed_counts.left == 1);
+  CHECK(mixed_counts.missing() == 4);
+}
+
 TEST_CASE("a process is alive while it runs; elsewhere, while its heart beats") {
   const ProcessInfo me = this_process("job", 3);
   CHECK(alive(me));
