@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer bench thesis`: all figures of the thesis in one page, and the error that a cache's speed costs. Figures
+// `wavetracer thesis all`: all figures of the thesis in one page, and the error that a cache's speed costs. Figures
 // that share a study share its measurement. If a figure fails, the page says so, and has the others.
 #pragma once
 #include <functional>

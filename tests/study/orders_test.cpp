@@ -89,7 +89,7 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
 
 TEST_CASE("an unknown experiment is answered with the known ones and the nearest") {
   CHECK_THROWS_WITH_AS(find_experiment("figure-6.19"),
-                       doctest::Contains("bench: no experiment \"figure-6.19\" among figure-6.1, figure-6.2, "),
+                       doctest::Contains("thesis: no experiment \"figure-6.19\" among figure-6.1, figure-6.2, "),
                        ConfigError);
   CHECK_THROWS_WITH_AS(find_experiment("coherence-ray"), doctest::Contains("did you mean \"coherence-rays\"?"),
                        ConfigError);

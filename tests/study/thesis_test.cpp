@@ -39,7 +39,7 @@ const std::string drawing =
 ThesisPage page() {
   ThesisPage out;
   out.heading.device.name = "A <device> & \"driver\"";
-  out.heading.command_line = "wavetracer bench thesis --set 'a=\"b\"'";
+  out.heading.command_line = "wavetracer thesis all --set 'a=\"b\"'";
   out.heading.date = "2014-05-15";
   const CacheStudy& study = *find_experiment("figure-6.11").study();
   out.rows = made_measurement(study, {1000, 5000}, [](const std::string& setting, uint64_t) {
