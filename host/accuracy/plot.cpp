@@ -3,22 +3,17 @@
 // "none". It needs gnuplot 5.2.
 #include <fmt/format.h>
 #include <algorithm>
-#include <stdexcept>
 #include "accuracy/files.hpp"
 #include "accuracy/table.hpp"
 #include "plots/gnuplot.hpp"
+#include "study/scripts.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
 constexpr double none = 1e-8;  // share at which 0 and smaller values are drawn
 
-size_t column(const std::string& name) {
-  const std::vector<std::string>& names = csv_columns();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw std::logic_error("no column is called " + name);
-  return static_cast<size_t>(found - names.begin()) + 1;  // gnuplot counts from 1
-}
+size_t column(const std::string& name) { return study::column_of(csv_columns(), name); }
 
 // Returns the axes with a measured row, in their order.
 std::vector<std::string> measured_axes(const Study& study) {

@@ -22,9 +22,8 @@ struct ThesisPage {
 
 // Returns the setting of a cache without its hash function.
 std::string family(const std::string& setting);
-// Return the table thesis.csv, and the script that draws it: time saved against errors, a point per row.
-std::string speed_error_table(const std::vector<CacheRow>& rows);
-std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
+// Returns the table thesis.csv and what draws it: time saved against errors, a point per row.
+plots::Figure speed_error_figure(const std::vector<CacheRow>& rows, const std::string& device);
 // Returns every claim with its outcome and what was measured; for a figure without claims, its result. Columns: figure,
 // claim, verdict, measured.
 NumberTable verdicts_of(const std::vector<Section>& figures);
