@@ -3,8 +3,8 @@
 import re
 import shutil
 import statistics
-import subprocess
 
+import gnuplot_svg
 import speed
 
 
@@ -66,14 +66,13 @@ PLOTS = [
 
 def draw(title, x, y, curves):
     """The SVG of a plot with logarithmic axes, by gnuplot. A share of 0 stands at the foot of the plot, where 1e-4 is."""
-    lines = ["set terminal svg size 760,520 font 'sans-serif,13' background '#ffffff'",
-             f"set title '{title}'", f"set xlabel '{x}'", f"set ylabel '{y}'", "set logscale xy", "set grid lc rgb '#dddddd'",
-             "set key below", "set format x '10^{%T}'" if x.startswith("rays") else "set format x '%g'"]
+    lines = [f"set title '{title}'", f"set xlabel '{x}'", f"set ylabel '{y}'", "set logscale xy", "set key below",
+             "set format x '10^{%T}'" if x.startswith("rays") else "set format x '%g'"]
     drawn = {name: points for name, points in curves.items() if points}
     for i, points in enumerate(drawn.values()):
         lines += [f"$c{i} << END"] + [f"{px:g} {max(py, 1e-4):.6g}" for px, py in points] + ["END"]
     lines.append("plot " + ", ".join(f"$c{i} with linespoints lw 2 pt {i + 4} title '{name}'" for i, name in enumerate(drawn)))
-    return subprocess.run(["gnuplot"], input="\n".join(lines), text=True, check=True, stdout=subprocess.PIPE).stdout
+    return gnuplot_svg.svg(lines, "760,520")
 
 
 def drawn(groups):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verdicts on the claims of A. Zhdanov's thesis on each device.
 
-Usage: verdicts.py THESIS_MD...; each file is the thesis.md that `wavetracer bench thesis` has written. Its verdicts replace
+Usage: verdicts.py THESIS_MD...; each file is the thesis.md that `wavetracer thesis all` has written. Its verdicts replace
 those of the same device in bench/results/verdicts.csv; report.py makes docs/thesis_verdicts.md of that file.
 """
 import csv

@@ -17,7 +17,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-# pocl-opencl-icd is the device if there is no GPU; gnuplot-nox draws the plots of `plot` and `bench`.
+# pocl-opencl-icd is the device if there is no GPU; gnuplot-nox draws the plots of `plot` and `thesis`.
 # The module for maps opens GDAL itself, so CPack finds no dependency on it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
 if(WAVETRACER_GDAL_NAME MATCHES "^libgdal\\.so\\.([0-9]+)$")

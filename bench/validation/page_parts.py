@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpers that write and draw the parts of docs/validation.md."""
-import subprocess
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import gnuplot_svg
 
 
 def table(head, rows, left=1):
@@ -18,6 +22,4 @@ def ghz(row):
 
 
 def gnuplot(path, lines, size="760,480"):
-    head = [f"set terminal svg size {size} font 'sans-serif,13' background '#ffffff'", f"set output '{path}'",
-            "set grid lc rgb '#dddddd'"]
-    subprocess.run(["gnuplot"], input="\n".join(head + lines), text=True, check=True)
+    path.write_text(gnuplot_svg.svg(lines, size), encoding="utf-8")

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the table first, because the plot and the page are made from it.
+// Writes the table first, because the plot and the page are made from it. The plot, which needs gnuplot 5.2, has two
+// panels on logarithmic axes with one colour per axis; rows that lose nothing lie at the bottom, where the scale says
+// "none".
 #include "accuracy/files.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 #include "accuracy/advice.hpp"
 #include "accuracy/table.hpp"
+#include "base/html_page.hpp"
 #include "base/pending_file.hpp"
+#include "base/xml_text.hpp"
 #include "plots/gnuplot.hpp"
 #include "study/page.hpp"
+#include "study/scripts.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using study::cells_html;
-using study::escaped;
 
 constexpr const char* style = "body{max-width:1320px}.own{background:#eef6fb}.reference{font-weight:bold}";
 
 std::string table_html(const std::vector<Row>& rows) {
-  std::string text = "<table>\n<thead><tr>" + cells_html(short_columns(), "th") + "</tr></thead>\n<tbody>\n";
+  std::string text = "<table>\n<thead><tr>" + html_cells(short_columns(), "th") + "</tr></thead>\n<tbody>\n";
   for (const Row& row : rows)
     text += fmt::format("<tr class=\"{}{}\">{}</tr>\n", row.own ? "own " : "", row.reference ? "reference" : "",
-                        cells_html(short_cells(row), "td"));
+                        html_cells(short_cells(row), "td"));
   return text + "</tbody>\n</table>\n";
 }
 
@@ -38,17 +40,9 @@ std::string frames_text(const Study& study) {
                      study.frames, study.links, times);
 }
 
-// Two panels on logarithmic axes, one colour per axis. Rows that lose nothing lie at the bottom, where the scale says
-// "none". It needs gnuplot 5.2.
-
 constexpr double none = 1e-8;  // share at which 0 and smaller values are drawn
 
-size_t column(const std::string& name) {
-  const std::vector<std::string>& names = csv_columns();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw std::logic_error("no column is called " + name);
-  return static_cast<size_t>(found - names.begin()) + 1;  // gnuplot counts from 1
-}
+size_t column(const std::string& name) { return study::column_of(csv_columns(), name); }
 
 // Returns the axes with a measured row, in their order.
 std::vector<std::string> measured_axes(const Study& study) {
@@ -82,14 +76,14 @@ std::string page_html(const Study& study, const std::string& command_line, const
   study::Heading heading = study::heading_of({}, study.device, command_line);
   heading.scene = study.scene;
   std::string text = fmt::format("<h1>Speed against error: {}</h1>\n{}<h2>What to set</h2>\n<ul>\n",
-                                 escaped(study.config_file), heading_html(heading, {frames_text(study)}));
-  for (const std::string& item : recommendations(study)) text += fmt::format("<li>{}</li>\n", escaped(item));
+                                 xml_text(study.config_file), heading_html(heading, {frames_text(study)}));
+  for (const std::string& item : recommendations(study)) text += fmt::format("<li>{}</li>\n", xml_text(item));
   text +=
       "</ul>\n<h2>Every setting</h2>\n<p>One axis changes at a time, everything else is as in the configuration. "
       "Losses and errors are against the reference of the axis, which is in bold; rays, auto and reuse share theirs. "
       "Gains are of links that have paths in both; the errors of spreads are means over these links. "
       "On the plot, settings that lose nothing lie at the bottom.</p>\n";
-  return study::document_html("Speed against error", style, text + svg + table_html(study.rows));
+  return html_page("Speed against error", style, text + svg + table_html(study.rows));
 }
 
 Written write_files(const Study& study, const std::string& command_line, const fs::path& folder) {

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <string_view>
 #include "accuracy/inputs.hpp"
+#include "base/csv_columns.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+std::string cell(double value) { return std::isfinite(value) ? six_digits(value) : ""; }
 
 double width(const InputInterval& interval) { return interval.high - interval.low; }
 
@@ -29,20 +30,18 @@ double median_over(const InputStudy& study, const Value& value) {
   return median_of(std::move(values));
 }
 
-std::string interval_cells(const InputInterval& i) {
-  return fmt::format("{},{},{},{}", cell(i.nominal), cell(i.low), cell(i.middle), cell(i.high));
+void add_interval(std::vector<std::string>& cells, const InputInterval& i) {
+  for (const double value : {i.nominal, i.low, i.middle, i.high}) cells.push_back(cell(value));
 }
 
-std::string share_columns(const char* of) {
-  std::string out;
-  for (const char* input : input_names) out += fmt::format(",{}_{}_share", of, input);
-  return out + fmt::format(",{}_explained", of);
+void add_share_names(std::vector<std::string>& names, const char* of) {
+  for (const char* input : input_names) names.push_back(fmt::format("{}_{}_share", of, input));
+  names.push_back(fmt::format("{}_explained", of));
 }
 
-std::string share_cells(const std::array<double, input_count>& shares, double explained) {
-  std::string out;
-  for (const double share : shares) out += "," + cell(share);
-  return out + "," + cell(explained);
+void add_shares(std::vector<std::string>& cells, const std::array<double, input_count>& shares, double explained) {
+  for (const double share : shares) cells.push_back(cell(share));
+  cells.push_back(cell(explained));
 }
 
 std::string shares_line(const InputStudy& study, std::array<double, input_count> InputRow::*shares) {
@@ -58,16 +57,22 @@ std::string shares_line(const InputStudy& study, std::array<double, input_count>
 }  // namespace
 
 std::string inputs_csv(const InputStudy& study) {
-  std::string text =
-      "frame,tx,rx,samples,gain_nominal_db,gain_p5_db,gain_p50_db,gain_p95_db,spread_nominal_ns,spread_p5_ns,"
-      "spread_p50_ns,spread_p95_ns" +
-      share_columns("gain") + share_columns("spread") + "\n";
-  for (const InputRow& row : study.rows)
-    text += fmt::format("{},{},{},{},{},{}{}{}\n", row.frame, plots::csv_text(row.tx), plots::csv_text(row.rx),
-                        row.samples, interval_cells(row.gain_db), interval_cells(row.delay_spread_ns),
-                        share_cells(row.gain_share, row.gain_explained),
-                        share_cells(row.delay_spread_share, row.delay_spread_explained));
-  return text;
+  std::vector<std::string> names = {
+      "frame",         "tx",           "rx",          "samples",           "gain_nominal_db",
+      "gain_p5_db",    "gain_p50_db",  "gain_p95_db", "spread_nominal_ns", "spread_p5_ns",
+      "spread_p50_ns", "spread_p95_ns"};
+  add_share_names(names, "gain");
+  add_share_names(names, "spread");
+  Csv table(std::move(names));
+  for (const InputRow& row : study.rows) {
+    std::vector<std::string> cells = {std::to_string(row.frame), row.tx, row.rx, std::to_string(row.samples)};
+    add_interval(cells, row.gain_db);
+    add_interval(cells, row.delay_spread_ns);
+    add_shares(cells, row.gain_share, row.gain_explained);
+    add_shares(cells, row.delay_spread_share, row.delay_spread_explained);
+    table.add_texts(cells);
+  }
+  return table.text();
 }
 
 std::string inputs_text(const InputStudy& study) {

@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// A list of columns, each with a name and a function that writes its cell.
-// Numbers have six digits, more than a clock is good for.
+// A number without a value is an empty cell.
 #include "accuracy/table.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include "accuracy/advice.hpp"
-#include "plots/figure.hpp"
+#include "base/csv_columns.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
-struct Column {
-  std::string name;
-  std::function<std::string(const Row&)> cell;
-};
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+std::string number(double value) { return std::isfinite(value) ? six_digits(value) : ""; }
 std::string count(const Row& row, uint64_t value) { return row.measured() ? std::to_string(value) : ""; }
 std::string truth(bool value) { return value ? "true" : "false"; }
 std::string note(const Row& row) {
   return row.measured() ? fmt::format("{}", fmt::join(row.warnings, "; ")) : "not measured: " + row.refusal;
 }
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = {
+const Columns<Row>& columns() {
+  static const Columns<Row> all = {
       {"axis", [](const Row& r) { return r.setting.axis; }},
-      {"setting", [](const Row& r) { return plots::csv_text(r.setting.name); }},
+      {"setting", [](const Row& r) { return r.setting.name; }},
       {"reference", [](const Row& r) { return truth(r.reference); }},
       {"own", [](const Row& r) { return truth(r.own); }},
       {"frame_s", [](const Row& r) { return number(r.frame_s); }},
@@ -41,8 +34,8 @@ const std::vector<Column>& columns() {
       {"doppler_spread_hz", [](const Row& r) { return number(r.error.doppler_spread_hz); }},
       {"links", [](const Row& r) { return count(r, r.error.links); }},
       {"links_lost", [](const Row& r) { return count(r, r.error.links_lost); }},
-      {"keys", [](const Row& r) { return plots::csv_text(fmt::format("{}", fmt::join(r.setting.keys, " "))); }},
-      {"note", [](const Row& r) { return plots::csv_text(note(r)); }},
+      {"keys", [](const Row& r) { return fmt::format("{}", fmt::join(r.setting.keys, " ")); }},
+      {"note", [](const Row& r) { return note(r); }},
   };
   return all;
 }
@@ -56,22 +49,11 @@ std::string share_cell(double share) { return std::isnan(share) ? "" : share == 
 }  // namespace
 
 const std::vector<std::string>& csv_columns() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Column& column : columns()) all.push_back(column.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(columns());
   return names;
 }
 
-std::string encode_csv(const std::vector<Row>& rows) {
-  std::string text = fmt::format("{}\n", fmt::join(csv_columns(), ","));
-  for (const Row& row : rows) {
-    for (size_t i = 0; i < columns().size(); ++i) text += (i == 0 ? "" : ",") + columns()[i].cell(row);
-    text += "\n";
-  }
-  return text;
-}
+std::string encode_csv(const std::vector<Row>& rows) { return csv_of(columns(), rows).text(); }
 
 std::vector<std::string> short_columns() {
   return {"axis",

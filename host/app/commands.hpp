@@ -18,7 +18,7 @@ void add_devices(CLI::App& program, Invocation& invocation);
 void add_validate(CLI::App& program);
 void add_init(CLI::App& program);
 void add_scene(CLI::App& program);
-void add_bench(CLI::App& program, Invocation& invocation);
+void add_thesis(CLI::App& program, Invocation& invocation);
 void add_accuracy(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program);
 void add_plot(CLI::App& program);

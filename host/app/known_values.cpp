@@ -13,7 +13,7 @@ namespace wavetracer::app {
 namespace {
 
 std::vector<std::string> experiment_names() {
-  std::vector<std::string> out{"thesis"};
+  std::vector<std::string> out{"all"};
   for (const study::Experiment& experiment : study::experiments()) out.emplace_back(experiment.name);
   return out;
 }
@@ -38,7 +38,7 @@ std::vector<std::string> help_topics(const CLI::App& program) {
 
 std::vector<std::string> known_values(const CLI::App& program, const std::string& path, const CLI::Option& option) {
   const std::string name = option.get_lnames().empty() ? option.get_name(true) : option.get_lnames().front();
-  if (path == "bench" && name == "experiment") return experiment_names();
+  if (path == "thesis" && name == "experiment") return experiment_names();
   if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
   if (path == "help" && name == "topic") return help_topics(program);

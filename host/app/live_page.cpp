@@ -4,6 +4,7 @@
 #include "app/live_page.hpp"
 #include <fmt/format.h>
 #include "base/file.hpp"
+#include "base/html_page.hpp"
 #include "base/output_place.hpp"
 #include "base/times.hpp"
 #include "viewer/view.hpp"
@@ -16,9 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds between_pages{1};
 constexpr double reload_s = 2;
-constexpr const char* no_frame_yet =
-    "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"2\">"
-    "<title>wavetracer</title></head>\n<body><p>No frame was solved yet.</p></body>\n</html>\n";
+std::string no_frame_yet() {
+  return html_page("wavetracer", "", "<p>No frame was solved yet.</p>\n",
+                   "<meta http-equiv=\"refresh\" content=\"2\">\n");
+}
 
 }  // namespace
 
@@ -30,7 +32,7 @@ LivePage::LivePage(const fs::path& file, Tell tell)
     throw ConfigError(fmt::format(
         "--page {}: this is a device or a pipe, but the page is written anew for later frames: name a plain file",
         file.string()));
-  write_file(file_, no_frame_yet);
+  write_file(file_, no_frame_yet());
   thread_ = std::thread([this] { work(); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services of the program for `bench` and `accuracy`.
+// Services of the program for `thesis` and `accuracy`.
 #pragma once
 #include "jobs/progress.hpp"
 #include "study/run.hpp"

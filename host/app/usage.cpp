@@ -52,13 +52,19 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+// Returns a hint for a word that is no command: the one that took its place, or the nearest of `names`.
+std::string command_hint(const std::string& word, const std::vector<std::string>& names) {
+  if (word == "bench") return "; the experiments of the thesis are run by `wavetracer thesis`";
+  return spelling_hint(word, names);
+}
+
 std::string unknown_word(const CLI::App& command, const std::string& word) {
   if (word.starts_with('-')) {
     const std::string name = word.substr(0, word.find('='));
     return fmt::format("there is no option {}{}", name, spelling_hint(name, option_names(command)));
   }
   if (const std::vector<std::string> names = command_names(command); !names.empty())
-    return fmt::format("there is no command \"{}\"{}", word, spelling_hint(word, names));
+    return fmt::format("there is no command \"{}\"{}", word, command_hint(word, names));
   return fmt::format("\"{}\" is not expected here", word);
 }
 
@@ -108,7 +114,7 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
           throw ConfigError(fmt::format("help: there is no key \"{}\"{}", word, nearest_key));
       }
       throw ConfigError(
-          fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, spelling_hint(word, known),
+          fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, command_hint(word, known),
                       known.empty() ? at->get_name() + " as a whole" : fmt::format("{}", fmt::join(known, ", "))));
     }
     at = found.front();

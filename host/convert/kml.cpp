@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 #include "base/pending_file.hpp"
+#include "base/xml_text.hpp"
 #include "convert/convert.hpp"
-#include "convert/unicode.hpp"
 #include "convert/vtk_glb_kml.hpp"
 #include "output/path_kinds.hpp"
 #include "results/saved_world.hpp"

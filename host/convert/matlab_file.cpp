@@ -4,7 +4,7 @@
 #include "convert/matlab_file.hpp"
 #include <algorithm>
 #include <cstring>
-#include "convert/unicode.hpp"
+#include "base/unicode.hpp"
 
 namespace wavetracer {
 namespace {

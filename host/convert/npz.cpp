@@ -8,7 +8,7 @@
 #include <bit>
 #include <limits>
 #include <new>
-#include "convert/unicode.hpp"
+#include "base/unicode.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules are one function each, in the order of plan_city().
-// Most footprints should be small beside the map, so that sorted boxes find which footprints lie inside others quickly.
+// A grid finds which footprints lie inside others.
 #include "imports/plan.hpp"
 
 #include <fmt/format.h>
@@ -108,15 +108,18 @@ class Planner {
     }
   }
 
+  BoxIndex outlines() const {
+    std::vector<BoxIndex::Entry> entries;
+    for (size_t i = 0; i < candidates_.size(); ++i)
+      if (!candidates_[i].gone && !candidates_[i].solid.part && candidates_[i].solid.is_building())
+        entries.push_back({candidates_[i].box, i});
+    return BoxIndex(std::move(entries));
+  }
+
   // A building inside another one with the same tags is a courtyard in it, and one inside of that is a building again.
   // polyconvert writes inner rings of multipolygons in this way.
   void cut_courtyards() {
-    BoxIndex index;
-    for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (!candidates_[i].gone && !candidates_[i].solid.part && candidates_[i].solid.is_building())
-        index.add(candidates_[i].box, i);
-    }
-    index.sort();
+    const BoxIndex index = outlines();
     std::vector<size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), size_t{0});
     std::vector<int64_t> areas;
@@ -166,12 +169,7 @@ class Planner {
 
   // By Simple 3D Buildings, the outline is not built if there are parts.
   void leave_outlines_to_parts() {
-    BoxIndex index;
-    for (size_t i = 0; i < candidates_.size(); ++i) {
-      if (!candidates_[i].gone && !candidates_[i].solid.part && candidates_[i].solid.is_building())
-        index.add(candidates_[i].box, i);
-    }
-    index.sort();
+    const BoxIndex index = outlines();
     std::map<size_t, std::vector<Candidate*>> parts_of;  // parts by the index of their outline
     for (Candidate& part : candidates_) {
       if (part.gone || !part.solid.part) continue;

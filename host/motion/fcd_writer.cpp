@@ -11,36 +11,10 @@
 #include <numbers>
 #include <tuple>
 
+#include "base/xml_text.hpp"
 #include "motion/track_motion.hpp"
 
 namespace wavetracer {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string format_fcd(const Trajectories& trajectories) {
   constexpr double degrees = 180 / std::numbers::pi;
   std::vector<std::tuple<int64_t, size_t, size_t>> order;  // microseconds, track, sample
@@ -66,8 +40,9 @@ std::string format_fcd(const Trajectories& trajectories) {
     fmt::format_to(put,
                    "    <vehicle id=\"{}\" x=\"{:.6f}\" y=\"{:.6f}\" z=\"{:.6f}\" angle=\"{:.6f}\" type=\"{}\" "
                    "speed=\"{:.6f}\" slope=\"{:.6f}\"/>\n",
-                   escaped(track.id), bumper_m.x, bumper_m.y, bumper_m.z, angle_deg - 360 * std::floor(angle_deg / 360),
-                   escaped(type.name), s.speed_m_s, s.pitch_rad * degrees);
+                   xml_text(track.id), bumper_m.x, bumper_m.y, bumper_m.z,
+                   angle_deg - 360 * std::floor(angle_deg / 360), xml_text(type.name), s.speed_m_s,
+                   s.pitch_rad * degrees);
   }
   return out + (order.empty() ? "" : "  </timestep>\n") + "</fcd-export>\n";
 }

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include "base/csv.hpp"
 #include "output/copy_pieces.hpp"
 #include "output/path_limits.hpp"
 #include "radio/link_budget.hpp"
@@ -26,18 +27,10 @@ constexpr std::string_view header =
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-// Writes a field by RFC 4180, section 2: quoted if it contains a comma, a quote or a line end.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
 std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
   std::vector<std::string> result;
   for (const RadioEnd& end : ends)
-    result.push_back(end.name.empty() ? std::to_string(result.size()) : quoted(end.name));
+    result.push_back(end.name.empty() ? std::to_string(result.size()) : csv_field(end.name));
   return result;
 }
 

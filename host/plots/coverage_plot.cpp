@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "base/csv.hpp"
 #include "base/times.hpp"
 #include "plots/gnuplot.hpp"
 #include "radio/grouped_power.hpp"
@@ -20,14 +21,13 @@ namespace {
 constexpr uint32_t no_cell = std::numeric_limits<uint32_t>::max();
 
 std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cells, const RadioConfig& radio) {
-  std::string text = "ix,iy,x_m,y_m,z_m,path_gain_db,tx,paths,received_dbm,snr_db\n";
+  Csv table({"ix", "iy", "x_m", "y_m", "z_m", "path_gain_db", "tx", "paths", "received_dbm", "snr_db"});
   for (const CoverageCell& c : cells) {
     const LinkBudget budget = link_budget(radio, c.path_gain_db);
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", c.ix, c.iy, c.position_m.x, c.position_m.y, c.position_m.z,
-                        c.path_gain_db, c.tx ? csv_text(run.transmitters()[*c.tx].name) : "", c.paths,
-                        budget.received_dbm, budget.snr_db);
+    table.add(c.ix, c.iy, c.position_m.x, c.position_m.y, c.position_m.z, c.path_gain_db,
+              c.tx ? run.transmitters()[*c.tx].name : "", c.paths, budget.received_dbm, budget.snr_db);
   }
-  return text;
+  return table.text();
 }
 
 // The value that is drawn for a cell: its received power if there is a link budget, else its gain.
@@ -43,11 +43,11 @@ CellValue cell_value(const RadioConfig& radio) {
 }
 
 std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std::optional<uint32_t> tx) {
-  std::string text = "name,x_m,y_m,z_m\n";
+  Csv table({"name", "x_m", "y_m", "z_m"});
   for (uint32_t i = 0; i < run.transmitters().size(); ++i)
     if (const glm::dvec3& p = frame.transmitter_position_m[i]; !std::isnan(p.x) && (!tx || *tx == i))
-      text += fmt::format("{},{},{},{}\n", csv_text(run.transmitters()[i].name), p.x, p.y, p.z);
-  return text;
+      table.add(run.transmitters()[i].name, p.x, p.y, p.z);
+  return table.text();
 }
 
 std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_db) {
@@ -146,9 +146,9 @@ std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) 
 }
 
 std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
-  std::string text = "x0_m,y0_m,x1_m,y1_m\n";
-  for (const auto& [x0, y0, x1, y1] : walls) text += fmt::format("{},{},{},{}\n", x0, y0, x1, y1);
-  return text;
+  Csv table({"x0_m", "y0_m", "x1_m", "y1_m"});
+  for (const auto& [x0, y0, x1, y1] : walls) table.add(x0, y0, x1, y1);
+  return table.text();
 }
 
 Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,

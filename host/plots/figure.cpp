@@ -49,13 +49,6 @@ std::string script(const Figure& figure, Format format) {
 
 }  // namespace
 
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string palette() {
   return "set palette defined (0 '#fde725', 1 '#b5de2b', 2 '#6ece58', 3 '#35b779', 4 '#1f9e89', 5 '#26828e', "
          "6 '#31688e', 7 '#3e4989', 8 '#482878', 9 '#440154')\n";

@@ -14,11 +14,8 @@ enum class Format { svg, png, pdf };
 
 struct DataFile {
   std::string name;  // name of the file, which begins with that of the figure
-  std::string text;  // CSV with one header row
+  std::string text;  // CSV with one header row, or words about the figure
 };
-
-// Writes a field by RFC 4180: quoted if it contains a comma, a quote or a line end.
-std::string csv_text(const std::string& text);
 
 struct Figure {
   std::string name;   // name of its files, without suffix

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include "base/csv.hpp"
 #include "base/times.hpp"
 #include "output/path_kinds.hpp"
 #include "plots/gnuplot.hpp"
@@ -39,15 +40,14 @@ std::vector<double> gains(const std::vector<PathPoint>& paths) {
 // Writes one frame's paths with every column that a plot of them may need.
 std::string path_table(const std::vector<PathPoint>& paths) {
   constexpr double degree = std::numbers::pi / 180;
-  std::string text =
-      "frame,time_s,kind,kind_name,delay_s,gain_db,doppler_hz,departure_azimuth_deg,departure_elevation_deg,"
-      "arrival_azimuth_deg,arrival_elevation_deg\n";
+  Csv table({"frame", "time_s", "kind", "kind_name", "delay_s", "gain_db", "doppler_hz", "departure_azimuth_deg",
+             "departure_elevation_deg", "arrival_azimuth_deg", "arrival_elevation_deg"});
   const auto azimuth = [](double phi_rad) { return std::remainder(phi_rad, 2 * std::numbers::pi) / degree; };
   for (const PathPoint& p : paths)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", p.frame, p.time_s, p.kind, path_kinds[p.kind].word,
-                        p.delay_s, p.gain_db, p.doppler_hz, azimuth(p.aod_phi_rad), 90 - p.aod_theta_rad / degree,
-                        azimuth(p.aoa_phi_rad), 90 - p.aoa_theta_rad / degree);
-  return text;
+    table.add(p.frame, p.time_s, p.kind, path_kinds[p.kind].word, p.delay_s, p.gain_db, p.doppler_hz,
+              azimuth(p.aod_phi_rad), 90 - p.aod_theta_rad / degree, azimuth(p.aoa_phi_rad),
+              90 - p.aoa_theta_rad / degree);
+  return table.text();
 }
 
 // Returns the range of the delay axis: all delays and a small margin, but nothing below zero.
@@ -101,9 +101,8 @@ struct TimeAxis {
 }  // namespace
 
 Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioConfig& radio) {
-  std::string table =
-      "link,tx,rx,frame,time_s,paths,path_gain_db,mean_delay_s,rms_delay_spread_s,doppler_spread_hz,los,"
-      "narrowband_gain_db,received_dbm,snr_db,sum_of_powers_db\n";
+  Csv table({"link", "tx", "rx", "frame", "time_s", "paths", "path_gain_db", "mean_delay_s", "rms_delay_spread_s",
+             "doppler_spread_hz", "los", "narrowband_gain_db", "received_dbm", "snr_db", "sum_of_powers_db"});
   const TimeAxis axis(series.moments.front());
   const std::string time = axis.column(5);
   std::string plot = "plot ";
@@ -111,11 +110,10 @@ Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioCon
     const Link& link = series.links[k];
     for (const auto& [time_s, f] : series.moments[k]) {
       const LinkBudget budget = link_budget(radio, f.paths > 0 ? f.path_gain_db : NAN);
-      table += fmt::format("{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{}\n", k + 1,
-                           csv_text(run.transmitters()[link.tx].name), csv_text(run.receivers()[link.rx].name), f.frame,
-                           time_s, f.paths, f.paths > 0 ? f.path_gain_db : NAN, f.mean_delay_s, f.rms_delay_spread_s,
-                           f.doppler_spread_hz, f.los, f.paths > 0 ? f.narrowband_gain_db : NAN, budget.received_dbm,
-                           budget.snr_db, f.paths > 0 ? f.sum_of_powers_db : NAN);
+      table.add(k + 1, run.transmitters()[link.tx].name, run.receivers()[link.rx].name, f.frame, time_s, f.paths,
+                f.paths > 0 ? f.path_gain_db : NAN, f.mean_delay_s, f.rms_delay_spread_s, f.doppler_spread_hz, f.los,
+                f.paths > 0 ? f.narrowband_gain_db : NAN, budget.received_dbm, budget.snr_db,
+                f.paths > 0 ? f.sum_of_powers_db : NAN);
     }
     const std::string_view colour = colours[k % colours.size()];
     plot += fmt::format(
@@ -128,7 +126,7 @@ Figure gain_figure(const SavedRun& run, const LinkSeries& series, const RadioCon
   }
   return {"gain",
           "Path gain along the drive",
-          {{"gain.csv", table}},
+          {{"gain.csv", table.text()}},
           power_axis(radio) + axis.label() +
               "set ylabel 'path gain (dB)'\n"
               "set key outside right top Left reverse samplen 2\n" +
@@ -190,18 +188,17 @@ Figure delay_time_figure(const SavedRun& run, const LinkSeries& series) {
   const TimeAxis axis(moments);
   const double from_s = moments.front().time_s, to_s = moments.back().time_s;
   const double column_s = columns > 1 ? (to_s - from_s) / static_cast<double>(columns - 1) : 1;
-  std::string table = "time_s,delay_s,gain_db\n";
+  Csv table({"time_s", "delay_s", "gain_db"});
   std::vector<double> cells;
   for (size_t c = 0; c < columns; ++c)
     for (size_t r = 0; r < rows; ++r) {
       const double p = power[c * rows + r] / frames_of[c];
       cells.push_back(p > 0 ? 10 * std::log10(p) : NAN);
-      table += fmt::format("{},{},{}\n", from_s + static_cast<double>(c) * column_s,
-                           first_s + static_cast<double>(r) * step_s, cells.back());
+      table.add(from_s + static_cast<double>(c) * column_s, first_s + static_cast<double>(r) * step_s, cells.back());
     }
   return {"delay-time",
           "Power by delay along the drive, " + first_link(run, series),
-          {{"delay-time.csv", table}},
+          {{"delay-time.csv", table.text()}},
           colour_range(cells, shown_span_db) + axis.label() +
               "unset grid\n"
               "set ylabel 'delay (ns)'\n"

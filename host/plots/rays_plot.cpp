@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
+#include "base/csv.hpp"
 #include "plots/coverage_plot.hpp"
 
 namespace wavetracer::plots {
@@ -13,18 +14,16 @@ namespace {
 bool is_hit(WaypointKind kind) { return kind == WaypointKind::reflection || kind == WaypointKind::diffraction; }
 
 std::string segment_table(const std::vector<RaySegment>& segments) {
-  std::string text = "x0_m,y0_m,x1_m,y1_m,segment,source\n";
-  for (const RaySegment& s : segments)
-    text += fmt::format("{},{},{},{},{},{}\n", s.x0, s.y0, s.x1, s.y1, s.number, static_cast<int>(s.source));
-  return text;
+  Csv table({"x0_m", "y0_m", "x1_m", "y1_m", "segment", "source"});
+  for (const RaySegment& s : segments) table.add(s.x0, s.y0, s.x1, s.y1, s.number, static_cast<int>(s.source));
+  return table.text();
 }
 
 std::string centroid_table(const std::vector<RayCentroid>& centroids) {
-  std::string text = "segment,hits,answered,x_m,y_m,z_m\n";
+  Csv table({"segment", "hits", "answered", "x_m", "y_m", "z_m"});
   for (const RayCentroid& c : centroids)
-    text += fmt::format("{},{},{},{},{},{}\n", c.number, c.hits, c.answered, c.position_m.x, c.position_m.y,
-                        c.position_m.z);
-  return text;
+    table.add(c.number, c.hits, c.answered, c.position_m.x, c.position_m.y, c.position_m.z);
+  return table.text();
 }
 
 }  // namespace

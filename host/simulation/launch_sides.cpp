@@ -24,8 +24,8 @@ double size_of(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p
 // A step as far beside a surface as a reflected ray starts (kernels/lib/mirror.clh).
 double step_beside(const glm::dvec3& p) { return 1.9e-6 * std::max(size_of(p), 0.1); }
 
-std::vector<TreeBox> boxes_of(const Scene& scene) {
-  std::vector<TreeBox> out;
+std::vector<SceneBox> surface_boxes(const Scene& scene) {
+  std::vector<SceneBox> out;
   for (const Surface& s : scene.surfaces) out.push_back({s.lower, s.upper});
   return out;
 }
@@ -33,12 +33,12 @@ std::vector<TreeBox> boxes_of(const Scene& scene) {
 }  // namespace
 
 LaunchSides::Planes::Planes(const Scene& of)
-    : scene(&of), boxes(boxes_of(of)), radius_m(glm::length(glm::max(glm::abs(of.lower), glm::abs(of.upper)))) {}
+    : scene(&of), boxes(surface_boxes(of)), radius_m(glm::length(glm::max(glm::abs(of.lower), glm::abs(of.upper)))) {}
 
 void LaunchSides::Planes::find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const {
   std::vector<uint32_t> on;
   boxes.at(p, tolerance_m, [&](uint32_t i) { on.push_back(i); });
-  std::ranges::sort(on);  // only the first planes count, and the result must not depend on the order of a tree
+  std::ranges::sort(on);  // only the first planes count, and the result must not depend on the order of a grid
   for (const uint32_t i : on) {
     const Surface& s = scene->surfaces[i];
     const double above_m = glm::dot(s.normal, p) - s.offset_m;

@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "simulation/box_tree.hpp"
-
 #include "passes/generate_rays.hpp"
+#include "scene/box_grid.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world_state.hpp"
 
@@ -33,7 +32,7 @@ class LaunchSides {
   struct Planes {
     explicit Planes(const Scene& scene);
     const Scene* scene;
-    BoxTree boxes;
+    BoxGrid boxes;
     double radius_m;  // that of the scene about its own origin
     // Appends the planes that the point is on.
     void find(const glm::dvec3& p, double tolerance_m, std::vector<Plane>& found) const;

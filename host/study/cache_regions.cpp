@@ -27,14 +27,12 @@ std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string
   return out;
 }
 
-std::string cell(double value) { return fmt::format("{:.6g}", value); }
-
 void add_row(CacheShown& shown, const CacheRows& rows, const CacheRow& row, bool with_trace) {
   const EntryGroup* entries = row.region == 0 ? nullptr : entries_of_region(rows, row, row.region - 1);
-  shown.table += fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{}\n", row.drive, row.setting, row.region, cell(row.counts.lookups),
-      cell(hit_rate(row)), cell(write_ns(row)), cell(read_ns(row)), cell(gather_ns(row)), cell(trace_ns(row)),
-      cell(entries ? entries->write_cycles : undefined), cell(entries ? entries->read_cycles : undefined));
+  shown.table.add(row.drive, row.setting, row.region, six_digits(row.counts.lookups), six_digits(hit_rate(row)),
+                  six_digits(write_ns(row)), six_digits(read_ns(row)), six_digits(gather_ns(row)),
+                  six_digits(trace_ns(row)), six_digits(entries ? entries->write_cycles : undefined),
+                  six_digits(entries ? entries->read_cycles : undefined));
   shown.numbers.rows.push_back({row.setting, row.region == 0 ? "all" : row.transmitter,
                                 grouped(static_cast<uint64_t>(row.counts.lookups)), share_words(hit_rate(row)),
                                 plain(write_ns(row)), plain(read_ns(row)), plain(gather_ns(row))});
@@ -50,9 +48,7 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
   return [=](const CacheMeasurement& measured) {
     const CacheRows& rows = measured.rows;
     CacheShown out{
-        .plot = {.columns = {"drive", "setting", "region", "lookups", "hit_rate", "write_ns", "read_ns", "gather_ns",
-                             "trace_ns", "write_cycles", "read_cycles"},
-                 .settings = settings,
+        .plot = {.settings = settings,
                  .x = "region",
                  .x_label = "region of the table, one for each transmitter (0: all)",
                  .points = true,
@@ -60,7 +56,8 @@ CacheView regions(std::vector<std::string> settings, bool with_trace) {
                  .panels = panels_of(rows, {{"write (cache_store)", "write_ns", "ns per segment", "", with_trace},
                                             {"read (cache_lookup)", "read_ns", "ns per segment", "", with_trace},
                                             {"gather missed rays", "gather_ns", "ns per segment", "", with_trace}})},
-        .table = "drive,setting,region,lookups,hit_rate,write_ns,read_ns,gather_ns,trace_ns,write_cycles,read_cycles\n",
+        .table = Csv({"drive", "setting", "region", "lookups", "hit_rate", "write_ns", "read_ns", "gather_ns",
+                      "trace_ns", "write_cycles", "read_cycles"}),
         .numbers = {.caption = fmt::format("Nanoseconds per segment, at {} rays:", grouped(rows.front().rays)),
                     .heads = {"setting", "transmitter", "look-ups", "answered", "write", "read", "gather"},
                     .rows = {}},

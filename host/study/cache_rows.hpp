@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include "study/columns.hpp"
+#include "base/csv_columns.hpp"
 #include "study/entry_summary.hpp"
 #include "study/path_error.hpp"
 #include "wavetracer/simulation.hpp"

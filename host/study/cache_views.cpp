@@ -131,18 +131,14 @@ CacheView centroids(std::vector<std::string> settings) {
     const std::vector<LinePanel> panels = {{"distance", "l2_m", "m", "", false, 1e-3},
                                            {"running mean", "l2_m", "m", "", false, 1e-3}};
     CacheShown out{
-        .plot = {.columns = {"drive", "setting", "frame", "distance_m", "average_m"},
-                 .settings = settings,
-                 .x = "frame",
-                 .x_label = "frame",
-                 .panels = panels_of(measured.rows, panels)},
-        .table = "drive,setting,frame,distance_m,average_m\n",
+        .plot = {.settings = settings, .x = "frame", .x_label = "frame", .panels = panels_of(measured.rows, panels)},
+        .table = Csv({"drive", "setting", "frame", "distance_m", "average_m"}),
         .numbers = {
             .caption = "Distance of centroids:", .heads = {"world", "setting", "on average", "at most"}, .rows = {}}};
     for (size_t i = 0; i < out.plot.panels.size(); ++i) out.plot.panels[i].y = i % 2 == 0 ? "distance_m" : "average_m";
     for (const CacheRow& row : measured.rows)
       for (const CentroidError& at : row.centroids)
-        out.table += fmt::format("{},{},{},{:.6g},{:.6g}\n", row.drive, row.setting, at.frame, at.l2_m, at.mean_l2_m);
+        out.table.add(row.drive, row.setting, at.frame, six_digits(at.l2_m), six_digits(at.mean_l2_m));
     for (const std::string& drive : drives_of(measured.rows))
       for (const std::string& setting : settings)
         if (const CacheRow* row = find_cached(measured.rows, setting, measured.rows.front().rays, drive)) {

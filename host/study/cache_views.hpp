@@ -12,8 +12,8 @@
 namespace wavetracer::study {
 
 struct CacheShown {
-  LinePlot plot;                        // without name and title; columns are only set for its own table
-  std::string table = "";               // empty: all columns
+  LinePlot plot;                        // without name and title
+  Csv table = {};                       // without columns: all columns
   NumberTable numbers = {};             // empty: summary_table
   std::vector<std::string> notes = {};  // in addition to study_notes
 };

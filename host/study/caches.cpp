@@ -14,13 +14,9 @@ Findings show(const Experiment& experiment, const CacheMeasurement& measured, co
   LinePlot& plot = shown.plot;
   plot.name = experiment.name;
   plot.title = experiment.title + ", " + measured.device.name;
-  if (plot.columns.empty()) {
-    plot.columns = names_of(cache_columns());
-    shown.table = encode(cache_columns(), measured.rows);
-  }
+  if (shown.table.names().empty()) shown.table = csv_of(cache_columns(), measured.rows);
   if (plot.settings.empty()) plot.settings = settings_of(measured.rows);
-  found.table = shown.table;
-  found.script = line_script(plot);
+  found.figure = line_figure(plot, shown.table);
   const Fields fields = cache_fields(measured.rows, measured.device.name, figure.settings);
   found.words = {filled(experiment.paragraph, fields), judged(figure.claims, measured.rows, fields),
                  shown.numbers.rows.empty() ? summary_table(measured.rows) : shown.numbers};

@@ -176,19 +176,17 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
     previous = std::move(now);
   }
   found.points = 1;
-  const Columns<FramePair> columns = frame_columns(drive);
-  found.table = encode(columns, rows);
-  found.script = depth_script(
+  found.figure = depth_figure(
       {.name = experiment.name,
        .title = experiment.title + ", " + traced.device.name,
-       .columns = names_of(columns),
        .max_depth = trace.max_depth,
        .x_label = "time (s)",
        .panels_a_row = 2,
        .panels = {{"correlation with the first frame", "time_s", "total", "against", "first"},
                   {"correlation with the frame before", "time_s", "total", "against", "previous"},
                   {"rays that hit the surface of the first frame", "time_s", "same_surface", "against", "first"},
-                  {"rays that hit the surface of the frame before", "time_s", "same_surface", "against", "previous"}}});
+                  {"rays that hit the surface of the frame before", "time_s", "same_surface", "against", "previous"}}},
+      csv_of(frame_columns(drive), rows));
   found.words = frame_words(experiment, rows, drive, world_words(traced), traced.device.name);
   found.notes = {
       drive_note(drive, traced),

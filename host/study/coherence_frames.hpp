@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 #include <vector>
+#include "base/csv_columns.hpp"
 #include "study/claim.hpp"
 #include "study/coherence.hpp"
-#include "study/columns.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world_state.hpp"

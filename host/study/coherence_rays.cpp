@@ -52,10 +52,8 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
         rows.push_back({.directions = directions, .depth = i + 1, .found = at});
   }
   found.points = 1;
-  found.table = encode(lag_columns(), rows);
   DepthPlot plot{.name = experiment.name,
                  .title = experiment.title + ", " + traced.device.name,
-                 .columns = names_of(lag_columns()),
                  .max_depth = request.config.trace.max_depth,
                  .x_label = "lag (rays)",
                  .log_x = true,
@@ -66,7 +64,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
     plot.panels.push_back({directions + ": autocorrelation of points", "lag", "points", "directions", directions});
   for (const std::string& directions : maps)
     plot.panels.push_back({directions + ": same surface", "lag", "same_surface", "directions", directions});
-  found.script = depth_script(plot);
+  found.figure = depth_figure(plot, csv_of(lag_columns(), rows));
   found.words = lag_words(experiment, rows, traced.device.name);
   found.notes = {
       fmt::format("rays: {} of the transmitter \"{}\", a frame for each map of directions", grouped(experiment_rays),

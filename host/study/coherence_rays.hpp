@@ -4,8 +4,8 @@
 #pragma once
 #include <string>
 #include <vector>
+#include "base/csv_columns.hpp"
 #include "study/coherence.hpp"
-#include "study/columns.hpp"
 
 namespace wavetracer::study {
 

@@ -49,29 +49,27 @@ Setting counted(Setting setting) {
 CacheView operations_by_tree_depth(std::vector<std::string> settings) {
   return [=](const CacheMeasurement& measured) {
     const CacheRow& first = measured.rows.front();
-    CacheShown out{
-        .plot = {.columns = {"drive", "setting", "tree_depth", "entries", "hits", "write_cycles", "read_cycles"},
-                 .settings = settings,
-                 .x = "tree_depth",
-                 .x_label = "depth of the entry in the tree of its bucket (1: the bucket itself)",
-                 .panels = {{"write", "write_cycles", "cycles", first.drive, true},
-                            {"read", "read_cycles", "cycles", first.drive, true}}},
-        .table = "drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n",
-        .numbers = {.caption = fmt::format("Nanoseconds per segment at {} rays, and cycles of an entry in "
-                                           "a bucket itself and below it:",
-                                           grouped(first.rays)),
-                    .heads = {"setting", "write", "read", "gather", "cycles of a write: bucket", "below",
-                              "of a read: bucket", "below"},
-                    .rows = {}},
-        .notes = {cycles_note}};
+    CacheShown out{.plot = {.settings = settings,
+                            .x = "tree_depth",
+                            .x_label = "depth of the entry in the tree of its bucket (1: the bucket itself)",
+                            .panels = {{"write", "write_cycles", "cycles", first.drive, true},
+                                       {"read", "read_cycles", "cycles", first.drive, true}}},
+                   .table = Csv({"drive", "setting", "tree_depth", "entries", "hits", "write_cycles", "read_cycles"}),
+                   .numbers = {.caption = fmt::format("Nanoseconds per segment at {} rays, and cycles of an entry in "
+                                                      "a bucket itself and below it:",
+                                                      grouped(first.rays)),
+                               .heads = {"setting", "write", "read", "gather", "cycles of a write: bucket", "below",
+                                         "of a read: bucket", "below"},
+                               .rows = {}},
+                   .notes = {cycles_note}};
     for (const std::string& setting : settings) {
       const CacheRow* row = find_cached(measured.rows, setting, first.rays, first.drive);
       const CacheRow* counted = counted_row(measured, setting);
       if (!row || !counted) continue;
       const std::vector<EntryGroup>& depths = counted->entries.by_depth;
       for (const EntryGroup& group : depths)
-        out.table += fmt::format("{},{},{},{},{},{},{}\n", row->drive, setting, group.number, group.entries, group.hits,
-                                 group.write_cycles, group.read_cycles);
+        out.table.add(row->drive, setting, group.number, group.entries, group.hits, group.write_cycles,
+                      group.read_cycles);
       out.numbers.rows.push_back(
           {setting, plain(write_ns(*row)), plain(read_ns(*row)), plain(gather_ns(*row)),
            levels(depths, &EntryGroup::write_cycles, false), levels(depths, &EntryGroup::write_cycles, true),
@@ -84,13 +82,12 @@ CacheView operations_by_tree_depth(std::vector<std::string> settings) {
 CacheView hits_along_table(std::vector<std::string> settings) {
   return [=](const CacheMeasurement& measured) {
     const std::string& drive = measured.rows.front().drive;
-    CacheShown out{.plot = {.columns = {"drive", "setting", "first_slot", "entries", "hits"},
-                            .settings = settings,
+    CacheShown out{.plot = {.settings = settings,
                             .x = "first_slot",
                             .x_label = "place in the table",
                             .panels_a_row = 1,
                             .panels = {{"hits of an entry, on average over runs of entries", "hits", "hits", drive}}},
-                   .table = "drive,setting,first_slot,entries,hits\n",
+                   .table = Csv({"drive", "setting", "first_slot", "entries", "hits"}),
                    .numbers = {.caption = "Entries of the table and their hits. If chance alone spread them, "
                                           "both numbers would be about 1:",
                                .heads = {"setting", "all", "that hold a segment", "of these, that never answered",
@@ -100,7 +97,7 @@ CacheView hits_along_table(std::vector<std::string> settings) {
       const CacheRow* row = counted_row(measured, setting);
       if (!row || row->cache.entries_by_hits.empty()) continue;
       for (const SlotRun& run : row->entries.runs)
-        out.table += fmt::format("{},{},{},{},{:.6g}\n", drive, setting, run.first_slot, run.entries, run.hits);
+        out.table.add(drive, setting, run.first_slot, run.entries, six_digits(run.hits));
       out.numbers.rows.push_back({setting, grouped(row->cache.entries), grouped(entries_used(*row)),
                                   grouped(row->cache.entries_by_hits.front()), plain(row->entries.dispersion),
                                   plain(row->entries.clustering)});

@@ -83,7 +83,7 @@ const Experiment& find_experiment(const std::string& name) {
     names.push_back(experiment.name);
   }
   throw ConfigError(
-      fmt::format("bench: no experiment \"{}\" among {}{}", name, fmt::join(names, ", "), spelling_hint(name, names)));
+      fmt::format("thesis: no experiment \"{}\" among {}{}", name, fmt::join(names, ", "), spelling_hint(name, names)));
 }
 
 std::string experiment_list() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The experiments of `wavetracer bench`, as data: what is measured, shown, and claimed. run.hpp carries one out. Those
+// The experiments of `wavetracer thesis`, as data: what is measured, shown, and claimed. run.hpp carries one out. Those
 // called figure-6.N are the figures of A. Zhdanov's thesis (TU Munich, 2014).
 // To add one, add a row to one of the lists below; its claims are predicates of NAME_claims.hpp and similar files.
 #pragma once

@@ -44,9 +44,9 @@ std::string panel(const std::string& name, const std::vector<Series>& series, co
 
 }  // namespace
 
-std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series) {
-  std::string text = script_head(name, 1150, 540);
-  text += fmt::format(
+plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& series,
+                           const Csv& table) {
+  std::string text = fmt::format(
       "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${2} / ${4}) skip 1 name 'unpaid' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${3} / ${4}) skip 1 name 'paid' nooutput\n",
@@ -59,16 +59,16 @@ std::string order_script(const std::string& name, const std::string& title, cons
       "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
       "set xlabel 'rays of each transmitter'\n"
       "set ylabel 'device time a ray (ns)'\n"
-      "{}set multiplot title '{}' noenhanced\n"
+      "set multiplot title '{}' noenhanced\n"
       "set tmargin at screen 0.86\n"
       "set bmargin at screen 0.12\n",
-      script_grid, quoted(title));
+      quoted(title));
   text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
           panel(name, series, "sort not paid", "unpaid_s");
   text +=
       "set lmargin at screen 0.48\nset rmargin at screen 0.82\nset key at screen 0.99, 0.86 right top Left reverse\n" +
       panel(name, series, "sort paid", "paid_s");
-  return text + "unset multiplot\n";
+  return experiment_figure(name, table, text + "unset multiplot\n", 1150, 540);
 }
 
 }  // namespace wavetracer::study

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 #include <vector>
-#include "study/columns.hpp"
+#include "base/csv_columns.hpp"
 #include "study/series.hpp"
 #include "wavetracer/simulation.hpp"
 

@@ -170,8 +170,8 @@ Findings measure(const OrderFigure& figure, const Experiment& experiment, const 
   std::vector<OrderRow> rows;
   const std::string left_out = measure_points(run, rows, found);
   if (rows.empty()) return found;
-  found.table = encode(order_columns(figure.moves), rows);
-  found.script = order_script(experiment.name, experiment.title + ", " + found.device.name, figure.series);
+  found.figure = order_figure(experiment.name, experiment.title + ", " + found.device.name, figure.series,
+                              csv_of(order_columns(figure.moves), rows));
   found.words = order_words(experiment, rows, found.device.name);
   found.notes = notes_of(figure, rows, request);
   if (!left_out.empty()) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text between tags is escaped here, and nowhere else.
 // Cells must not contain line ends.
 #include "study/page.hpp"
 #include <fmt/chrono.h>
@@ -7,6 +6,8 @@
 #include <ctime>
 #include <fstream>
 #include <sstream>
+#include "base/html_page.hpp"
+#include "base/xml_text.hpp"
 #include "study/run.hpp"
 #include "wavetracer/version.hpp"
 
@@ -61,61 +62,34 @@ std::string page_markdown(const Section& section, const Heading& heading) {
   return text;
 }
 
-std::string escaped(std::string text) {
-  replace_all(text, "&", "&amp;");
-  replace_all(text, "<", "&lt;");
-  replace_all(text, ">", "&gt;");
-  replace_all(text, "\"", "&quot;");
-  return text;
-}
-
-std::string cells_html(const std::vector<std::string>& cells, const char* tag) {
-  std::string text;
-  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-  return text;
-}
-
 std::string table_html(const NumberTable& table) {
-  std::string text = table.caption.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(table.caption));
-  text += "<table>\n<thead><tr>" + cells_html(table.heads, "th") + "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) text += "<tr>" + cells_html(row, "td") + "</tr>\n";
+  std::string text = table.caption.empty() ? "" : fmt::format("<p>{}</p>\n", xml_text(table.caption));
+  text += "<table>\n<thead><tr>" + html_cells(table.heads, "th") + "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) text += "<tr>" + html_cells(row, "td") + "</tr>\n";
   return text + "</tbody>\n</table>\n";
 }
 
 std::string heading_html(const Heading& heading, const std::vector<std::string>& more) {
-  std::vector<std::string> items = {"device: " + escaped(device_words(heading.device)),
-                                    "scene: " + escaped(heading.scene)};
-  for (const std::string& item : more) items.push_back(escaped(item));
+  std::vector<std::string> items = {"device: " + xml_text(device_words(heading.device)),
+                                    "scene: " + xml_text(heading.scene)};
+  for (const std::string& item : more) items.push_back(xml_text(item));
   items.push_back(fmt::format("date: {}, wavetracer {}", heading.date, WAVETRACER_VERSION));
-  items.push_back(fmt::format("command: <code>{}</code>", escaped(heading.command_line)));
+  items.push_back(fmt::format("command: <code>{}</code>", xml_text(heading.command_line)));
   return items_html(items);
 }
 
 std::string section_html(const Section& section) {
   std::string text =
-      fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", section.name, section.name, escaped(section.title));
-  if (!section.problem.empty()) text += fmt::format("<p class=\"problem\">{}</p>\n", escaped(section.problem));
-  if (!section.words.paragraph.empty()) text += fmt::format("<p>{}</p>\n", escaped(section.words.paragraph));
+      fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", section.name, section.name, xml_text(section.title));
+  if (!section.problem.empty()) text += fmt::format("<p class=\"problem\">{}</p>\n", xml_text(section.problem));
+  if (!section.words.paragraph.empty()) text += fmt::format("<p>{}</p>\n", xml_text(section.words.paragraph));
   if (!section.words.verdicts.empty()) text += table_html(verdict_table(section.words.verdicts));
   text += section.svg;
   if (!section.words.numbers.rows.empty()) text += table_html(section.words.numbers);
   std::vector<std::string> notes;
-  for (const std::string& note : section.notes) notes.push_back(escaped(note));
+  for (const std::string& note : section.notes) notes.push_back(xml_text(note));
   if (!notes.empty()) text += items_html(notes);
   return text + "<p><a href=\"#verdicts\">All verdicts</a></p>\n</section>\n";
-}
-
-std::string document_html(const std::string& title, const std::string& style, const std::string& body) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta "
-      "charset=\"utf-8\">\n<title>{}</title>\n<style>body{{font:16px/"
-      "1.5 sans-serif;margin:2em auto;padding:0 1em;color:#222}}table{{border-collapse:collapse;font-size:13px}}td,th{{"
-      "border-bottom:1px solid #ddd;padding:2px "
-      "8px;text-align:right}}td:nth-child(-n+3),th:nth-child(-n+3){{text-align:"
-      "left}}svg{{max-width:100%;height:auto}}.about{{font-size:13px;color:#555}}{}</style>\n</head>\n<body>\n{}</"
-      "body>\n"
-      "</html>\n",
-      escaped(title), style, body);
 }
 
 std::string file_text(const fs::path& file) {

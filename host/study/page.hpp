@@ -40,16 +40,10 @@ std::string heading_markdown(const Heading& heading);
 // Returns a page of one section, whose plot is NAME.svg beside it.
 std::string page_markdown(const Section& section, const Heading& heading);
 
-// Returns text with escapes for HTML, also within quotes of an attribute.
-std::string escaped(std::string text);
-// Returns "<td>a</td><td>b</td>" for the tag "td".
-std::string cells_html(const std::vector<std::string>& cells, const char* tag);
 std::string table_html(const NumberTable& table);
 // more: items in addition to those of the heading, after the scene.
 std::string heading_html(const Heading& heading, const std::vector<std::string>& more = {});
 std::string section_html(const Section& section);
-// Returns a page that refers to nothing outside of it.
-std::string document_html(const std::string& title, const std::string& style, const std::string& body);
 
 // Returns the text of a file; empty if it cannot be read.
 std::string file_text(const std::filesystem::path& file);

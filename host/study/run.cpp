@@ -3,11 +3,7 @@
 // is there. The folder must be writable: the program checks that before it measures.
 #include "study/run.hpp"
 #include <fmt/format.h>
-#include <span>
-#include "base/output_place.hpp"
-#include "base/pending_file.hpp"
 #include "study/page.hpp"
-#include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::study {
@@ -17,29 +13,13 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> write_files(const Experiment& experiment, const Request& request, const Findings& found,
                                   const Host& host) {
-  PendingDirectory folder(request.config.output.directory);
-  const fs::path stem = folder.path() / experiment.name;
-  const auto named = [&stem](const char* ending) { return fs::path(stem.string() + ending); };
-  const std::string report =
-      page_markdown(section_of(experiment, found), heading_of(request.config, found.device, request.command_line));
-  std::vector<PendingFile> files;
-  files.emplace_back(named(".csv"), std::as_bytes(std::span(found.table)));
-  files.emplace_back(named(".gp"), std::as_bytes(std::span(found.script)));
-  files.emplace_back(named(".md"), std::as_bytes(std::span(report)));
-  commit_together(files);
-  folder.keep();
-  std::vector<fs::path> written;
-  for (const PendingFile& file : files) written.push_back(file.path());
-  const fs::path plot = named(".svg");
-  remove_old_file(plot);  // an old plot would not match the new table
-  const std::string problem = run_gnuplot(folder.path(), experiment.name + ".gp");
-  if (problem.empty()) {
-    written.push_back(plot);
-  } else {
-    remove_old_file(plot);  // it is incomplete
-    host.say(problem);
-  }
-  return written;
+  plots::Figure figure = found.figure;
+  figure.data.push_back(
+      {experiment.name + ".md",
+       page_markdown(section_of(experiment, found), heading_of(request.config, found.device, request.command_line))});
+  const plots::Drawn drawn = draw(figure, plots::Format::svg, request.config.output.directory);
+  if (!drawn.problem.empty()) host.say(drawn.problem);
+  return drawn.files;
 }
 
 }  // namespace

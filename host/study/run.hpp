@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "plots/figure.hpp"
 #include "study/coherence_rays.hpp"
 #include "study/experiment.hpp"
 #include "study/ray_counts.hpp"
@@ -40,7 +41,7 @@ struct Host {
 struct Findings {
   DeviceSummary device;
   size_t points = 0, planned = 0;    // measured and requested points; nothing is written if none was measured
-  std::string table{}, script{};     // contents of NAME.csv and NAME.gp
+  plots::Figure figure{};            // NAME.csv and NAME.gp
   Words words{};                     // text of the report
   std::vector<std::string> notes{};  // lines of the report that say how it was measured
 };

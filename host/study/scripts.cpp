@@ -9,20 +9,20 @@
 namespace wavetracer::study {
 namespace {
 
-size_t column(const LinePlot& plot, const std::string& name) { return column_of(plot.columns, name); }
+using Names = std::vector<std::string>;
 
-std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index) {
-  const size_t y = column(plot, panel.y);
-  std::string condition = fmt::format("strcol({}) eq '{}'", column(plot, "setting"), quoted(plot.settings[index]));
+std::string line_text(const LinePlot& plot, const Names& names, const LinePanel& panel, size_t index) {
+  const size_t y = column_of(names, panel.y);
+  std::string condition = fmt::format("strcol({}) eq '{}'", column_of(names, "setting"), quoted(plot.settings[index]));
   if (!panel.drive.empty())
-    condition += fmt::format(" && strcol({}) eq '{}'", column(plot, "drive"), quoted(panel.drive));
-  if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column(plot, "rays"), plot.only_rays);
-  if (std::ranges::find(plot.columns, "depth") != plot.columns.end())
-    condition += fmt::format(" && column({}) {} 0", column(plot, "depth"), plot.depths ? ">" : "==");
+    condition += fmt::format(" && strcol({}) eq '{}'", column_of(names, "drive"), quoted(panel.drive));
+  if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column_of(names, "rays"), plot.only_rays);
+  if (std::ranges::find(names, "depth") != names.end())
+    condition += fmt::format(" && column({}) {} 0", column_of(names, "depth"), plot.depths ? ">" : "==");
   const std::string value = panel.log_y && panel.least > 0
                                 ? fmt::format("column({}) > {:g} ? column({}) : {:g}", y, panel.least, y, panel.least)
                                 : fmt::format("column({})", y);
-  const size_t x = column(plot, plot.x);
+  const size_t x = column_of(names, plot.x);
   const std::string place =
       plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
                    : std::to_string(x);
@@ -35,12 +35,13 @@ std::string line_text(const LinePlot& plot, const LinePanel& panel, size_t index
 
 // Computes ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an
 // error.
-std::string statistics(const LinePlot& plot) {
-  std::string text = fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column(plot, plot.x));
+std::string statistics(const LinePlot& plot, const Names& names) {
+  std::string text =
+      fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column_of(names, plot.x));
   for (size_t i = 0; i < plot.panels.size(); ++i)
     if (plot.panels[i].least > 0)
       text += fmt::format("stats '{}.csv' using {} skip 1 name 'y{}' nooutput\n", plot.name,
-                          column(plot, plot.panels[i].y), i);
+                          column_of(names, plot.panels[i].y), i);
   return text;
 }
 
@@ -51,14 +52,15 @@ std::string y_range(const LinePanel& panel, size_t index) {
                      : fmt::format("[0 : (y{0}_max > {1:g} ? 1.05 * y{0}_max : {1:g})]", index, panel.least);
 }
 
-std::string panel_text(const LinePlot& plot, size_t index) {
+std::string panel_text(const LinePlot& plot, const Names& names, size_t index) {
   const LinePanel& panel = plot.panels[index];
   std::string text = fmt::format(
       "{}set logscale y\nset format y '{}'\nset yrange {}\nset title '{}' noenhanced\nset ylabel '{}' noenhanced\n"
       "plot ",
       panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), quoted(panel.title),
       quoted(panel.y_label));
-  for (size_t i = 0; i < plot.settings.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, panel, i);
+  for (size_t i = 0; i < plot.settings.size(); ++i)
+    text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, names, panel, i);
   return text + "\n";
 }
 
@@ -69,14 +71,14 @@ std::string x_axis(const LinePlot& plot) {
 }
 
 // For correlations and shares: every axis ends at 1 and begins a little below 0, or at the smallest value.
-std::string panel_text(const DepthPlot& plot, const DepthPanel& panel) {
+std::string panel_text(const DepthPlot& plot, const Names& names, const DepthPanel& panel) {
   std::string text = fmt::format("set title '{}'\nplot ", quoted(panel.title));
   for (uint32_t depth = 1; depth <= plot.max_depth; ++depth)
     text += fmt::format(
         "{}'{}.csv' using {}:(strcol({}) eq '{}' && column({}) == {} ? "
         "column({}) : NaN) with {} linecolor '{}' title 'depth {}'",
-        depth == 1 ? "" : ", \\\n  ", plot.name, column_of(plot.columns, panel.x), column_of(plot.columns, panel.only),
-        quoted(panel.equals), column_of(plot.columns, "depth"), depth, column_of(plot.columns, panel.y),
+        depth == 1 ? "" : ", \\\n  ", plot.name, column_of(names, panel.x), column_of(names, panel.only),
+        quoted(panel.equals), column_of(names, "depth"), depth, column_of(names, panel.y),
         plot.points ? "points pointtype 7 pointsize 0.2" : "lines linewidth 1.5", colours[(depth - 1) % colours.size()],
         depth);
   return text + "\n";
@@ -90,49 +92,49 @@ size_t column_of(const std::vector<std::string>& columns, const std::string& nam
   return found - columns.begin() + 1;
 }
 
-std::string script_head(const std::string& name, size_t width, size_t height) {
-  return fmt::format(
-      "# Draws {0}.csv; run it in its folder: gnuplot {0}.gp\n"
-      "set terminal svg size {1},{2} font 'sans-serif,13' background 'white'\n"
-      "set output '{0}.svg'\n"
-      "set datafile separator ','\n"
-      "set datafile missing NaN\n",
-      name, width, height);
+plots::Figure experiment_figure(const std::string& name, const Csv& table, const std::string& commands, double width_px,
+                                double height_px) {
+  return {.name = name,
+          .title = "",
+          .data = {{name + ".csv", table.text()}},
+          .commands = "set datafile missing NaN\n" + commands,
+          .width_px = width_px,
+          .height_px = height_px};
 }
 
-std::string line_script(const LinePlot& plot) {
+plots::Figure line_figure(const LinePlot& plot, const Csv& table) {
   const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
   const size_t height = 120 + 340 * rows;  // in pixels; margins are 60 and 75 of them, gaps 105
   const auto part = [height](double pixels) { return pixels / static_cast<double>(height); };
-  std::string text = script_head(plot.name, 1250, height) + statistics(plot) + "set key off\n" + x_axis(plot) +
-                     fmt::format(
-                         "set xlabel '{}'\n{}set multiplot layout {},{} title '{}' noenhanced margins screen "
-                         "0.07,0.80,{:.3f},{:.3f} spacing screen 0.07,{:.3f}\n",
-                         quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title), part(60),
-                         1 - part(75), part(105));
+  std::string text =
+      statistics(plot, table.names()) + "set key off\n" + x_axis(plot) +
+      fmt::format(
+          "set xlabel '{}'\nset multiplot layout {},{} title '{}' noenhanced margins screen "
+          "0.07,0.80,{:.3f},{:.3f} spacing screen 0.07,{:.3f}\n",
+          quoted(plot.x_label), rows, plot.panels_a_row, quoted(plot.title), part(60), 1 - part(75), part(105));
   for (size_t i = 0; i < plot.panels.size(); ++i) {
     if (i + 1 == plot.panels.size())
       text += fmt::format("set key at screen 0.995, {:.3f} right top Left reverse noenhanced maxrows 40 font ',11'\n",
                           1 - part(75));
-    text += panel_text(plot, i);
+    text += panel_text(plot, table.names(), i);
   }
-  return text + "unset multiplot\n";
+  return experiment_figure(plot.name, table, text + "unset multiplot\n", 1250, static_cast<double>(height));
 }
 
-std::string depth_script(const DepthPlot& plot) {
+plots::Figure depth_figure(const DepthPlot& plot, const Csv& table) {
   const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
   std::string text =
-      script_head(plot.name, 1150, 80 + 340 * rows) + "set key off\n" +
-      (plot.log_x ? "set logscale x\n" : "set xrange [0:*]\n") +
+      std::string("set key off\n") + (plot.log_x ? "set logscale x\n" : "set xrange [0:*]\n") +
       fmt::format(
-          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\n{}set multiplot "
+          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\nset multiplot "
           "layout {},{} title '{}' noenhanced margins screen 0.07,0.88,0.1,0.88 spacing screen 0.06,0.16\n",
-          quoted(plot.x_label), script_grid, rows, plot.panels_a_row, quoted(plot.title));
+          quoted(plot.x_label), rows, plot.panels_a_row, quoted(plot.title));
   for (const DepthPanel& panel : plot.panels) {
     if (&panel == &plot.panels.back()) text += "set key at screen 0.99, 0.88 right top Left reverse\n";
-    text += panel_text(plot, panel);
+    text += panel_text(plot, table.names(), panel);
   }
-  return text + "unset multiplot\n";
+  return experiment_figure(plot.name, table, text + "unset multiplot\n", 1150,
+                           80.0 + 340.0 * static_cast<double>(rows));
 }
 
 }  // namespace wavetracer::study

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plots of experiments: gnuplot scripts NAME.gp that draw NAME.csv into NAME.svg.
-// They only name files of their own folder, so that the folder can be moved and the script run again. They need no
-// device. All functions throw std::logic_error for a column that the table lacks.
+// The plots of experiments: figures whose script NAME.gp draws NAME.csv into NAME.svg.
+// They need no device. All functions throw std::logic_error for a column that the table lacks.
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+#include "base/csv.hpp"
+#include "plots/figure.hpp"
 #include "plots/gnuplot.hpp"
 #include "study/series.hpp"
 
@@ -14,16 +15,16 @@ namespace wavetracer::study {
 
 using plots::colours;
 using plots::quoted;
-using plots::run_gnuplot;
 
 // Returns the index of a column, from 1 as gnuplot counts.
 size_t column_of(const std::vector<std::string>& columns, const std::string& name);
-// Returns the first lines of all scripts, for a drawing of this size in pixels.
-std::string script_head(const std::string& name, size_t width, size_t height);
-constexpr const char* script_grid = "set grid linecolor '#dddddd'\nset border 3\nset tics nomirror\n";
+// Returns the figure of one table; the title stands over all panels, in the commands.
+plots::Figure experiment_figure(const std::string& name, const Csv& table, const std::string& commands, double width_px,
+                                double height_px);
 
 // Plots figures of orders: one panel without and one with the time of ordering, each with a line per series.
-std::string order_script(const std::string& name, const std::string& title, const std::vector<Series>& series);
+plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& series,
+                           const Csv& table);
 
 // Panels with a line per setting, or its points, of tables in which every row has a drive and a setting.
 struct LinePanel {
@@ -36,8 +37,7 @@ struct LinePanel {
 };
 
 struct LinePlot {
-  std::string name{}, title{};         // name: of the files NAME.csv and NAME.svg; title: of the plot
-  std::vector<std::string> columns{};  // columns of the table, in order
+  std::string name{}, title{};  // name: of the files NAME.csv and NAME.svg; title: of the plot
   std::vector<std::string> settings{};
   std::string x{}, x_label{};
   bool log_x = false;
@@ -49,7 +49,7 @@ struct LinePlot {
   std::vector<LinePanel> panels{};
 };
 
-std::string line_script(const LinePlot& plot);
+plots::Figure line_figure(const LinePlot& plot, const Csv& table);
 
 // Panels with a line per depth, of tables with a column `depth`.
 struct DepthPanel {
@@ -60,7 +60,6 @@ struct DepthPanel {
 
 struct DepthPlot {
   std::string name, title;
-  std::vector<std::string> columns;
   uint32_t max_depth = 0;
   std::string x_label;
   bool log_x = false;
@@ -69,6 +68,6 @@ struct DepthPlot {
   std::vector<DepthPanel> panels{};
 };
 
-std::string depth_script(const DepthPlot& plot);
+plots::Figure depth_figure(const DepthPlot& plot, const Csv& table);
 
 }  // namespace wavetracer::study

@@ -81,13 +81,12 @@ void write_page(ThesisPage& page, const fs::path& directory, const Host& host, R
   const auto named = [&folder](const char* name) { return folder.path() / name; };
   remove_old_file(named("thesis.svg"));  // an old plot would not match the new table
   if (!page.rows.empty()) {
-    write(named("thesis.csv"), speed_error_table(page.rows));
-    write(named("thesis.gp"), speed_error_script(page.rows, page.heading.device.name));
-    const std::string problem = run_gnuplot(folder.path(), "thesis.gp");
-    if (problem.empty())
+    const plots::Drawn drawn =
+        draw(speed_error_figure(page.rows, page.heading.device.name), plots::Format::svg, folder.path());
+    if (drawn.problem.empty())
       page.svg = inline_svg(file_text(named("thesis.svg")), "thesis-");
     else
-      host.say(problem);
+      host.say(drawn.problem);
   }
   write(named("thesis.html"), thesis_html(page));
   write(named("thesis.md"), thesis_markdown(page));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer bench thesis`: all figures of the thesis in one page, and the error that a cache's speed costs. Figures
+// `wavetracer thesis all`: all figures of the thesis in one page, and the error that a cache's speed costs. Figures
 // that share a study share its measurement. If a figure fails, the page says so, and has the others.
 #pragma once
 #include <functional>
@@ -22,9 +22,8 @@ struct ThesisPage {
 
 // Returns the setting of a cache without its hash function.
 std::string family(const std::string& setting);
-// Return the table thesis.csv, and the script that draws it: time saved against errors, a point per row.
-std::string speed_error_table(const std::vector<CacheRow>& rows);
-std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device);
+// Returns the table thesis.csv and what draws it: time saved against errors, a point per row.
+plots::Figure speed_error_figure(const std::vector<CacheRow>& rows, const std::string& device);
 // Returns every claim with its outcome and what was measured; for a figure without claims, its result. Columns: figure,
 // claim, verdict, measured.
 NumberTable verdicts_of(const std::vector<Section>& figures);

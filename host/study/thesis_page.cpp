@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include "base/html_page.hpp"
+#include "base/xml_text.hpp"
 #include "study/ray_counts.hpp"
 #include "study/thesis.hpp"
 
@@ -51,7 +53,7 @@ std::string verdicts_html(const std::vector<Section>& figures) {
                      "<th>claim</th><th>verdict</th><th>measured</th></tr></thead>\n<tbody>\n";
   for (const auto& row : verdicts_of(figures).rows)
     text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n", row[0],
-                        escaped(row[1]), escaped(row[2]), escaped(row[3]));
+                        xml_text(row[1]), xml_text(row[2]), xml_text(row[3]));
   return text +
          "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
          "</section>\n";
@@ -96,24 +98,19 @@ std::string family(const std::string& setting) {
   return text;
 }
 
-std::string speed_error_table(const std::vector<CacheRow>& rows) {
+plots::Figure speed_error_figure(const std::vector<CacheRow>& rows, const std::string& device) {
   std::vector<CacheRow> points;
   for (const CacheRow& row : rows)
     if (shown(row)) {
       points.push_back(row);
       points.back().setting = family(row.setting);
     }
-  return encode(cache_columns(), points);
-}
-
-std::string speed_error_script(const std::vector<CacheRow>& rows, const std::string& device) {
   LinePlot plot;
   plot.name = "thesis";
   plot.title = "Speed against error of all caches, " + device;
-  plot.columns = names_of(cache_columns());
-  for (const CacheRow& row : rows)
-    if (shown(row) && std::find(plot.settings.begin(), plot.settings.end(), family(row.setting)) == plot.settings.end())
-      plot.settings.push_back(family(row.setting));
+  for (const CacheRow& row : points)
+    if (std::find(plot.settings.begin(), plot.settings.end(), row.setting) == plot.settings.end())
+      plot.settings.push_back(row.setting);
   plot.x = "saved_percent";
   plot.x_label = "time saved (%)";
   plot.points = true;
@@ -125,7 +122,7 @@ std::string speed_error_script(const std::vector<CacheRow>& rows, const std::str
                  {"delay spread", "delay_spread_ns", "ns", "", true, 1e-4},
                  {"centroid, L1, of the mean path", "l1_relative", "share", "", true, 1e-6},
                  {"centroid, L2, of the mean path", "l2_relative", "share", "", true, 1e-6}};
-  return line_script(plot);
+  return line_figure(plot, csv_of(cache_columns(), points));
 }
 
 std::string thesis_html(const ThesisPage& page) {
@@ -144,7 +141,7 @@ std::string thesis_html(const ThesisPage& page) {
         page.svg + table_html(speed_error_numbers(page.rows));
   text += "</section>\n";
   for (const Section& figure : page.figures) text += section_html(figure);
-  return document_html("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
+  return html_page("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
 }
 
 std::string thesis_markdown(const ThesisPage& page) {

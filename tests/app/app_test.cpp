@@ -41,24 +41,25 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
                              {"help", "run"},
                              {"scene", "city", "--help"},
                              {"help", "scene", "city"},
-                             {"bench", "--help"},
+                             {"thesis", "--help"},
                              {"help", "help"}}) {
     CAPTURE(words.back());
     const Outcome help = run_program(words);
     CHECK(help.code == 0);
     CHECK(help.err.empty());
     CHECK(contains(help.out, "Usage: wavetracer"));
-    CHECK(contains(help.out, "`wavetracer help config`") != (words.front() == "bench"));  // lists its experiments there
+    CHECK(contains(help.out, "`wavetracer help config`") !=
+          (words.front() == "thesis"));  // lists its experiments there
     CHECK_FALSE(contains(help.out, "trace.max_depth"));
     CHECK(std::ranges::count(help.out, '\n') < 50);
   }
   CHECK(run_program({"help", "run"}).out == run_program({"run", "--help"}).out);
   CHECK(run_program({"help", "scene", "city"}).out == run_program({"scene", "city", "--help"}).out);
-  const Outcome experiments = run_program({"bench"});
+  const Outcome experiments = run_program({"thesis"});
   CHECK(experiments.code == 0);
   CHECK(experiments.err.empty());
   CHECK(contains(experiments.out, "  figure-6.18 "));
-  CHECK(contains(experiments.out, "  thesis "));
+  CHECK(contains(experiments.out, "  all "));
   const Outcome keys = run_program({"help", "config"});
   CHECK(keys.code == 0);
   CHECK(contains(keys.out, "trace.max_depth"));
@@ -89,7 +90,12 @@ TEST_CASE("misspelt commands, options and choices are answered with what was mea
   check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
   check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
   check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
-  check(run_program({"bench", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
+  check(run_program({"thesis", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bench"}, {"bench", "figure-6.2", "-o", "x", "--quick"}, {"help", "bench"}}) {
+    CAPTURE(words.size());
+    check(run_program(words), 2, "\"bench\"; the experiments of the thesis are run by `wavetracer thesis`; ");
+  }
   check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
 }
 
@@ -103,14 +109,14 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
   check(run_program({"accuracy", "-c", file, "--inputs", "--position", "nan"}), 2, "nan is not a finite number");
   check(run_program({"accuracy", "-c", file, "--inputs", "--permittivity", "-nan"}), 2, "--permittivity");
-  check(run_program({"bench", "rays", "--minutes", "nan"}), 2, "nan is not a finite number");
+  check(run_program({"thesis", "rays", "--minutes", "nan"}), 2, "nan is not a finite number");
   check(run_program({"scene", "materials", "--frequency", "nan"}), 2, "nan is not a finite number");
   check(run_program({"scene", "info", file, "--scale", "inf"}), 2, "--scale: Value inf not in range");
   check(run_program({"convert", file, "-o", folder.path("map"), "--level-height", "nan"}), 2, "nan is not a finite");
   check(run_program({"run", "-c", file, "--set", "trace.tile_m=nan"}), 2, "trace.tile_m = nan is out of range");
   check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
   check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: a run without trajectories has only one frame");
-  check(run_program({"bench", "rays"}), 2, "no experiment \"rays\"");
+  check(run_program({"thesis", "rays"}), 2, "no experiment \"rays\"");
   check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
   CHECK(folder.entries() == 1);
 }

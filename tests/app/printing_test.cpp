@@ -53,7 +53,7 @@ TEST_CASE("every command that prints fails where standard output is full or clos
                                    std::string("documentation --man program"),
                                    std::string("documentation --man config"),
                                    std::string("documentation --completion bash"),
-                                   std::string("bench"),
+                                   std::string("thesis"),
                                    std::string("convert --list"),
                                    "scene info " + room,
                                    "scene info --edges " + room,

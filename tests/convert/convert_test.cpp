@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include "base/pending_folder.hpp"
-#include "convert/unicode.hpp"
+#include "base/unicode.hpp"
 #include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "temporary_folder.hpp"

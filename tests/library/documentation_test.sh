@@ -57,7 +57,7 @@ expect 'fibonacci hilbert horizon random ' run --set trace.directions = ''
 expect 'hilbert ' run --set trace.directions = hi
 expect 'false true ' run --set trace.reuse =
 expect 'auto y z ' scene info --up ''
-expect 'thesis ' bench the
+expect 'all ' thesis al
 expect 'vtk ' convert --to v
 expect 'coverage ' plot --what cov
 expect 'receiver receiver_grid ' help rec

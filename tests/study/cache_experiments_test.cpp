@@ -184,7 +184,7 @@ TEST_CASE("rows: nanoseconds a segment, hit rate, savings, columns") {
   set_savings(point);
   CHECK(point[0].saved_percent == 0);
   CHECK(point[1].saved_percent == doctest::Approx(25));
-  const std::string table = encode(cache_columns(), point);
+  const std::string table = csv_of(cache_columns(), point).text();
   CHECK(std::count(table.begin(), table.end(), '\n') == 3);
   CHECK(std::count(table.begin(), table.end(), ',') == 3 * (static_cast<long>(cache_columns().size()) - 1));
   CHECK(value_of(point[1], "saved_percent") == doctest::Approx(25));
@@ -296,14 +296,15 @@ TEST_CASE("figures 6.2 and 6.4: entries by their depth, and along the table") {
     return show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
   };
   const Findings depths = findings("figure-6.2"), along = findings("figure-6.4");
+  const std::string depth_table = depths.figure.data.front().text, along_table = along.figure.data.front().text;
   CHECK(
-      depths.table.starts_with("drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n"
-                               "still,chained uniform,1,700,1500,160,130\nstill,chained uniform,2,300,500,260,180\n"));
+      depth_table.starts_with("drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n"
+                              "still,chained uniform,1,700,1500,160,130\nstill,chained uniform,2,300,500,260,180\n"));
   const std::string cycles = squeezed(words_text(depths.words));
   CHECK(contains(cycles, "| chained Morton | 0 | 0 | 0 | 160 | 260 | 130 | 180 |"));
   CHECK(contains(cycles, "| reads take longer in buckets than in other nodes | refuted | not confirmed for any |"));
-  CHECK(along.table.starts_with("drive,setting,first_slot,entries,hits\nstill,chained uniform,0,500,2.5\n"));
-  CHECK(contains(along.table, "still,printed chained mixed,500,500,1.5\n"));
+  CHECK(along_table.starts_with("drive,setting,first_slot,entries,hits\nstill,chained uniform,0,500,2.5\n"));
+  CHECK(contains(along_table, "still,printed chained mixed,500,500,1.5\n"));
   const std::string text = squeezed(words_text(along.words));
   CHECK(contains(text, "| chained Morton | 50,000 | 1,000 | 100 | 0.800 | 6.00 |"));
   CHECK(contains(text, "| hits are spread over the entries at least as evenly as by chance | reproduced | "));
@@ -321,11 +322,11 @@ TEST_CASE("all figures of caching: a script with a line per setting, whose colum
                                                    return std::pair{1.0, 0.5};
                                                  }),
                                 {});
-    CHECK(contains(found.script, "'" + experiment.name + ".csv' using"));
+    CHECK(contains(found.figure.commands, "'" + experiment.name + ".csv' using"));
     CHECK(contains(found.words.paragraph, "the device"));
     REQUIRE_FALSE(found.words.numbers.rows.empty());
     for (const auto& row : found.words.numbers.rows) CHECK(row.size() == found.words.numbers.heads.size());
-    CHECK(found.table.find(',') != std::string::npos);
+    CHECK(found.figure.data.front().text.find(',') != std::string::npos);
     CHECK_FALSE(experiment.caption.empty());
   }
   const Experiment& experiment = find_experiment("figure-6.5");
@@ -335,13 +336,14 @@ TEST_CASE("all figures of caching: a script with a line per setting, whose colum
 TEST_CASE("line plots: unknown columns are mistakes, panels without a value are left out") {
   LinePlot plot;
   plot.name = "a";
-  plot.columns = {"drive", "setting", "rays", "value"};
+  const Csv table({"drive", "setting", "rays", "value"});
   plot.settings = {"it's"};
   plot.x = "rays";
   plot.panels = {{"one", "value", "m", "still"}};
-  CHECK(contains(line_script(plot), "strcol(2) eq 'it''s' && strcol(1) eq 'still' ? (column(4)) : NaN"));
+  CHECK(
+      contains(line_figure(plot, table).commands, "strcol(2) eq 'it''s' && strcol(1) eq 'still' ? (column(4)) : NaN"));
   plot.panels[0].y = "values";
-  CHECK_THROWS_AS(line_script(plot), std::logic_error);
+  CHECK_THROWS_AS(line_figure(plot, table), std::logic_error);
   CacheRow row{.drive = "still"};
   CHECK(panels_of({row}, {{"a", "l2_m", "m", ""}, {"b", "warm_s", "s", ""}}).size() == 1);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests figures of caches as `wavetracer bench` draws them: their tables must agree with the words and with themselves.
-// Cases that need a device are skipped with a message if there is none.
+// Tests figures of caches as `wavetracer thesis` draws them: their tables must agree with the words and with
+// themselves. Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <map>
 #include "study/experiment_program.hpp"
@@ -12,7 +12,7 @@ TEST_CASE("figure-6.3: a row per depth and setting; times, counts and the paragr
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Outcome run = run_program({"bench", "figure-6.3", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
+  const Outcome run = run_program({"thesis", "figure-6.3", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   const auto rows = table(folder.path("out/figure-6.3.csv"));
@@ -43,7 +43,7 @@ TEST_CASE("figure-6.2: cycles by the depth of an entry in its bucket's tree, who
   if (!device_present()) return;
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
-  const Outcome run = run_program({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
+  const Outcome run = run_program({"thesis", "figure-6.2", "-c", file, "-o", folder.path("out"), "--repeat", "1"});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   std::map<std::string, double> entries;
@@ -59,6 +59,6 @@ TEST_CASE("figure-6.2: cycles by the depth of an entry in its bucket's tree, who
     CHECK(count > 1000);
     CHECK(count <= 50000);
   }
-  check_error({"bench", "figure-6.2", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000"}, 2,
+  check_error({"thesis", "figure-6.2", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000"}, 2,
               "launches 50,000 rays; leave --rays out");
 }

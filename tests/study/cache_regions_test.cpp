@@ -50,10 +50,10 @@ TEST_CASE("regions whose values go along, against each other, and not at all") {
 TEST_CASE("a figure's regions are in its table, and no row of the whole frame is taken for one") {
   CacheMeasurement made = with_regions("mutex mixed", {100, 200, 300}, {10, 20, 40});
   const CacheShown shown = regions({"mutex mixed"})(made);
-  CHECK(contains(shown.table, "drive,setting,region,lookups,"));
-  CHECK(contains(shown.table, "\nstill,mutex mixed,0,100,"));
-  CHECK(contains(shown.table, "\nstill,mutex mixed,3,300,"));
-  CHECK(std::ranges::count(shown.table, '\n') == 1 + 4);
+  CHECK(contains(shown.table.text(), "drive,setting,region,lookups,"));
+  CHECK(contains(shown.table.text(), "\nstill,mutex mixed,0,100,"));
+  CHECK(contains(shown.table.text(), "\nstill,mutex mixed,3,300,"));
+  CHECK(std::ranges::count(shown.table.text(), '\n') == 1 + 4);
   const std::string numbers = squeezed(markdown(shown.numbers));
   CHECK(contains(numbers, "| mutex mixed | all | 100 |"));
   CHECK(contains(numbers, "| mutex mixed | mast 3 | 300 | 25% | 0 | 40.0 |"));

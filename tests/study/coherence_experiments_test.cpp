@@ -92,7 +92,7 @@ TEST_CASE("coherence-frames: means of subsequent frames, the last frame with the
   CHECK(contains(text, "| last frame and first: of these, on the same surface | 0.20 | 0.20 |"));
   CHECK(contains(text, "| last frame and first: of these, after the same surfaces | 0.10 | 0.10 |"));
   CHECK(contains(text, "0.02 s old"));
-  const std::string table = encode(frame_columns(drive), rows);
+  const std::string table = csv_of(frame_columns(drive), rows).text();
   CHECK(table.starts_with("against,frame,time_s,moved_m,depth,"));
   CHECK(std::count(table.begin(), table.end(), '\n') == 9);
   CHECK(contains(table, "\nfirst,2,0.02,0.2,2,0,0,0.4,0.2,0.1,nan,nan,nan,nan,nan,0.1\n"));
@@ -136,20 +136,20 @@ TEST_CASE("coherence-rays: neighbours, half the correlation, the claim in shares
   CHECK(contains(text, "surface, fibonacci | 0.50 | 0.10 |"));
   CHECK(contains(text, "surface, random | 0.30 | 0.20 |"));
   CHECK(contains(text, "| the wrong surface, hilbert | 0.05 | 0.30 |"));
-  CHECK(contains(encode(lag_columns(), rows), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
+  CHECK(contains(csv_of(lag_columns(), rows).text(), "\nhilbert,1,2,0,0.4,nan,0.9,nan\n"));
 }
 
 TEST_CASE("depth plots: a line per depth and panel, columns by number") {
   DepthPlot plot{.name = "a",
                  .title = "A device's",
-                 .columns = {"kind", "depth", "lag", "value"},
                  .max_depth = 3,
                  .x_label = "lag",
                  .panels = {{"one", "lag", "value", "kind", "k"}}};
-  const std::string script = depth_script(plot);
+  const Csv table({"kind", "depth", "lag", "value"});
+  const std::string script = depth_figure(plot, table).commands;
   CHECK(contains(script, "using 3:(strcol(1) eq 'k' && column(2) == 3 ? column(4) : NaN)"));
   CHECK(contains(script, "'A device''s'"));
   CHECK_FALSE(contains(script, "== 4"));
   plot.panels[0].y = "values";
-  CHECK_THROWS_AS(depth_script(plot), std::logic_error);
+  CHECK_THROWS_AS(depth_figure(plot, table), std::logic_error);
 }

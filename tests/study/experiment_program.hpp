@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Helpers of the tests of `wavetracer bench`: a street for its config file, its tables, its errors.
+// Helpers of the tests of `wavetracer thesis`: a street for its config file, its tables, its errors.
 #pragma once
 #include <doctest/doctest.h>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests `wavetracer bench` as a user runs it: files, paragraph, errors, an interrupt. Ranges are small.
+// Tests `wavetracer thesis` as a user runs it: files, paragraph, errors, an interrupt. Ranges are small.
 // Cases that need a device are skipped with a message if there is none.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -24,31 +24,31 @@ size_t occurrences(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("bench: errors say what is wrong before anything is measured") {
+TEST_CASE("thesis: errors say what is wrong before anything is measured") {
   const Folder folder;
   const std::string file = folder.file("a.toml", street), out = folder.path("out");
-  check_error({"bench", "figure-6.0", "-o", out}, 2, "no experiment \"figure-6.0\" among figure-6.1, figure-6.2, ");
-  check_error({"bench", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
-  check_error({"bench", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
-  check_error({"bench", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
-  check_error({"bench", "figure-6.1", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
-  check_error({"bench", "figure-6.1", "-o", out, "-c", file, "--set", "trace.ray=7"}, 2,
+  check_error({"thesis", "figure-6.0", "-o", out}, 2, "no experiment \"figure-6.0\" among figure-6.1, figure-6.2, ");
+  check_error({"thesis", "figure-6.1", "-o", out, "--rays", "2000:1000"}, 2, "--rays 2000:1000: not a range");
+  check_error({"thesis", "figure-6.1", "-o", out, "--rays", "3000:4000"}, 2, "no ray count of the figure");
+  check_error({"thesis", "figure-6.1", "-o", out, "--repeat", "0"}, 2, "--repeat");
+  check_error({"thesis", "figure-6.1", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
+  check_error({"thesis", "figure-6.1", "-o", out, "-c", file, "--set", "trace.ray=7"}, 2,
               "did you mean \"trace.rays\"?");
-  check_error({"bench", "figure-6.1", "-o", out, "-c", folder.path("absent.toml")}, 2, "absent.toml: cannot be read");
-  check_error({"bench", "coherence-rays", "-o", out, "--rays", "1000:2000"}, 2,
+  check_error({"thesis", "figure-6.1", "-o", out, "-c", folder.path("absent.toml")}, 2, "absent.toml: cannot be read");
+  check_error({"thesis", "coherence-rays", "-o", out, "--rays", "1000:2000"}, 2,
               "launches 49,000 rays; leave --rays out");
-  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.rays=7"}, 2, "leave it out");
-  check_error({"bench", "figure-6.5", "-o", out, "--set", "cache.division=7"}, 2, "leave it out");
-  check_error({"bench", "thesis", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
-  check_error({"bench", "coherence-rays", "-o", out, "--set", "trace.max_depth=0"}, 2, "give 1 or more");
-  check_error({"bench", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
+  check_error({"thesis", "coherence-rays", "-o", out, "--set", "trace.rays=7"}, 2, "leave it out");
+  check_error({"thesis", "figure-6.5", "-o", out, "--set", "cache.division=7"}, 2, "leave it out");
+  check_error({"thesis", "all", "-o", out, "--set", "trace.rays=7"}, 2, "choose them with --rays A:B");
+  check_error({"thesis", "coherence-rays", "-o", out, "--set", "trace.max_depth=0"}, 2, "give 1 or more");
+  check_error({"thesis", "figure-6.1", "-o", file + "/out"}, 1, "cannot write there");
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("bench: a device that is not there exits 4") {
+TEST_CASE("thesis: a device that is not there exits 4") {
   if (!device_present()) return;
   const Folder folder;
-  check_error({"bench", "figure-6.18", "-o", folder.path("out"), "--device", "no such device"}, 4, "no such device");
+  check_error({"thesis", "figure-6.18", "-o", folder.path("out"), "--device", "no such device"}, 4, "no such device");
   CHECK(folder.entries() == 0);
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
   const Outcome run = run_program(
-      {"bench", "figure-6.1", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000", "--repeat", "2"});
+      {"thesis", "figure-6.1", "-c", file, "-o", folder.path("out"), "--rays", "1000:2000", "--repeat", "2"});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   const auto rows = table(folder.path("out/figure-6.1.csv"));
@@ -86,7 +86,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
       CHECK(contains(squeezed(report), i < 12 ? "| H3DH | " + cell : cell + "\n"));
     }
   }
-  CHECK(contains(report, "bench figure-6.1 -c "));
+  CHECK(contains(report, "thesis figure-6.1 -c "));
   CHECK(contains(report, "- device: "));
   CHECK(contains(squeezed(report), "2.5 times as fast as WS at 49,000 rays | not judged | not measured |"));
   // Standard output is the words and tables of the report, then the files.
@@ -102,7 +102,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
 TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
   if (!device_present()) return;
   const Folder folder;
-  const Outcome run = run_program({"bench", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--repeat",
+  const Outcome run = run_program({"thesis", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--repeat",
                                    "2", "--set", "trace.max_depth=2"},
                                   {"PATH=" + folder.path()});
   CAPTURE(run.err);
@@ -128,7 +128,7 @@ TEST_CASE("coherence-rays and coherence-frames: table, plot and paragraph agree"
   for (const std::string name : {"coherence-rays", "coherence-frames"}) {
     CAPTURE(name);
     const bool frames = name == "coherence-frames";
-    const Outcome run = run_program({"bench", name, "-c", file, "-o", folder.path("out")});
+    const Outcome run = run_program({"thesis", name, "-c", file, "-o", folder.path("out")});
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
     const auto rows = table(folder.path("out/" + name + ".csv"));
@@ -162,7 +162,7 @@ TEST_CASE("an interrupt ends the measuring after the point in progress, with who
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
   Gate gate;
-  Program run({"bench", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"}, gate.at_launches());
+  Program run({"thesis", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"}, gate.at_launches());
   while (!contains(run.messages(), "2,000 rays, tracing") && !run.ended()) gate.let_launch(50, run);
   run.signal(SIGINT);
   wait_until_interrupted(run.id());
@@ -182,7 +182,7 @@ TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with 
   if (!device_present()) return;
   const Folder folder;
   // So many rays that some of the spheres of the thesis' world are passed.
-  const Outcome run = run_program({"bench", "figure-6.12", "-o", folder.path("out"), "--rays", "49000:49000",
+  const Outcome run = run_program({"thesis", "figure-6.12", "-o", folder.path("out"), "--rays", "49000:49000",
                                    "--frames", "2", "--set", "trace.max_depth=2"});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
@@ -206,7 +206,7 @@ TEST_CASE("thesis: every figure on one page without links to elsewhere, also wha
   if (!device_present()) return;
   const Folder folder;
   const Outcome run =
-      run_program({"bench", "thesis", "-c", folder.file("b.toml", street), "-o", folder.path("out"), "--rays",
+      run_program({"thesis", "all", "-c", folder.file("b.toml", street), "-o", folder.path("out"), "--rays",
                    "1000:1000", "--repeat", "1", "--frames", "2", "--set", "trace.max_depth=1"});
   CAPTURE(run.err);
   REQUIRE(run.code == 5);  // some figures failed

@@ -70,7 +70,7 @@ const std::string& answer(const Kind& kind, const Experiment& experiment) {
 }
 
 Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {
-  std::vector<std::string> words = {"bench", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
+  std::vector<std::string> words = {"thesis", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
   const bool series = experiment.as<OrderFigure>() != nullptr;
   if (series || (experiment.study() && experiment.study()->rays.front() == 1000))
     words.insert(words.end(), {"--rays", "1000:1000"});
@@ -183,7 +183,7 @@ TEST_CASE("a figure of orders ends when its minutes are up, and says which numbe
   const Folder folder;
   const std::string config = folder.file("a.toml", scene + mast + receiver);
   const Outcome run = run_program(
-      {"bench", "figure-6.18", "-c", config, "-o", folder.path("out"), "--minutes", "0.001", "--frames", "2"});
+      {"thesis", "figure-6.18", "-c", config, "-o", folder.path("out"), "--minutes", "0.001", "--frames", "2"});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   // The first number of rays is measured in any case; the largest of the thesis never is in 60 ms.
@@ -193,7 +193,7 @@ TEST_CASE("a figure of orders ends when its minutes are up, and says which numbe
   const std::string page = squeezed(contents(folder.path("out/figure-6.18.md")));
   CHECK(contains(page, "to 90,000,000 rays, as the next number of rays would end later than 0.001 minutes after"));
   CHECK_FALSE(contains(page, "interrupted"));
-  const Outcome all = run_program({"bench", "figure-6.18", "-c", config, "-o", folder.path("out"), "--rays",
+  const Outcome all = run_program({"thesis", "figure-6.18", "-c", config, "-o", folder.path("out"), "--rays",
                                    "1000:5000", "--frames", "2", "--repeat", "1"});
   CHECK(all.code == 0);
   CHECK_FALSE(contains(contents(folder.path("out/figure-6.18.md")), "left out"));
@@ -204,10 +204,10 @@ TEST_CASE("thesis: a configuration of vehicles alone has all figures that are me
   const Folder folder;
   const std::string config = folder.file("a.toml", scene + traffic + mount);
   const Outcome wrong =
-      run_program({"bench", "thesis", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
+      run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
   CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
   CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
-  const Outcome outcome = run_program({"bench", "thesis", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
+  const Outcome outcome = run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
                                        "--repeat", "1", "--frames", "1"});
   CAPTURE(outcome.err);
   CHECK(outcome.code == 5);
@@ -221,7 +221,7 @@ TEST_CASE("thesis: a configuration of vehicles alone has all figures that are me
 TEST_CASE("innerframe: frames that are each alone, and a page that says how many groups were traced") {
   const Folder folder;
   const Outcome outcome =
-      run_program({"bench", "innerframe", "-o", folder.path("out"), "--rays", "10000:10000", "--frames", "2"});
+      run_program({"thesis", "innerframe", "-o", folder.path("out"), "--rays", "10000:10000", "--frames", "2"});
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK_FALSE(contains(outcome.err, "arning"));  // of gnuplot

@@ -89,7 +89,7 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
 
 TEST_CASE("an unknown experiment is answered with the known ones and the nearest") {
   CHECK_THROWS_WITH_AS(find_experiment("figure-6.19"),
-                       doctest::Contains("bench: no experiment \"figure-6.19\" among figure-6.1, figure-6.2, "),
+                       doctest::Contains("thesis: no experiment \"figure-6.19\" among figure-6.1, figure-6.2, "),
                        ConfigError);
   CHECK_THROWS_WITH_AS(find_experiment("coherence-ray"), doctest::Contains("did you mean \"coherence-rays\"?"),
                        ConfigError);
@@ -207,7 +207,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
     });
     const Columns<OrderRow>& columns_of = order_columns(experiment.moves());
     const std::vector<std::string> names = names_of(columns_of);
-    const std::vector<std::string> lines = split(encode(columns_of, rows), '\n');
+    const std::vector<std::string> lines = split(csv_of(columns_of, rows).text(), '\n');
     REQUIRE(lines.size() == 1 + 2 * experiment.as<OrderFigure>()->series.size());
     const std::string columns =
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
@@ -238,7 +238,8 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
 
 TEST_CASE("the script draws a line per series in each of two panels") {
   const Experiment& experiment = find_experiment("figure-6.1");
-  const std::string script = order_script("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series);
+  const std::string script =
+      order_figure("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series, Csv()).commands;
   CHECK(occurrences(script, "with linespoints") == 2 * experiment.as<OrderFigure>()->series.size());
   for (const Series& series : experiment.as<OrderFigure>()->series)
     CHECK(occurrences(script, " title '" + label(series) + "'") == 2);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <regex>
+#include "base/xml_text.hpp"
 #include "contains.hpp"
 #include "study/made_cache_rows.hpp"
 
@@ -39,7 +40,7 @@ const std::string drawing =
 ThesisPage page() {
   ThesisPage out;
   out.heading.device.name = "A <device> & \"driver\"";
-  out.heading.command_line = "wavetracer bench thesis --set 'a=\"b\"'";
+  out.heading.command_line = "wavetracer thesis all --set 'a=\"b\"'";
   out.heading.date = "2014-05-15";
   const CacheStudy& study = *find_experiment("figure-6.11").study();
   out.rows = made_measurement(study, {1000, 5000}, [](const std::string& setting, uint64_t) {
@@ -100,7 +101,7 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   for (const Section& figure : made.figures)
     CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
   CHECK(contains(table, "<td>a &gt; b</td><td>in part</td><td>not &lt;confirmed&gt;</td>"));
-  CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + escaped(made.figures[4].title) +
+  CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + xml_text(made.figures[4].title) +
                             "</td><td>not judged</td><td>no claim to judge"));
   CHECK(contains(table, "<td>Operations</td><td>not judged</td><td>failed: no memory</td>"));
   // Every link leads to a section, and numbers are a table in theirs.
@@ -152,7 +153,8 @@ TEST_CASE("the picture: caches without their hash, a point per row, none of the 
   CHECK(family("precision 0.0125 uniform") == "precision 0.0125");
   CHECK(family("concurrent exact") == "concurrent exact");
   const ThesisPage one = page();
-  const std::string table = speed_error_table(one.rows), script = speed_error_script(one.rows, "the device's");
+  const plots::Figure drawn = speed_error_figure(one.rows, "the device's");
+  const std::string table = drawn.data.front().text, script = drawn.commands;
   const auto points = std::count_if(one.rows.begin(), one.rows.end(), [](const CacheRow& row) { return row.cache.on; });
   CHECK(std::count(table.begin(), table.end(), '\n') == 1 + points);
   CHECK_FALSE(contains(table, "no cache,"));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF. In XML, the characters of XML
-// 1.0, section 2.2, are written unchanged, except for those that it needs itself.
-#include "convert/unicode.hpp"
+// Decodes UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
+#include "base/unicode.hpp"
 
 namespace wavetracer {
 namespace {
 
 constexpr char32_t replacement = 0xFFFD;
 
-// Removes one character from the front of `text` and returns it.
-char32_t take(std::string_view& text) {
+}  // namespace
+
+char32_t take_utf8(std::string_view& text) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
   const size_t length = lead < 0x80                   ? 1
@@ -29,38 +29,32 @@ char32_t take(std::string_view& text) {
   return valid ? code : replacement;
 }
 
-constexpr char32_t replacement_of_xml = 0xFFFD;
-
-bool is_xml(char32_t c) { return c >= 0x20 ? c != 0xFFFE && c != 0xFFFF : c == '\t' || c == '\n' || c == '\r'; }
-
-void append_utf8(std::string& out, char32_t c) {
-  const auto tail = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3F)); };
-  if (c < 0x80) {
-    out += static_cast<char>(c);
-  } else if (c < 0x800) {
-    out += static_cast<char>(0xC0 | c >> 6);
+void append_utf8(std::string& text, char32_t code) {
+  const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 0x3F)); };
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800) {
+    text += static_cast<char>(0xC0 | code >> 6);
     tail(0);
-  } else if (c < 0x10000) {
-    out += static_cast<char>(0xE0 | c >> 12);
+  } else if (code < 0x10000) {
+    text += static_cast<char>(0xE0 | code >> 12);
     tail(6), tail(0);
   } else {
-    out += static_cast<char>(0xF0 | c >> 18);
+    text += static_cast<char>(0xF0 | code >> 18);
     tail(12), tail(6), tail(0);
   }
 }
 
-}  // namespace
-
 std::u32string utf32(std::string_view utf8) {
   std::u32string out;
-  while (!utf8.empty()) out += take(utf8);
+  while (!utf8.empty()) out += take_utf8(utf8);
   return out;
 }
 
 std::u16string utf16(std::string_view utf8) {
   std::u16string out;
   while (!utf8.empty()) {
-    const char32_t code = take(utf8);
+    const char32_t code = take_utf8(utf8);
     if (code < 0x10000) {
       out += static_cast<char16_t>(code);
     } else {

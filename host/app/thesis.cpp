@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer bench EXPERIMENT` runs an experiment by name and writes tables, a plot and a report.
+// `wavetracer thesis EXPERIMENT` runs an experiment of the thesis by name and writes tables, a plot and a report.
 // The programs of bench/ measure the speed of single parts.
+#include "study/thesis.hpp"
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -11,14 +12,13 @@
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "study/run.hpp"
-#include "study/thesis.hpp"
 
 namespace wavetracer::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct BenchOptions {
+struct ThesisOptions {
   std::string experiment, file, directory, device, rays;
   std::vector<std::string> sets;
   uint32_t repeats = 5;
@@ -27,9 +27,9 @@ struct BenchOptions {
   std::optional<double> minutes;
 };
 
-constexpr const char* all_figures = "thesis";
+constexpr const char* all_figures = "all";
 
-study::Request request(const BenchOptions& options, const study::Experiment& experiment,
+study::Request request(const ThesisOptions& options, const study::Experiment& experiment,
                        const std::string& command_line) {
   study::Request out{.config = study::experiment_config(experiment, options.file, options.sets),
                      .device = options.device,
@@ -50,9 +50,9 @@ std::string listed() {
   return study::experiment_list() + fmt::format("  {:<18} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
-void bench(const BenchOptions& options, Invocation& invocation) {
+void study_thesis(const ThesisOptions& options, Invocation& invocation) {
   if (options.experiment.empty()) {
-    std::cout << "Experiments, run by `wavetracer bench NAME -o FOLDER`:\n" << listed();
+    std::cout << "Experiments, run by `wavetracer thesis NAME -o FOLDER`:\n" << listed();
     return;
   }
   const bool all = options.experiment == all_figures;
@@ -83,10 +83,10 @@ void bench(const BenchOptions& options, Invocation& invocation) {
 
 }  // namespace
 
-void add_bench(CLI::App& program, Invocation& invocation) {
-  CLI::App* command =
-      program.add_subcommand("bench", "Run an experiment by its name; without a name, list the experiments");
-  const auto options = std::make_shared<BenchOptions>();
+void add_thesis(CLI::App& program, Invocation& invocation) {
+  CLI::App* command = program.add_subcommand(
+      "thesis", "Run an experiment of the thesis by its name; without a name, list the experiments");
+  const auto options = std::make_shared<ThesisOptions>();
   command->add_option("experiment", options->experiment, "Name of the experiment");
   command->add_option("-c,--config", options->file,
                       "Config file whose scene, transmitters and receivers are used instead of a generated city; "
@@ -118,7 +118,7 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
   command->footer("");  // removes the program's footer, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });
-  command->callback([options, &invocation] { bench(*options, invocation); });
+  command->callback([options, &invocation] { study_thesis(*options, invocation); });
 }
 
 }  // namespace wavetracer::app
