@@ -9,7 +9,7 @@ inline constexpr const char* minimal_config = R"(# A transmitter and a receiver 
 # `wavetracer run -c THIS.toml`; `wavetracer help KEY` explains a key, `wavetracer init` prints all of them.
 
 [scene]
-generate = "--seed 1 --blocks 6x6"  # or file = "city.xml"; a map becomes one by `wavetracer convert`
+generate = "--seed 1 --blocks 6x6"  # or file = "city.xml"; `wavetracer convert` makes one of a map
 
 [[transmitter]]
 name = "rsu"
@@ -26,7 +26,7 @@ inline constexpr const char* sumo_config = R"(# Channels between the vehicles of
 
 [scene]
 file = "town/city.xml"
-streets = "town.net.xml"  # drawn in the viewer; nothing else is done with them
+streets = "town.net.xml"  # for the viewer only, which draws these streets
 
 [trajectories]
 file = "drive.fcd.xml"
@@ -34,7 +34,7 @@ file = "drive.fcd.xml"
 [radio]
 frequency_hz = 5.9e9
 
-# An antenna above the middle of every roof; a table of its own for those that are higher, as on = "truck".
+# An antenna above the middle of every roof. Add a table for higher vehicles, such as on = "truck".
 [[mount]]
 name = "roof"
 on = "*"                    # ids or types of vehicles
@@ -45,7 +45,7 @@ offset_m = [0.0, 0.0, 1.6]  # ahead, left, up from the middle of the vehicle, on
 max_distance_m = 300  # pairs farther apart are not computed
 )";
 
-inline constexpr const char* coverage_config = R"(# What one antenna reaches: receivers on a grid.
+inline constexpr const char* coverage_config = R"(# A coverage map of one antenna: receivers on a grid.
 # `wavetracer run -c THIS.toml -o out`, then `wavetracer plot out --what coverage`.
 
 [scene]
