@@ -62,6 +62,7 @@ DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool sp
   for (int axis = 0; axis < 3; ++axis)
     out.extent_m =
         std::max(out.extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
+  if (out.extent_m > largest_scene_of_float32_m) out.definitions["WT_NEAR_MISSES"] = "1";
   out.cpu = context.info().cpu;
   const std::vector<AccelTriangle> triangles = accel_triangles(scene);
 

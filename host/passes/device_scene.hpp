@@ -56,6 +56,12 @@ struct SurfaceRecords {
 // of all these, whether no wave passes it; empty where no kernel asks.
 SurfaceRecords device_surfaces(const Scene& scene, size_t more, const std::vector<bool>& opaque);
 
+// In scenes whose coordinates are not larger than this, rays included, float32 decides on which side of an edge a leg
+// passes: it errs by less than WT_UNDECIDED_M, within which the fields at the edge ask whether the leg is free. In
+// larger ones double decides beside sides of triangles (kernels/lib/met.clh), at half as much time again for tests of
+// legs.
+constexpr float largest_scene_of_float32_m = 1000;
+
 // Builds the trees and uploads everything. spatial_splits: see accel/build.hpp. reach_m: the largest absolute recentred
 // coordinate of any ray's origin outside the scene's bounding box; boxes are padded for the rounding of such distances.
 // opaque: see device_surfaces(); flags behind those of the scene are left out.

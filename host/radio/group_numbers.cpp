@@ -45,7 +45,9 @@ class KeyNumbers {
 // Numbers rows first to end - 1, which are of one link. numbers, straight: memory to work in.
 void number_link(Paths& paths, size_t first, size_t end, std::span<const device::wt_path_waves> waves,
                  KeyNumbers& numbers, KeyNumbers& straight) {
-  numbers.clear(most_groups * (end - first));
+  size_t named = 0;
+  for (size_t row = first; row < end; ++row) named += waves[row].count;
+  numbers.clear(named);
   straight.clear(end - first);
   for (size_t row = first; row < end; ++row) {
     const device::wt_path_waves& own = waves[row];
@@ -71,7 +73,7 @@ void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves) {
     if (row - parts.back() >= rows_at_once || row == paths.size()) parts.push_back(row);
   }
   tbb::parallel_for(size_t{0}, parts.size() - 1, [&](size_t part) {
-    KeyNumbers numbers, straight;
+    thread_local KeyNumbers numbers, straight;  // their memory is kept from frame to frame
     for (size_t row = parts[part], end = row; row < parts[part + 1]; row = end) {
       end = end_of_link(paths, row);
       number_link(paths, row, end, waves, numbers, straight);

@@ -18,6 +18,12 @@ typedef struct {
   double zone;  // wt_zone_cosine of the path
 } wt_wedge_face;
 
+// Do two faces reflect alike?
+inline int wt_same_faces(const wt_wedge_face* a, const wt_wedge_face* b) {
+  return a->permittivity.x == b->permittivity.x && a->permittivity.y == b->permittivity.y &&
+         a->thickness_m == b->thickness_m && a->zone == b->zone;
+}
+
 typedef struct {
   double exterior;
   wt_double3 normals[2];
@@ -61,9 +67,9 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
                               face->thickness_m, wavelength_m);
 }
 
-// cosine: that of the angle between the wave and the edge; sine: that of the same angle, not negative.
-inline wt_corner_wave wt_wave_from(double azimuth, double cosine, double sine) {
-  const wt_double2 turn = wt_cos_sin(azimuth);
+// turn: cosine and sine of the azimuth of the source; cosine: that of the angle between the wave and the edge; sine:
+// that of the same angle, not negative.
+inline wt_corner_wave wt_wave_from(wt_double2 turn, double cosine, double sine) {
   wt_corner_wave wave;
   wave.k = WT_DOUBLE3(-sine * turn.x, -sine * turn.y, cosine);
   wave.coming = wt_coming(WT_DOUBLE3(0.0, 0.0, 1.0), wave.k);
@@ -89,11 +95,13 @@ inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, dou
   return slab;
 }
 
-// Coefficients of hidden waves beside a ray of the cosine `lit`, at `there`: they differ from those of the ray by as
-// much as the waves on its other side do, with the other sign.
-inline wt_slab wt_face_slab_mirrored(const wt_wedge_face* face, double lit, wt_double2 there, double wavelength_m) {
+// Coefficients of waves at `there`; with `mirrored` those of hidden waves beside a ray of the cosine `lit`, which
+// differ from those of the ray by as much as the waves on its other side do, with the other sign.
+inline wt_slab wt_face_slab_of(const wt_wedge_face* face, double lit, wt_double2 there, int mirrored,
+                               double wavelength_m) {
+  wt_slab slab = wt_face_slab_at(face, mirrored ? wt_real(2.0 * lit) - there : there, wavelength_m);
+  if (!mirrored) return slab;
   const wt_slab ray = wt_face_slab(face, lit, wavelength_m);
-  wt_slab slab = wt_face_slab_at(face, wt_real(2.0 * lit) - there, wavelength_m);
   slab.reflection_te = ray.reflection_te * 2.0 - slab.reflection_te;
   slab.reflection_tm = ray.reflection_tm * 2.0 - slab.reflection_tm;
   return slab;
@@ -107,14 +115,12 @@ inline wt_slab wt_face_slab_mirrored(const wt_wedge_face* face, double lit, wt_d
 inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, double lit, wt_double2 shift,
                                    double wavelength_m) {
   if (shift.x == 0.0 && shift.y == 0.0) return wt_face_slab(face, cosine, wavelength_m);
-  const wt_double2 there = wt_real(cosine) + shift;
-  if (shift.x > 0.0) return wt_face_slab_at(face, there, wavelength_m);
-  return wt_face_slab_mirrored(face, lit, there, wavelength_m);
+  return wt_face_slab_of(face, lit, wt_real(cosine) + shift, !(shift.x > 0.0), wavelength_m);
 }
 
 // The wave reflected at one face, from (beta', phi') to (beta, phi). lit, shift: see wt_face_slab_beside.
-inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face, double lit,
-                                   wt_double2 shift) {
+WT_CALLED wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face, double lit,
+                                      wt_double2 shift) {
   const wt_double3 normal = corner->normals[face], out = wt_mirrored(wave->k, normal);
   const double cosine = fmin(fabs(wt_dot3(wave->k, normal)), 1.0);
   const wt_slab slab = wt_face_slab_beside(corner->faces + face, cosine, lit, shift, corner->wavelength_m);
@@ -125,7 +131,7 @@ inline wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave
 
 // The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or let through by as many faces; it
 // meets face `first`, then the other one, and so on in turn.
-inline wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
+WT_CALLED wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, int first, int count, int straight) {
   // In a wave that leaves, both vectors of the basis are reversed.
   if (count == 0) return wt_diagonal(wt_real(-1.0), wt_real(-1.0));
   wt_double3 k = wave->k;

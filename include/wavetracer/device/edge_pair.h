@@ -56,7 +56,7 @@ inline wt_pair_terms wt_pair_terms_of(const wt_bend* bend, const wt_known_waves*
                                       int along) {
   const double root_2kl = sqrt(4.0 * WT_PI * distance_m / bend->corner.wavelength_m);
   wt_pair_terms out;
-  out.bent = wt_bent(bend->corner.exterior);
+  out.bent = bend->bent;
   for (int term = 0; term < WT_BOUNDARIES; ++term) {
     const wt_boundary boundary = bend->turn.boundaries[term];
     const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend->n);
@@ -93,8 +93,10 @@ inline void wt_reflection_over_plane(const wt_pair_terms* first, const wt_pair_t
     term.cosines[1] = term.below[1] ? -v : v;
     term.waves.whole = image;
     term.waves.cosine = wt_cosine_of(mean.u, mean.v, term.cosines);
-    for (int edge = 0; edge < 2; ++edge) {
-      const wt_plane_sum sum = wt_term_at_plane(&term, plane->faces + edge, wavelength_m);
+    wt_plane_sum sum;
+    for (int face = 0; face < 2; ++face) {
+      if (face == 0 || !wt_same_faces(plane->faces, plane->faces + 1))
+        sum = wt_term_at_plane(&term, plane->faces + face, wavelength_m);
       *te = *te + wt_over(sum.te, image) * 0.5;
       *tm = *tm + wt_over(sum.tm, image) * 0.5;
     }

@@ -88,8 +88,7 @@ inline wt_plane_sum wt_sum_between(wt_plane_sum a, wt_plane_sum b, double share)
 // Waves at their mean cosine; below the plane, mirrored about the ray of the cosine `lit`.
 inline wt_plane_sum wt_waves_at_plane(const wt_wedge_face* face, wt_grazing_waves waves, double lit, int mirrored,
                                       double wavelength_m) {
-  const wt_slab slab = mirrored ? wt_face_slab_mirrored(face, fmax(lit, 0.0), waves.cosine, wavelength_m)
-                                : wt_face_slab_at(face, waves.cosine, wavelength_m);
+  const wt_slab slab = wt_face_slab_of(face, fmax(lit, 0.0), waves.cosine, mirrored, wavelength_m);
   wt_plane_sum out;
   out.te = wt_times(waves.whole, slab.reflection_te);
   out.tm = wt_times(waves.whole, slab.reflection_tm);

@@ -72,8 +72,8 @@ inline void wt_slab_of(const wt_inside* in, wt_double2 u, wt_double2 difference,
 
 // permittivity: relative; cos_theta: 0 (grazing) to 1; thickness_m: 0 or more; infinity is the half space, and so is a
 // thickness above WT_ENDLESS_RAD.
-inline wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, double thickness_m,
-                                    double wavelength_m) {
+WT_CALLED wt_slab wt_slab_coefficients(wt_double2 permittivity, double cos_theta, double thickness_m,
+                                       double wavelength_m) {
   wt_slab out;
   const double c = cos_theta;
   const wt_double2 contrast = permittivity - wt_real(1.0);

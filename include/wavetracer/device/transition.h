@@ -64,7 +64,7 @@ inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
 
 // g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. It is finite at 0, and 1 / s for
 // large s.
-inline wt_double2 wt_transition_over_root(double s) {
+WT_CALLED wt_double2 wt_transition_over_root(double s) {
   const wt_double2 front = WT_EIGHTH_TURN * (1.0 / WT_INV_SQRT_PI), u = WT_EIGHTH_TURN * s;
   if (s == 0.0) return front;
   if (s < 3.0) return wt_times(front, wt_erfcx_by_series(u, s));

@@ -119,14 +119,46 @@ typedef struct {
   wt_turn turn;
   wt_corner_wave there, back;
   wt_basis from, to;
-  double n, sine;    // sine: of the angle between the edge and the ray
-  double legs_m[2];  // from its source, to its receiver: the radii of the waves
+  double n, sine;        // sine: of the angle between the edge and the ray
+  double bent;           // see wt_bent
+  double legs_m[2];      // from its source, to its receiver: the radii of the waves
+  wt_double2 angles[4];  // cosine and sine of the azimuths of both ends from face 0, then from face 1
+  wt_matrix behind;      // outside of a convex wedge: what both faces reflect, see wt_convex_jump
   int transmits;
 } wt_bend;
 
 // Rays within 1e-9 of the edge, half of the digits of a double, have no azimuths; then this is 0.
 inline int wt_turns(const wt_wedge_frame* wedge, wt_double3 k_in, wt_double3 k_out) {
   return fmin(wt_length3(wt_cross3(k_in, wedge->along)), wt_length3(wt_cross3(k_out, wedge->along))) >= 1e-9;
+}
+
+// Says how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
+inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
+
+// The reflection at face 0 or 1 of a convex wedge. The face reflects what comes from the end that is nearer to it by
+// azimuth: R. Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the
+// other way. As the faces become one plane, both reflect like the mean of both ends', or it would diffract. spread: of
+// the waves that count on this side of the boundary, their mean distance from the edge, in metres.
+inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 spread) {
+  const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * bend->bent;
+  const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
+  const double first = bend->legs_m[0] < WT_INFINITY ? bend->legs_m[0] / (bend->legs_m[0] + bend->legs_m[1]) : 0.5;
+  const wt_double2 there = face == 0 ? bend->angles[0] : bend->angles[2];
+  const wt_double2 back = face == 0 ? bend->angles[1] : bend->angles[3];
+  const double lit = bend->sine * (fabs(there.y) * first + fabs(back.y) * (1.0 - first));
+  wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  // The end that counts more comes first, so that on GPUs neighbours, most of which have no other, compute together.
+  for (int i = 0; i < 2; ++i) {
+    const int is_source = (share >= 0.5) == (i == 0);
+    const double part = is_source ? share : 1.0 - share;
+    if (part == 0.0) continue;
+    const wt_double2 shift =
+        spread * ((is_source ? there.x : back.x) / (is_source ? bend->legs_m[0] : bend->legs_m[1]));
+    const wt_corner_wave from = is_source ? bend->there : bend->back;
+    const wt_matrix wave = wt_reflected_wave(&bend->corner, &from, face, lit, shift);
+    sum = wt_matrix_sum(sum, part, is_source ? wave : wt_other_way(wave));
+  }
+  return sum;
 }
 
 inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
@@ -142,8 +174,12 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
   bend.corner.faces[1] = faces[1];
   bend.corner.wavelength_m = wavelength_m;
   bend.turn = *turn;
-  bend.there = wt_wave_from(turn->in, cosine, sine);
-  bend.back = wt_wave_from(turn->away, -cosine, sine);
+  bend.angles[0] = wt_cos_sin(turn->in);
+  bend.angles[1] = wt_cos_sin(turn->away);
+  bend.angles[2] = wt_cos_sin(wedge->exterior - turn->in);
+  bend.angles[3] = wt_cos_sin(wedge->exterior - turn->away);
+  bend.there = wt_wave_from(bend.angles[0], cosine, sine);
+  bend.back = wt_wave_from(bend.angles[1], -cosine, sine);
   bend.from = wt_coming(wedge->along, k_in);
   bend.to = wt_leaving(wedge->along, k_out);
   bend.n = wedge->exterior / WT_PI;
@@ -151,39 +187,19 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
   bend.legs_m[0] = legs_m[0];
   bend.legs_m[1] = legs_m[1];
   bend.transmits = transmits;
+  bend.bent = wt_bent(wedge->exterior);
+  bend.behind = wt_diagonal(wt_real(0.0), wt_real(0.0));
+  if (wedge->exterior < WT_PI) return bend;
+  const int forward = turn->in <= turn->away;
+  const wt_matrix first = wt_convex_reflection(&bend, !forward, wt_real(0.0));
+  bend.behind = wt_matrix_product(wt_convex_reflection(&bend, forward, wt_real(0.0)), first);
   return bend;
 }
-
-// Says how much of a wedge it is: 0 where its faces are one plane, 1 from a right angle on.
-inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - wt_cos_sin(exterior - WT_PI).x : 1.0; }
 
 // The mean distance from the edge, in metres, of the waves on the side of a boundary at which g has the argument s and
 // the value g; unit_m: that of the argument, negative on the lit side.
 inline wt_double2 wt_spread_of(double s, wt_double2 g, double unit_m) {
   return wt_over(wt_real(1.0) - g * s, g) * unit_m;
-}
-
-// The reflection at face 0 or 1 of a convex wedge. The face reflects what comes from the end that is nearer to it by
-// azimuth: R. Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the
-// other way. As the faces become one plane, both reflect like the mean of both ends', or it would diffract. spread: of
-// the waves that count on this side of the boundary, their mean distance from the edge, in metres.
-inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 spread) {
-  const wt_corner* corner = &bend->corner;
-  const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * wt_bent(corner->exterior);
-  const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
-  const wt_double2 turns[2] = {wt_cos_sin(face == 0 ? in : corner->exterior - in),
-                               wt_cos_sin(face == 0 ? away : corner->exterior - away)};
-  const double first = bend->legs_m[0] < WT_INFINITY ? bend->legs_m[0] / (bend->legs_m[0] + bend->legs_m[1]) : 0.5;
-  const double lit = bend->sine * (fabs(turns[0].y) * first + fabs(turns[1].y) * (1.0 - first));
-  wt_matrix sum = wt_diagonal(wt_real(0.0), wt_real(0.0));
-  for (int end = 0; end < 2; ++end) {
-    const double part = end == 0 ? share : 1.0 - share;
-    if (part == 0.0) continue;
-    const wt_double2 shift = spread * (turns[end].x / bend->legs_m[end]);
-    const wt_matrix wave = wt_reflected_wave(corner, end == 0 ? &bend->there : &bend->back, face, lit, shift);
-    sum = wt_matrix_sum(sum, part, end == 0 ? wave : wt_other_way(wave));
-  }
-  return sum;
 }
 
 // Outside of a convex wedge nothing is reflected twice: the only reflection is at the face on this side. One of the two
@@ -201,11 +217,7 @@ inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int o
     jump = wt_matrix_sum(jump, -0.5, wt_other_way(wt_met(corner, &bend->back, turn > 0, count, 1)));
   }
   if (along || (turn > 0) == forward) return jump;
-  const double bent = wt_bent(corner->exterior);
-  const wt_double2 none = wt_real(0.0);
-  const wt_matrix first = wt_convex_reflection(bend, !forward, none);
-  const wt_matrix both = wt_matrix_product(wt_convex_reflection(bend, forward, none), first);
-  return wt_matrix_sum(wt_scaled(jump, wt_real(1.0 - bent)), -bent, both);
+  return wt_matrix_sum(wt_scaled(jump, wt_real(1.0 - bend->bent)), -bend->bent, bend->behind);
 }
 
 // In a corner an image of several reflections has two boundaries, one for each order of the faces. Away from them their
