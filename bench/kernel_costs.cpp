@@ -146,7 +146,7 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, tree_operations},
     {"wedge_chains/roof_chains", "", "pairs of ends", items_of<"wedge_chains/roof_chains">, always<sizeof(wt_solved)>,
      always<static_cast<size_t>(wedge_operations)>},
-    {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_waves)>,
+    {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_wave)>,
      always<static_cast<size_t>(wedge_operations)>, true},
     {"wedge_pairs/mark_runs", "two diffractions", "prefixes", items_of<"wedge_pairs/mark_runs">, always<12>, nothing},
     {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},

@@ -6,12 +6,14 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // A work-item takes one place of the rows. Rows beyond the capacity are left out, and the counter of rows shows that.
-// before: the number of rows before each place.
+// before: the number of rows before each place; shared: the waves of paths that belong to several, in any order, which
+// has as much room as out.
 kernel void path_groups(const global wt_solved* solved, const global double* vertices, const global uint* steps,
                         const global double* transmitter_places, const global double* receiver_places,
                         const global uint* receiver_of, const global uint* transmitter_of, const global uint* rows,
                         const global uint* before, const global wt_wedge* wedges, const global uint* planes_of,
-                        global wt_path_waves* out, wt_path_groups_arguments args) {
+                        global wt_path_wave* out, global wt_path_waves* shared, global uint* shared_count,
+                        wt_path_groups_arguments args) {
   const uint place = get_global_id(0);
   if (place >= args.row_count || rows[place] == WT_NO_ROW || before[place] >= args.row_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
@@ -19,5 +21,10 @@ kernel void path_groups(const global wt_solved* solved, const global double* ver
   const wt_path path = wt_path_of(&list, rows[place]);
   wt_waves waves;
   const uint bends = wt_waves_of(&path, wedges, planes_of, args.wavelength_m, place, &waves);
-  wt_write_waves(&waves, bends, out + before[place]);
+  wt_path_wave own = {waves.keys[0], WT_ONE_WAVE, bends};
+  if (waves.count > 1 || waves.weights[0] != 1.0) {
+    own.shared = atomic_inc(shared_count);
+    wt_write_waves(&waves, bends, shared + own.shared);
+  }
+  out[before[place]] = own;
 }

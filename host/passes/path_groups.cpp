@@ -19,12 +19,19 @@ PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& plane
       work_(tuning_of(context.info()).exact),
       arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
       planes_of_(context.buffer(planes_of, "planes of surfaces")) {
-  make_room(context_, waves_, host_waves_, 1 << 12, "waves of paths");
+  make_room(context_, shared_count_, host_shared_count_, 1, "number of paths of several waves");
+  make_rows(1 << 12);
+}
+
+void PathGroups::make_rows(size_t most) {
+  make_room(context_, waves_, host_waves_, most, "waves of paths");
+  make_room(context_, shared_, host_shared_, most, "waves of paths of several");
 }
 
 void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
                             const Distinct& distinct, const RowList& rows, uint32_t most) {
-  make_room(context_, waves_, host_waves_, most, "waves of paths");
+  make_rows(most);
+  context_.fill(shared_count_, 0u, Stage::path_groups);
   arguments_.row_count = rows.places;
   arguments_.row_capacity = static_cast<uint32_t>(waves_.size());
   arguments_.max_depth = visible.max_depth;
@@ -41,12 +48,17 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
                                             .wedges = wedges,
                                             .planes_of = planes_of_,
                                             .out = waves_,
+                                            .shared = shared_,
+                                            .shared_count = shared_count_,
                                             .args = arguments_});
 }
 
 void PathGroups::begin_read(uint32_t expected) {
   read_ = std::min<size_t>(expected, waves_.size());
+  shared_read_ = std::min(last_shared_ + last_shared_ / 16 + 16, shared_.size());
   waves_.begin_read(0, read_, host_waves_, Stage::path_groups);
+  shared_.begin_read(0, shared_read_, host_shared_, Stage::path_groups);
+  shared_count_.begin_read(0, 1, host_shared_count_, Stage::path_groups);
   context_.flush();
   group_room_.resize(read_);
   weight_room_.resize(read_);
@@ -55,9 +67,12 @@ void PathGroups::begin_read(uint32_t expected) {
 void PathGroups::set(Paths& paths) {
   const size_t count = paths.size();
   if (count > read_) waves_.read(0, count, host_waves_, Stage::path_groups);
+  last_shared_ = count > 0 ? *static_cast<const uint32_t*>(host_shared_count_.data()) : 0;
+  if (last_shared_ > shared_read_) shared_.read(0, last_shared_, host_shared_, Stage::path_groups);
   paths.group = std::exchange(group_room_, {});
   paths.group_weight = std::exchange(weight_room_, {});
-  number_groups(paths, {static_cast<const device::wt_path_waves*>(host_waves_.data()), count});
+  number_groups(paths, {static_cast<const device::wt_path_wave*>(host_waves_.data()), count},
+                {static_cast<const device::wt_path_waves*>(host_shared_.data()), last_shared_});
 }
 
 }  // namespace wavetracer

@@ -24,14 +24,19 @@ class PathGroups {
   void set(Paths& paths);
 
  private:
+  void make_rows(size_t most);
+
   gpu::Context& context_;
   gpu::KernelOf<kernels::path_groups::path_groups> kernel_;
   Work work_;
   wt_path_groups_arguments arguments_{};
   gpu::Buffer<uint32_t> planes_of_;
-  gpu::Buffer<device::wt_path_waves> waves_;
-  gpu::HostMemory host_waves_;
-  size_t read_ = 0;  // rows that were read already
+  gpu::Buffer<device::wt_path_wave> waves_;
+  gpu::Buffer<device::wt_path_waves> shared_;  // of paths that belong to several waves
+  gpu::Buffer<uint32_t> shared_count_;
+  gpu::HostMemory host_waves_, host_shared_, host_shared_count_;
+  size_t read_ = 0, shared_read_ = 0;  // rows and records that were read already
+  size_t last_shared_ = 0;             // records of the last frame
   std::vector<GroupNumbers> group_room_;
   std::vector<GroupWeights> weight_room_;
 };

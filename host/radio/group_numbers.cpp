@@ -42,28 +42,39 @@ class KeyNumbers {
   uint32_t count_ = 0;
 };
 
+using Waves = std::span<const device::wt_path_wave>;
+using SharedWaves = std::span<const device::wt_path_waves>;
+
 // Numbers rows first to end - 1, which are of one link. numbers, straight: memory to work in.
-void number_link(Paths& paths, size_t first, size_t end, std::span<const device::wt_path_waves> waves,
-                 KeyNumbers& numbers, KeyNumbers& straight) {
+void number_link(Paths& paths, size_t first, size_t end, Waves waves, SharedWaves shared, KeyNumbers& numbers,
+                 KeyNumbers& straight) {
   size_t named = 0;
-  for (size_t row = first; row < end; ++row) named += waves[row].count;
+  for (size_t row = first; row < end; ++row)
+    named += waves[row].shared == WT_ONE_WAVE ? 1 : shared[waves[row].shared].count;
   numbers.clear(named);
   straight.clear(end - first);
   for (size_t row = first; row < end; ++row) {
-    const device::wt_path_waves& own = waves[row];
-    const bool is_twin = !own.bends && !straight[own.keys[0]].second;
+    const device::wt_path_wave& own = waves[row];
+    const bool is_twin = !own.bends && !straight[own.key].second;
+    const auto number = [&](uint64_t key) { return numbers[is_twin ? device::wt_mixed(key, row) : key].first; };
     paths.group[row] = only_group(no_group);
     paths.group_weight[row] = GroupWeights{};
-    for (size_t i = 0; i < own.count; ++i) {
-      paths.group[row][i] = numbers[is_twin ? device::wt_mixed(own.keys[i], row) : own.keys[i]].first;
-      paths.group_weight[row][i] = own.weights[i];
+    if (own.shared == WT_ONE_WAVE) {
+      paths.group[row][0] = number(own.key);
+      paths.group_weight[row][0] = 1;
+      continue;
+    }
+    const device::wt_path_waves& all = shared[own.shared];
+    for (size_t i = 0; i < all.count; ++i) {
+      paths.group[row][i] = number(all.keys[i]);
+      paths.group_weight[row][i] = all.weights[i];
     }
   }
 }
 
 }  // namespace
 
-void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves) {
+void number_groups(Paths& paths, Waves waves, SharedWaves shared) {
   static_assert(most_groups == WT_MOST_GROUPS);
   paths.group.resize(paths.size());
   paths.group_weight.resize(paths.size());
@@ -76,7 +87,7 @@ void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves) {
     thread_local KeyNumbers numbers, straight;  // their memory is kept from frame to frame
     for (size_t row = parts[part], end = row; row < parts[part + 1]; row = end) {
       end = end_of_link(paths, row);
-      number_link(paths, row, end, waves, numbers, straight);
+      number_link(paths, row, end, waves, shared, numbers, straight);
     }
   });
 }

@@ -8,8 +8,10 @@
 
 namespace wavetracer {
 
-// Sets the columns `group` and `group_weight`. waves: those of each path. Groups of a link are numbered from 0 in the
-// order in which its paths name them. Two paths without diffraction never share a wave. Runs on all cores.
-void number_groups(Paths& paths, std::span<const device::wt_path_waves> waves);
+// Sets the columns `group` and `group_weight`. waves: those of each path; shared: the records that they name. Groups of
+// a link are numbered from 0 in the order in which its paths name them. Two paths without diffraction never share a
+// wave. Runs on all cores.
+void number_groups(Paths& paths, std::span<const device::wt_path_wave> waves,
+                   std::span<const device::wt_path_waves> shared);
 
 }  // namespace wavetracer

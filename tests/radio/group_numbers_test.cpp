@@ -30,7 +30,14 @@ TEST_CASE("group numbers are those of a map of each link; straight paths with on
       }
     }
   }
-  number_groups(paths, waves);
+  std::vector<device::wt_path_wave> own;
+  std::vector<device::wt_path_waves> shared;
+  for (device::wt_path_waves& all : waves) {
+    if (all.count == 1) all.weights[0] = 1;
+    own.push_back({all.keys[0], all.count == 1 ? WT_ONE_WAVE : static_cast<uint32_t>(shared.size()), all.bends});
+    if (all.count > 1) shared.push_back(all);
+  }
+  number_groups(paths, own, shared);
   std::map<std::pair<uint32_t, uint32_t>, std::map<std::pair<uint64_t, size_t>, uint32_t>> expected;
   std::map<std::pair<std::pair<uint32_t, uint32_t>, uint64_t>, size_t> straight;
   for (size_t row = 0; row < paths.size(); ++row) {
