@@ -9,8 +9,8 @@
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
 #include "jobs/earlier_run.hpp"
-#include "jobs/folder_hold.hpp"
 #include "jobs/merge_folders.hpp"
+#include "jobs/process_files.hpp"
 #include "jobs/progress.hpp"
 
 namespace wavetracer::app {

@@ -8,21 +8,11 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+#include "jobs/identity.hpp"
 #include "jobs/units.hpp"
 #include "output/totals.hpp"
 
 namespace wavetracer {
-
-// Values that must agree between the runs that fill one folder.
-struct RunIdentity {
-  std::string version;
-  std::string config;            // hash of its text, without the folder of outputs and the places of input files
-  std::string device_kind;       // "cpu" or "gpu"
-  uint32_t first = 0, last = 0;  // frames that were asked for
-  uint32_t repeat = 1;           // repeats share the seconds of a frame
-  std::string inputs = {};       // hash of the contents of input files, which run.json lists
-  bool operator==(const RunIdentity&) const = default;
-};
 
 struct ShardFile {
   std::string name;              // in the folder of the manifest

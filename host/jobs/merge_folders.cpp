@@ -26,11 +26,12 @@ constexpr size_t most_named = 1000;
 
 std::vector<InputFile> inputs_in(const fs::path& folder) {
   std::error_code none;
-  const fs::path record = folder / "run.json";
+  const fs::path record = run_record_in(folder);
   return fs::exists(record, none) ? read_run_record(record).summary.inputs : std::vector<InputFile>();
 }
 
-void check_same_run(const RunIdentity& a, const fs::path& folder_a, const RunIdentity& b, const fs::path& folder_b) {
+// Throws InputError that names what differs.
+void check_one_run(const RunIdentity& a, const fs::path& folder_a, const RunIdentity& b, const fs::path& folder_b) {
   const auto differs = [&](const std::string& what, const auto& one, const auto& other) {
     if (one != other)
       throw InputError(fmt::format("{} and {} hold parts of different runs: {} {} and {}; merge each by itself",
@@ -96,43 +97,53 @@ void check_agrees(const Shard& a, const Shard& b, const fs::path& folder) {
                     folder.string(), unit_words(b.unit), b.totals.counts.paths, a.totals.counts.paths));
 }
 
+// Throws InputError if the folder has no parts.
+void check_has_parts(const fs::path& directory, const fs::path& folder, const std::vector<fs::path>& manifests) {
+  if (!manifests.empty()) return;
+  std::error_code none;
+  if (fs::exists(merged_record(directory), none))
+    throw InputError(
+        fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, "
+                    "and its parts were removed when that was proved (output.keep_shards = true keeps them)",
+                    directory.string()));
+  throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
+                               directory.string(), folder.string()));
+}
+
+// Adds a part whose files are in this folder. damage: says what is wrong with them, or is empty.
+void add_part(FoundParts& found, Shard shard, const std::string& damage, const fs::path& folder) {
+  const ShardMap::key_type key{shard.unit.first, shard.unit.block};
+  if (!damage.empty()) {
+    found.damaged.push_back(fmt::format("{} in {}: {}", unit_words(shard.unit), folder.string(), damage));
+  } else if (const auto there = found.shards.find(key); there != found.shards.end()) {
+    check_agrees(there->second, shard, folder);
+  } else {
+    found.places[key] = folder;
+    found.shards.emplace(key, std::move(shard));
+  }
+}
+
 }  // namespace
 
 FoundParts find_parts(const std::vector<fs::path>& directories) {
   FoundParts found;
-  std::optional<fs::path> first_folder;
+  std::optional<fs::path> first_folder;  // the folder whose first part says which run this is
   for (const fs::path& directory : directories) {
     const fs::path folder = directory / "shards";
-    std::error_code none;
     const std::vector<fs::path> manifests = manifests_in(folder);
-    if (manifests.empty() && fs::exists(merged_record(directory), none))
-      throw InputError(
-          fmt::format("{}: nothing is left to merge: the outputs there hold the whole run, "
-                      "and its parts were removed when that was proved (output.keep_shards = true keeps them)",
-                      directory.string()));
-    if (manifests.empty())
-      throw InputError(fmt::format("{}: this folder contains no parts of a run, because {} contains no manifest",
-                                   directory.string(), folder.string()));
-    if (found.record.empty() && fs::exists(folder / "run.json", none)) found.record = folder / "run.json";
+    check_has_parts(directory, folder, manifests);
+    std::error_code none;
+    if (found.record.empty() && fs::exists(run_record_in(folder), none)) found.record = run_record_in(folder);
     for (const fs::path& manifest : manifests) {
       std::vector<Shard> lines = read_manifest(manifest);
       const std::vector<std::string> damage = damages(lines, folder);
       for (size_t line = 0; line < lines.size(); ++line) {
-        Shard& shard = lines[line];
         if (!first_folder) {
-          found.run = shard.run;
+          found.run = lines[line].run;
           first_folder = folder;
         }
-        check_same_run(found.run, *first_folder, shard.run, folder);
-        const ShardMap::key_type key{shard.unit.first, shard.unit.block};
-        if (!damage[line].empty()) {
-          found.damaged.push_back(fmt::format("{} in {}: {}", unit_words(shard.unit), folder.string(), damage[line]));
-        } else if (const auto there = found.shards.find(key); there != found.shards.end()) {
-          check_agrees(there->second, shard, folder);
-        } else {
-          found.places[key] = folder;
-          found.shards.emplace(key, std::move(shard));
-        }
+        check_one_run(found.run, *first_folder, lines[line].run, folder);
+        add_part(found, std::move(lines[line]), damage[line], folder);
       }
     }
   }

@@ -7,10 +7,16 @@
 #include <vector>
 #include "base/pending_file.hpp"
 #include "jobs/merge_ahead.hpp"
-#include "jobs/merge_parts.hpp"
 #include "output/h5_outputs.hpp"
 
 namespace wavetracer {
+
+// The names of the files from which the outputs of a run are made.
+struct MergeParts {
+  // [file][part]: the files of h5_outputs() in their order, then .csv; parts in the order of their units, at least one.
+  std::vector<std::vector<std::filesystem::path>> files;
+  bool of_one_frame = false;  // parts are blocks of transmitters, in their order
+};
 
 // Writes the parts of an output that do not grow with frames.
 using WriteHead = std::function<void(const H5Output&, const std::filesystem::path& first_part, hdf5::File&)>;

@@ -19,7 +19,7 @@
 #include <random>
 #include <span>
 #include "base/json_whole.hpp"
-#include "base/pending_file.hpp"
+#include "jobs/earlier_run.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -223,6 +223,16 @@ Presence::~Presence() {
   heart_.join();
   std::error_code none;
   fs::remove(file_, none);
+}
+
+FolderHold::FolderHold(const fs::path& directory, ProcessInfo process)
+    : directory_(directory), shards_(directory / "shards") {
+  presence_.emplace(shards_.path(), std::move(process));
+}
+
+FolderHold::~FolderHold() {
+  presence_.reset();
+  remove_if_empty(shards_.path());  // it was left by an earlier drive
 }
 
 }  // namespace wavetracer

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <thread>
 #include <vector>
+#include "base/pending_file.hpp"
 
 namespace wavetracer {
 
@@ -65,6 +66,22 @@ class Presence {
   std::filesystem::path file_;
   ProcessInfo process_;
   std::jthread heart_;
+};
+
+// Reserves DIR/shards for this process: makes it if missing, and puts this process's file into it. A folder made here
+// is removed again if nothing was put into it.
+class FolderHold {
+ public:
+  // Throws RuntimeError if another process has the folder, see Presence.
+  FolderHold(const std::filesystem::path& directory, ProcessInfo process);
+  ~FolderHold();
+  FolderHold(const FolderHold&) = delete;
+  FolderHold& operator=(const FolderHold&) = delete;
+  const ProcessInfo& process() const { return presence_->process(); }
+
+ private:
+  PendingDirectory directory_, shards_;
+  std::optional<Presence> presence_;
 };
 
 }  // namespace wavetracer

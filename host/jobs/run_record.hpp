@@ -19,6 +19,9 @@ struct RunRecord {
   Run run() const { return {config, scene, instances, models, summary}; }
 };
 
+// Returns the path of the record in this folder of shards.
+inline std::filesystem::path run_record_in(const std::filesystem::path& shards) { return shards / "run.json"; }
+
 std::string encode_run_record(const Run& run);
 // text: any bytes. Throws RuntimeError that begins with `name`.
 RunRecord decode_run_record(std::string_view text, const std::string& name);

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include "jobs/earlier_run.hpp"
-#include "jobs/merge_outputs.hpp"
 #include "jobs/merged_record.hpp"
-#include "jobs/same_run.hpp"
 #include "jobs/shard_files.hpp"
 #include "output/hdf5_read.hpp"
 #include "output/head_h5.hpp"
@@ -95,7 +93,7 @@ std::vector<Shard> Shards::undamaged(std::vector<Shard> lines) {
 
 bool Shards::complete() const {
   mine();
-  return std::holds_alternative<InOutputs>(run_is_);
+  return std::holds_alternative<InOutputs>(frames_);
 }
 
 size_t Shards::count() const {
@@ -110,7 +108,7 @@ bool Shards::find_complete() {
   std::optional<Shard> whole = read_merged_record(directory_, damaged_);
   if (!whole) return false;
   check_same_run(whole->run, run_, folder_, config_, inputs_);
-  run_is_ = InOutputs{std::move(*whole)};
+  frames_ = InOutputs{std::move(*whole)};
   return true;
 }
 
@@ -165,13 +163,13 @@ void Shards::look() {
 
 Totals Shards::totals() const {
   mine();
-  const auto* outputs = std::get_if<InOutputs>(&run_is_);
+  const auto* outputs = std::get_if<InOutputs>(&frames_);
   return outputs ? outputs->whole.totals : totals_of(shards_);
 }
 
 std::vector<fs::path> Shards::outputs() const {
   std::vector<fs::path> out;
-  for (const ShardFile& file : std::get<InOutputs>(run_is_).whole.files) out.push_back(directory_ / file.name);
+  for (const ShardFile& file : std::get<InOutputs>(frames_).whole.files) out.push_back(directory_ / file.name);
   return out;
 }
 
@@ -226,7 +224,7 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
   if (removes) {
     check_merged(directory_, run, totals);
     write_merged_record(directory_, run_, totals, files);
-    run_is_ = InBoth{};
+    frames_ = InBoth{};
   }
   std::vector<fs::path> written;
   for (const PendingFile& file : files) written.push_back(file.path());
@@ -235,7 +233,7 @@ std::vector<fs::path> Shards::merge(const Run& run, std::unique_ptr<OpenUnit> un
 
 void Shards::remove_merged() {
   mine();
-  if (std::holds_alternative<InBoth>(run_is_)) remove_merged_shards(directory_);
+  if (std::holds_alternative<InBoth>(frames_)) remove_merged_shards(directory_);
 }
 
 }  // namespace wavetracer

@@ -16,8 +16,7 @@
 #include "base/one_thread.hpp"
 #include "jobs/link_statistics.hpp"
 #include "jobs/manifest.hpp"
-#include "jobs/merge_ahead.hpp"
-#include "jobs/merge_parts.hpp"
+#include "jobs/merge_outputs.hpp"
 #include "jobs/unit_folder.hpp"
 #include "wavetracer/output.hpp"
 
@@ -93,19 +92,21 @@ class Shards {
  private:
   static ShardMap::key_type key(const Unit& unit) { return {unit.first, unit.block}; }
 
-  // The places that the frames of the run are in. A folder leaves the first state once, or never.
-  struct InShards {};  // finished units are in shards
-  struct InOutputs {   // an earlier process has written the outputs and proved them; shards may be gone
+  // The places of the run's frames. They change once or never:
+  //   find_complete():             InShards -> InOutputs
+  //   merge() with a proof:        InShards -> InBoth
+  struct InShards {};  // in finished shards, as far as they are computed
+  struct InOutputs {   // in the outputs, which an earlier process has proved; the shards may be gone
     Shard whole;       // the run as one shard, whose files are the outputs
   };
-  struct InBoth {};  // this process has written the outputs and proved that they hold all shards
+  struct InBoth {};  // in the outputs, which this process has proved, and in shards, which may go
 
   std::filesystem::path directory_, folder_;
   RunIdentity run_;
   std::vector<InputFile> inputs_;
   std::string config_;
   OneThread owner_;
-  std::variant<InShards, InOutputs, InBoth> run_is_;
+  std::variant<InShards, InOutputs, InBoth> frames_;
   ShardMap shards_;
   std::vector<std::string> damaged_;
   Guarded<UnitFolder> writing_;

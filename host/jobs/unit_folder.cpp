@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-const char* const record_name = "run.json";
 constexpr uint32_t shard_compression = 0;  // they are read again soon, and merging copies their bytes
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -92,7 +91,7 @@ void UnitFolder::write_manifest(const std::vector<Shard>& lines) const {
 
 void UnitFolder::write_record(const Run& run) const {
   const std::string record = encode_run_record(run);
-  PendingFile(folder_ / record_name, bytes(record)).commit();
+  PendingFile(run_record_in(folder_), bytes(record)).commit();
 }
 
 Shard UnitFolder::close(OpenUnit& unit) {
@@ -103,7 +102,7 @@ Shard UnitFolder::close(OpenUnit& unit) {
   Shard shard{run_, unit.unit_, unit.totals(), {}};
   for (const PendingFile& file : files) shard.files.push_back(written_as(file));
   const std::string record = encode_run_record(unit.run_);
-  if (before != Holds::own && before != Holds::shared) files.emplace_back(folder_ / record_name, bytes(record));
+  if (before != Holds::own && before != Holds::shared) files.emplace_back(run_record_in(folder_), bytes(record));
   if (before == Holds::earlier) {
     remove_shards(directory_, files);
     remove_temporaries(directory_);

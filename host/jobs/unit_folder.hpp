@@ -12,14 +12,13 @@
 
 namespace wavetracer {
 
-// The contents of the folder, as far as this process has to do with them. These transitions exist, and no others:
+// The contents of the folder, as far as this process has to do with them. They change in these ways:
 //
-//   earlier ----take_over()---> continued
-//   earlier, continued --share()--> joined
-//   earlier, continued --unit_in_place()--> own        own ---unit_in_place()--> own
-//   joined ------------- unit_in_place()--> shared     shared unit_in_place()--> shared
+//   take_over():      earlier -> continued
+//   share():          earlier or continued -> joined
+//   unit_in_place():  earlier or continued -> own; joined -> shared; own and shared stay
 //
-// A function that is called in any other state throws std::logic_error.
+// The first two throw std::logic_error in any other state.
 class FolderState {
  public:
   enum class Holds {

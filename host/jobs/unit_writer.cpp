@@ -63,6 +63,7 @@ void UnitWriter::end() {
 void UnitWriter::drop() { request(Drop{}); }
 
 void UnitWriter::finish() {
+  owner_.check("unit writer");
   collect(mail_.when([](const Mail& mail) { return mail.requests.empty(); }, take_news));
 }
 
@@ -88,6 +89,7 @@ void UnitWriter::collect(const News& news) {
 }
 
 void UnitWriter::request(Request request) {
+  owner_.check("unit writer");
   collect(mail_.when([](const Mail& mail) { return mail.frame_bytes <= most_waiting_bytes; }, take_news));
   mail_.with([&](Mail& mail) {
     mail.frame_bytes += bytes_in(request);

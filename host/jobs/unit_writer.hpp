@@ -10,14 +10,15 @@
 #include <variant>
 #include <vector>
 #include "base/guarded.hpp"
+#include "base/one_thread.hpp"
 #include "jobs/merge_ahead.hpp"
 #include "jobs/progress.hpp"
 #include "jobs/shards.hpp"
 
 namespace wavetracer {
 
-// A unit is begun, gets its frames, and is ended or dropped. Units follow each other. All functions are for one thread,
-// the one that made the shards.
+// A unit is begun, gets its frames, and is ended or dropped, before the next is begun. All functions are for the thread
+// that made this object and the shards: on another one they throw std::logic_error.
 class UnitWriter {
  public:
   // All arguments must outlive this object.
@@ -68,8 +69,7 @@ class UnitWriter {
   };
   // All that passes between the caller and the thread.
   struct Mail {
-    std::deque<Request> requests;  // the first is being done; it is removed after that, so the thread is idle if none
-                                   // is left
+    std::deque<Request> requests;  // those that are not done yet; the thread works on the first
     size_t frame_bytes = 0;        // the memory of all frames among them
     News news;
   };
@@ -82,6 +82,7 @@ class UnitWriter {
   const Run& run_;
   Shards& shards_;
   Progress& progress_;
+  OneThread owner_;
   Guarded<Mail> mail_;
   Guarded<Desk> desk_;
   std::thread thread_;  // started when all other members exist, and joined before they go

@@ -2,7 +2,7 @@
 // The rules about which thread may do what, and in which order: breaking one is an error that names it. Frames are
 // invented.
 #include <doctest/doctest.h>
-#include <atomic>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 #include "base/guarded.hpp"
@@ -17,6 +17,19 @@ using test::names;
 using test::TemporaryFolder;
 
 namespace {
+
+// Tells whether another thread is refused when it does this.
+bool refused_elsewhere(const std::function<void()>& use) {
+  bool refused = false;
+  std::thread([&] {
+    try {
+      use();
+    } catch (const std::logic_error&) {
+      refused = true;
+    }
+  }).join();
+  return refused;
+}
 
 void add_frames(UnitWriter& writer, const SampleRun& sample, uint32_t first, uint32_t count) {
   for (FrameResult& frame : sample.drive(first, count)) writer.add(std::move(frame));
@@ -42,25 +55,14 @@ TEST_CASE("finished units are known to one thread; others may write units only")
   const SampleRun sample;
   const Run run = sample.run();
   Shards shards(folder.path(), identity);
-  const auto elsewhere = [](auto use) {
-    bool refused = false;
-    std::thread([&] {
-      try {
-        use();
-      } catch (const std::logic_error&) {
-        refused = true;
-      }
-    }).join();
-    return refused;
-  };
-  CHECK(elsewhere([&] { (void)shards.finished({3, 9}); }));
-  CHECK(elsewhere([&] { (void)shards.count(); }));
-  CHECK(elsewhere([&] { (void)shards.complete(); }));
-  CHECK(elsewhere([&] { (void)shards.totals(); }));
-  CHECK(elsewhere([&] { shards.look(); }));
-  CHECK(elsewhere([&] { shards.resume(); }));
-  CHECK(elsewhere([&] { shards.merge(run, {}); }));
-  CHECK_FALSE(elsewhere([&] {
+  CHECK(refused_elsewhere([&] { (void)shards.finished({3, 9}); }));
+  CHECK(refused_elsewhere([&] { (void)shards.count(); }));
+  CHECK(refused_elsewhere([&] { (void)shards.complete(); }));
+  CHECK(refused_elsewhere([&] { (void)shards.totals(); }));
+  CHECK(refused_elsewhere([&] { shards.look(); }));
+  CHECK(refused_elsewhere([&] { shards.resume(); }));
+  CHECK(refused_elsewhere([&] { shards.merge(run, {}); }));
+  CHECK_FALSE(refused_elsewhere([&] {
     const auto unit = shards.open(run, {3, 9});
     for (const FrameResult& frame : sample.drive(3, 7)) unit->add(frame);
     shards.close(*unit);
@@ -87,6 +89,8 @@ TEST_CASE("units that a thread writes count as finished after finish(); the open
   CHECK(shards.finished({3, 9}));
   CHECK_FALSE(shards.finished({20, 24}));
   CHECK_FALSE(writer.take_unfinished());
+  CHECK(refused_elsewhere([&] { writer.finish(); }));
+  CHECK(refused_elsewhere([&] { writer.begin({10, 19}); }));
   writer.begin({10, 19});
   add_frames(writer, sample, 10, 4);
   const auto unfinished = writer.take_unfinished();
