@@ -105,7 +105,7 @@ struct LoadReport {
   // Pieces of edges at which nothing diffracts (host/scene/scene_wedges.hpp), not counting edges that are flat:
   uint64_t flat_pieces = 0;    // pieces with two faces in one plane
   uint64_t corner_pieces = 0;  // pieces with three or more faces at right angles, such as the foot of a wall
-  uint64_t ground_rims = 0;    // free edges at the rim of a scene's ground (host/scene/ground_rims.hpp)
+  uint64_t ground_rims = 0;    // free edges at the rim of a scene's ground (host/scene/ground_sheets.hpp)
   std::vector<std::string> warnings;
 };
 
