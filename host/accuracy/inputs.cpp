@@ -95,7 +95,7 @@ Config study_config(const InputRequest& request) {
     throw ConfigError(request.file +
                       ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be varied; "
                       "give trajectories instead of them");
-  if (config.trace.reception == "sphere")
+  if (config.trace.by_spheres())
     throw ConfigError(request.file +
                       ": trace.reception = \"sphere\" keeps no sequences from sample to sample; "
                       "use --set trace.reception=exact");

@@ -21,7 +21,7 @@ void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t k
   const gpu::Range entries = work_.range(table.regions.front().entries);
   kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, Stage::cache_purge, table.entries,
           table.heads, table.used, table.device_regions, table.counters, keep_from, old_, table.uses);
-  if (table.config.kind == "chained") clear_old_regions(context, table);
+  if (table.config.pooled()) clear_old_regions(context, table);
 }
 
 void CachePurge::clear_old_regions(gpu::Context& context, CacheTable& table) {

@@ -143,8 +143,8 @@ std::vector<std::string> Simulation::warnings() const {
     out.push_back(fmt::format(
         "cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get results of "
         "others, so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
-        plan.asked.cache.kind.text(), plan.asked.trace.reception == "sphere" ? " or wrong" : "",
-        plan.asked.cache.kind == "thesis" ? "open" : "chained"));
+        plan.asked.cache.kind.text(), plan.asked.trace.by_spheres() ? " or wrong" : "",
+        plan.asked.cache.linked() ? "chained" : "open"));
   if (frame_count() > 1 && !plan.world.live)
     if (const auto text = unmeasured_warning(plan.trace.discover_every_s, plan.world.clock.step_s(), frame_count(),
                                              plan.asked.output.shard_frames))
@@ -178,8 +178,8 @@ FrameResult Simulation::run_frame(uint32_t frame) {
 
 std::string block_obstacle(const Config& config) {
   if (!config.trace.rays) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
-  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception.text() + "\"";
-  if (config.cache.kind != "none") return "all transmitters share one ray cache (cache.kind)";
+  if (config.trace.by_spheres()) return "trace.reception = \"" + config.trace.reception.text() + "\"";
+  if (config.cache.on()) return "all transmitters share one ray cache (cache.kind)";
   if (config.output.waypoints > 0) return "output.waypoints follows the rays of all transmitters";
   return {};
 }
