@@ -38,10 +38,10 @@ void Sequences::resize(uint64_t slots) {
   clear();
 }
 
-void Sequences::clear() {
+Counters::Zeroed Sequences::clear() {
   clear_(slots_work_.range(table_.size()), Stage::sequences, table_, quarters_, static_cast<uint32_t>(table_.size()),
          counters_.buffer());
-  counters_.zeroed();
+  return {};
 }
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {

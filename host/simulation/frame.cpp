@@ -105,7 +105,7 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   out.paths = s_.finish.take(counted, left_out, &out.carriers);
   if (!task.only_compiles()) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
-  const bool spheres = s_.trails && s_.trails->receives();
+  const bool spheres = plan_.trace.by_spheres();
   if (s_.cache || spheres) out.paths.quarters.clear();  // their quarters do not estimate misses
   const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
   if (few) account.warn(*few);
@@ -130,23 +130,22 @@ FrameResult FrameLoop::solve(FrameTask& task) {
 FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                                        const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
-  Counters& counters = set.counters();
   Found out;
-  counters.foresee(alike);
-  for (bool settled = false; !settled; counters.foresee(false)) {
-    begin_sequences(set, searches);
+  Uncounted besides;
+  const auto passes = [&] {
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
-    const Uncounted besides = s_.trails && s_.trails->receives()
-                                  ? receive_paths(ends, account)
-                                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, *s_.frame_watch,
-                                                account);  // sequences to visible
+    besides = plan_.trace.by_spheres() ? receive_paths(ends, account)
+                                       : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches,
+                                                     *s_.frame_watch, account);  // sequences to visible
     account.end_stage(Stage::paths);
     finish_paths(task.frame(), world, ends, block ? &block->own : nullptr, true);  // distinct to fields
-    out.counted = counters.read(Stage::fields);
-    account.device_done();
-    account.counted(out.counted, ends.transmitter_count, besides);
-    settled = !alike || counters.settle(out.counted);
-  }
+  };
+  out.counted = set.counters().settled(
+      alike, Stage::fields, [&] { return begin_sequences(set, searches); }, passes,
+      [&](const wt_counters& now) {
+        account.device_done();
+        account.counted(now, ends.transmitter_count, besides);
+      });
   if (out.rays.unread > 0) out.rays.add_ended(out.rays.unread, out.counted.ended);
   return out;
 }
@@ -154,12 +153,14 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
 // The paths of the known sequences, by the same rules as those of the frame.
 Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
-  set.counters().zero();
-  solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
-  account.end_stage(Stage::paths);
-  finish_paths(frame, world, ends, nullptr, false);
-  const wt_counters counted = set.counters().read(Stage::fields);
-  account.device_done();
+  const auto passes = [&] {
+    solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
+    account.end_stage(Stage::paths);
+    finish_paths(frame, world, ends, nullptr, false);
+  };
+  const wt_counters counted = set.counters().settled(
+      false, Stage::fields, [&] { return set.counters().zero(); }, passes,
+      [&](const wt_counters&) { account.device_done(); });
   LeftOut left_out;
   Paths out = s_.finish.take(counted, left_out, nullptr);
   account.end_stage(Stage::columns);
@@ -183,11 +184,8 @@ void FrameLoop::next_frame(Sequences& set) {
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
-void FrameLoop::begin_sequences(Sequences& set, bool searches) {
-  if (searches && warm_frames_ == 0)
-    set.clear();
-  else
-    set.counters().zero();
+Counters::Zeroed FrameLoop::begin_sequences(Sequences& set, bool searches) {
+  return searches && warm_frames_ == 0 ? set.clear() : set.counters().zero();
 }
 
 // With diffraction listeners launch, too, and prefixes of both ends meet at the edge.

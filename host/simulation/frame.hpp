@@ -30,7 +30,7 @@ class FrameLoop {
   Found find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, const LinkBlock* block,
                    bool searches, bool alike, FrameAccount& account);
   void next_frame(Sequences& set);
-  void begin_sequences(Sequences& set, bool searches);
+  Counters::Zeroed begin_sequences(Sequences& set, bool searches);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
