@@ -77,7 +77,7 @@ class OurTable : public RatedTable {
   void put_questions(Questions& questions, uint32_t count) override;
   void find_questions(Questions& questions, uint32_t readers) override;
   uint64_t kept() override;
-  bool wears() const override { return table_.config.kind == "open" && table_.config.locking == "readers"; }
+  bool wears() const override { return table_.config.in_slots() && !table_.config.locks(); }
 };
 
 // The table of listing C.3, with nodes of 68 bytes.

@@ -95,7 +95,7 @@ Config study_config(const InputRequest& request) {
     throw ConfigError(request.file +
                       ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be varied; "
                       "give trajectories instead of them");
-  if (config.trace.reception == "sphere")
+  if (config.trace.by_spheres())
     throw ConfigError(request.file +
                       ": trace.reception = \"sphere\" keeps no sequences from sample to sample; "
                       "use --set trace.reception=exact");
@@ -182,12 +182,8 @@ class InputMeasurement {
     std::vector<device::wt_material> materials = materials_;
     if (sample) vary(*sample, varied, state, materials);
     setup_.finish.set_materials(materials);
-    const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
-    const FrameResult result = frames_.run({.frame = frame,
-                                            .pose = [&] { return state; },
-                                            .transmitter_name = name(setup_.plan->asked.transmitters),
-                                            .receiver_name = name(setup_.plan->asked.receivers),
-                                            .timed = false});
+    const FrameResult result = frames_.run(FrameTask::of_drive(
+        {.frame = frame, .pose = [&] { return state; }, .names = FrameNames::of(setup_.plan->asked), .timed = false}));
     const double seconds = result.seconds.at("frame");
     if (sample) {
       ++out_.frames_run;

@@ -59,7 +59,7 @@ std::string cache_line(const CacheSummary& cache) {
 
 // Says what sequences were used for: paths were solved from them, or the spheres of receivers caught the paths.
 std::string sequence_line(const Run& run, const FrameCounts& n) {
-  if (run.config.trace.reception == "sphere")
+  if (run.config.trace.by_spheres())
     return fmt::format("sequences  {} distinct, {} segments passed receivers\n", grouped(n.sequences),
                        grouped(n.receptions));
   return fmt::format("sequences  {} distinct, {} candidates, {} solved\n", grouped(n.sequences), grouped(n.candidates),

@@ -50,7 +50,7 @@ void check_launch(const Config& config, Found& out) {
 void check_rays(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.rays) {
-    if (trace.directions != "hilbert" && trace.directions != "horizon")
+    if (!along_curve(trace.directions))
       out.push_back({{"trace.rays", "trace.directions"},
                      fmt::format("trace.rays = \"auto\" needs trace.directions = \"horizon\" or \"hilbert\", "
                                  "not \"{}\": remove trace.directions, or give trace.rays a number",
@@ -82,9 +82,9 @@ void check_discoveries(const Config& config, Found& out) {
                                                                       : fmt::format("remove {}", key))});
   };
   if (!trace.reuse) refuse("trace.reuse", "with trace.reuse = false a frame knows only what its own rays find");
-  if (trace.reception == "sphere")
+  if (trace.by_spheres())
     refuse("trace.reception", "trace.reception = \"sphere\" takes its paths from the rays of the frame");
-  if (config.cache.kind != "none")
+  if (config.cache.on())
     refuse("cache.kind", fmt::format("cache.kind = \"{}\" answers rays of every frame", config.cache.kind.word()));
   if (config.output.waypoints > 0)
     refuse("output.waypoints",
@@ -94,7 +94,7 @@ void check_discoveries(const Config& config, Found& out) {
 // Reception by spheres counts each ray as one sample of the directions that reach a receiver.
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
-  if (trace.reception != "sphere") return;
+  if (!trace.by_spheres()) return;
   if (!trace.rays)
     out.push_back(
         {{"trace.reception", "trace.rays"},
@@ -107,7 +107,7 @@ void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   for (const InteractionKind& kind : interaction_kinds) {
     const std::string key = fmt::format("trace.{}", kind.word);
-    if (trace.*kind.asked_for && kind.code != reflection && trace.reception == "sphere")
+    if (trace.*kind.asked_for && kind.code != reflection && trace.by_spheres())
       out.push_back({{key, "trace.reception"},
                      fmt::format("trace.reception = \"sphere\" receives reflected rays only, but {} = true: "
                                  "set it to false, or use trace.reception = \"exact\"",
@@ -147,20 +147,19 @@ void check_waypoints(const Config& config, Found& out) {
 
 void check_cache(const Config& config, Found& out) {
   const CacheConfig& cache = config.cache;
-  if (config.output.cache_entries && (cache.kind == "none" || !cache.statistics))
+  if (config.output.cache_entries && (!cache.on() || !cache.statistics))
     out.push_back(
         {{"output.cache_entries"},
-         fmt::format(
-             "output.cache_entries = true writes what the ray cache counted for each entry, but {}: {} "
-             "or remove output.cache_entries",
-             cache.kind == "none" ? "cache.kind = \"none\"" : "cache.statistics = false",
-             cache.kind == "none" ? "choose a kind of cache with cache.statistics = true," : "set it to true,")});
-  if (cache.kind == "none") return;
-  if (cache.key == "exact" && cache.scope == "all")
+         fmt::format("output.cache_entries = true writes what the ray cache counted for each entry, but {}: {} "
+                     "or remove output.cache_entries",
+                     cache.on() ? "cache.statistics = false" : "cache.kind = \"none\"",
+                     cache.on() ? "set it to true," : "choose a kind of cache with cache.statistics = true,")});
+  if (!cache.on()) return;
+  if (cache.exact() && cache.holds_all())
     out.push_back({{"cache.key", "cache.scope"},
                    "cache.key = \"exact\" gives the same paths as no cache, but with cache.scope = \"all\" moving "
                    "vehicles would change them: remove cache.scope, or use cache.key = \"quantised\""});
-  if (cache.key == "exact" && (cache.kind == "thesis" || cache.kind == "thesis-chained"))
+  if (cache.exact() && cache.as_printed())
     out.push_back({{"cache.key", "cache.kind"},
                    fmt::format("cache.key = \"exact\" with cache.kind = \"{}\": "
                                "the tables as the thesis prints them compare no keys, so that no answer is exact: "
@@ -199,17 +198,16 @@ void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
 }
 
 void check_ends(const Config& config, Found& out) {
-  const auto check = [&](MountRole role, bool none) {
-    const auto has_role = [&](const MountConfig& m) { return m.role == role || m.role == "both"; };
-    if (none && std::none_of(config.mounts.begin(), config.mounts.end(), has_role))
+  const auto check = [&](MountRole role, bool (*has)(MountRole), bool none) {
+    if (none && std::ranges::none_of(config.mounts, has, &MountConfig::role))
       out.push_back({{},
                      fmt::format("no [[{0}]]: add one with name and position_m, a [[station]], which sends "
                                  "and receives, or a [[mount]] with name and role = \"{0}\" "
                                  "or \"both\" for vehicles",
                                  role.word())});
   };
-  check("transmitter", config.transmitters.empty() && config.stations.empty());
-  check("receiver", config.receivers.empty() && config.receiver_grids.empty() && config.stations.empty());
+  check("transmitter", sends, config.transmitters.empty() && config.stations.empty());
+  check("receiver", receives, config.receivers.empty() && config.receiver_grids.empty() && config.stations.empty());
   if (config.stations.size() == 1 && config.transmitters.empty() && config.receivers.empty() &&
       config.receiver_grids.empty() && config.mounts.empty())
     out.push_back(

@@ -112,7 +112,7 @@ void check_trajectories(const Config& config, std::vector<Contradiction>& out) {
     check_times("waypoints_wgs84", config.tracks[i].waypoints_wgs84, i, out);
   }
   for (size_t i = 0; i < config.mounts.size(); ++i)
-    if (!config.mounts[i].node.empty() && config.mounts[i].above == "ground")
+    if (!config.mounts[i].node.empty() && from_ground(config.mounts[i].above))
       out.push_back({{fmt::format("mount.{}.node", i), fmt::format("mount.{}.above", i)},
                      fmt::format("[[mount]] \"{}\": node says how high the antenna is, "
                                  "so above = \"ground\" cannot say it, too: leave one of them out",

@@ -51,6 +51,6 @@ void FrameRepeats::finish(FrameResult& last, bool must_agree) const {
   last.warnings.assign(warnings.begin(), warnings.end());
 }
 
-bool repeats_agree(const Config& config) { return config.cache.kind == "none" || config.cache.key == "exact"; }
+bool repeats_agree(const Config& config) { return !config.cache.on() || config.cache.exact(); }
 
 }  // namespace wavetracer

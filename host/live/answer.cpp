@@ -187,17 +187,17 @@ std::string world_line(const Simulation& simulation) {
   }
   out["types"] = std::move(types);
   // Fixed ends come before the mounted ones of the first place.
-  const auto standing = [&](const std::vector<RadioEnd>& ends, MountRole role) {
+  const auto standing = [&](const std::vector<RadioEnd>& ends, bool (*has)(MountRole)) {
     size_t mounted = 0;
     for (const LiveType& type : simulation.live_types())
       for (const MountConfig& mount : type.mounts)
-        if (mount.role == "both" || mount.role == role) mounted += type.count;
+        if (has(mount.role)) mounted += type.count;
     Json names = Json::array();
     for (size_t i = 0; i + mounted < ends.size(); ++i) names.push_back(ends[i].name);
     return names;
   };
-  out["transmitters"] = standing(config.transmitters, "transmitter");
-  out["receivers"] = standing(config.receivers, "receiver");
+  out["transmitters"] = standing(config.transmitters, sends);
+  out["receivers"] = standing(config.receivers, receives);
   out["limits"] = {{"max_message_bytes", config.live.max_message_bytes},
                    {"max_vehicles", places},
                    {"max_pending_frames", config.live.max_pending_frames},

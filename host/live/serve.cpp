@@ -22,7 +22,7 @@ Config answered(Config config, const Log& log) {
   if (config.response.bandwidth_hz) drop("response.bandwidth_hz", "responses.h5");
   config.response.bandwidth_hz.reset();
   for (ArrayConfig& array : config.arrays) {
-    if (array.codebook != "none") drop("array.codebook", "beams.h5");
+    if (array.has_codebook()) drop("array.codebook", "beams.h5");
     array.codebook = "none";
   }
   if (config.radio.frequencies_hz.size() > 1) drop("radio.frequencies_hz but its first", "carriers.h5");

@@ -35,7 +35,7 @@ void write_elements(hdf5::File& file, const std::string& group, const Config& co
   std::vector<double> positions_m;
   for (const RadioEnd& end : ends) {
     names.push_back(end.name);
-    ports.push_back(end.polarization == "VH" || end.polarization == "cross" ? 2 : 1);
+    ports.push_back(ports_of(end.polarization));
     for (const glm::dvec3& p : element_positions_m(config, end)) positions_m.insert(positions_m.end(), {p.x, p.y, p.z});
     first.push_back(positions_m.size() / 3);
   }

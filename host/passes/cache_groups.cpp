@@ -19,7 +19,7 @@ uint64_t places_for(uint64_t rays) { return std::bit_ceil(2 * rays); }
 }  // namespace
 
 CacheGroups::CacheGroups(gpu::Context& context, const CacheTable& table)
-    : context_(context), work_(tuning_of(context.info()).cache_rays), words_(table.config.key == "exact" ? 4 : 2) {
+    : context_(context), work_(tuning_of(context.info()).cache_rays), words_(table.config.exact() ? 4 : 2) {
   gpu::Definitions definitions = table.definitions(false);
   definitions["WT_RAYS_PER_ITEM"] = work_.option();
   keys_ = {context, definitions};
@@ -65,7 +65,7 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
 void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                         gpu::Buffer<float>& refused, CacheTable& table, uint32_t now,
                         gpu::Buffer<uint32_t>* receivers) {
-  if (table.config.scope == "all" && !receivers)
+  if (table.config.holds_all() && !receivers)
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
   share_(work_.range(rays.count), stage,
          kernels::cache_groups::cache_share{.rays = rays.planes,

@@ -10,7 +10,7 @@ namespace wavetracer {
 
 CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_(tuning_of(context.info()).cache_rays) {
   // Links along paths and withdrawn entries are written while others read.
-  const bool writes = table.config.statistics || table.config.scope == "all";
+  const bool writes = table.config.statistics || table.config.holds_all();
   gpu::Definitions definitions = table.definitions(!writes);
   definitions["WT_RAYS_PER_ITEM"] = work_.option();
   kernel_ = {context, definitions};
@@ -19,7 +19,7 @@ CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_
 void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                              CacheTable& table, const CacheMovement& movement, uint32_t static_surfaces, uint32_t now,
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
-  if (table.config.scope == "all" && !receptions)
+  if (table.config.holds_all() && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
   kernel_(work_.range(rays.count), Stage::cache_lookup,
           kernels::cache_lookup::cache_lookup{.rays = rays.planes,

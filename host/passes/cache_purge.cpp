@@ -28,7 +28,7 @@ void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t k
                                             .keep_from = keep_from,
                                             .old = old_,
                                             .uses = table.uses});
-  if (table.config.kind == "chained") clear_old_regions(context, table);
+  if (table.config.pooled()) clear_old_regions(context, table);
 }
 
 void CachePurge::clear_old_regions(gpu::Context& context, CacheTable& table) {

@@ -19,7 +19,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
                             const gpu::Buffer<uint32_t>& indices, HitList& hits, CacheTable& table,
                             uint32_t static_surfaces, uint32_t now, const gpu::Buffer<uint32_t>* receptions,
                             gpu::Buffer<uint32_t>* receivers) {
-  if (table.config.scope == "all" && (!receptions || !receivers))
+  if (table.config.holds_all() && (!receptions || !receivers))
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
   kernel_(work_.range(missed.count), Stage::cache_store,

@@ -20,23 +20,19 @@ namespace {
 constexpr uint64_t least_share = 16;
 constexpr uint64_t most_entries = uint64_t{1} << 31;  // slots are 32-bit words, and WT_NONE is not a slot
 
-bool as_printed(const CacheConfig& config) { return config.kind == "thesis" || config.kind == "thesis-chained"; }
-
 uint32_t buckets_of(const CacheConfig& config, uint32_t entries) {
-  if (config.kind == "open" || config.kind == "thesis") return entries;
-  const double load = config.kind == "concurrent" ? WT_CACHE_BUCKET : config.load_factor;
+  if (config.in_slots()) return entries;
+  const double load = config.in_buckets() ? WT_CACHE_BUCKET : config.load_factor;
   return static_cast<uint32_t>(std::max(1.0, std::floor(entries / load)));
 }
 
 double head_words_an_entry(const CacheConfig& config) {
-  if (config.kind == "chained") return 2 + 1 / config.load_factor;
-  return as_printed(config) ? 3 : config.kind == "open" ? 2 : 1;
+  if (config.pooled()) return 2 + 1 / config.load_factor;
+  return config.as_printed() ? 3 : config.in_slots() ? 2 : 1;
 }
 
 // The first value of heads: WT_NONE in links and roots, which says that there is none; 0 in locks, counts and tags.
-uint32_t empty_head(const CacheConfig& config) {
-  return config.kind == "chained" || config.kind == "thesis-chained" ? WT_NONE : 0;
-}
+uint32_t empty_head(const CacheConfig& config) { return config.linked() ? WT_NONE : 0; }
 
 double bytes_an_entry(const CacheConfig& config) {
   return sizeof(wt_cache_entry) + 4 * (head_words_an_entry(config) + 1) +
@@ -59,7 +55,7 @@ uint32_t share_of(const CacheConfig& config, uint32_t transmitter_count, const g
         config.buffer_size, device.name, bytes, config.buffer_size * sizeof(wt_cache_entry), device.global_memory,
         device.max_buffer, fitting));
   const auto share = static_cast<uint32_t>(config.buffer_size / transmitter_count);
-  return config.kind == "concurrent" ? share / WT_CACHE_BUCKET * WT_CACHE_BUCKET : share;
+  return config.in_buckets() ? share / WT_CACHE_BUCKET * WT_CACHE_BUCKET : share;
 }
 
 // The number of bits that the numbers 0 .. count - 1 need.
@@ -67,9 +63,7 @@ uint32_t bits_of(uint32_t count) {
   return std::max(1u, static_cast<uint32_t>(std::bit_width(std::max(count, 1u) - 1)));
 }
 
-uint32_t division_of(const CacheConfig& config) {
-  return config.key == "exact" ? WT_CACHE_MAX_DIVISION : config.division;
-}
+uint32_t division_of(const CacheConfig& config) { return config.exact() ? WT_CACHE_MAX_DIVISION : config.division; }
 
 template <class T>
 void fill(gpu::Context& context, gpu::Buffer<T>& buffer, uint32_t value, uint64_t first, uint64_t count) {
@@ -96,8 +90,8 @@ CacheTable make_cache_table(gpu::Context& context, const CacheConfig& config, ui
   table.widths = {bits_of(division_of(config)), bits_of(surface_count), bits_of(primitive_count)};
   for (uint32_t r = 0; r < count; ++r) table.regions.push_back({r * share, share, r * buckets, buckets, 0, 1});
   const size_t entries = size_t{share} * count;
-  const size_t heads = config.kind == "chained" ? 2 * entries + size_t{buckets} * count
-                                                : static_cast<size_t>(head_words_an_entry(config)) * entries;
+  const size_t heads = config.pooled() ? 2 * entries + size_t{buckets} * count
+                                       : static_cast<size_t>(head_words_an_entry(config)) * entries;
   table.entries = context.buffer<wt_cache_entry>(entries, "cache entries (cache.buffer_size)");
   table.heads = context.buffer<uint32_t>(heads, "cache heads (cache.buffer_size)");
   table.used = context.buffer<uint32_t>(count, "cache regions in use");
@@ -117,14 +111,14 @@ CacheMovement make_cache_movement(gpu::Context& context) {
 gpu::Definitions CacheTable::definitions(bool bulk) const {
   gpu::Definitions d{{"WT_CACHE_DIVISION", fmt::format("{}u", division_of(config))},
                      {"WT_CACHE_HASH_METHOD", fmt::format("{}", config.hash_method)}};
-  if (config.kind == "chained") {
+  if (config.pooled()) {
     d["WT_CACHE_CHAINED"] = "1";
     d["WT_CACHE_BUCKETS_TOTAL"] = fmt::format("{}u", regions.size() * regions.front().buckets);
-  } else if (config.kind == "thesis-chained") {
+  } else if (config.linked()) {
     d["WT_CACHE_THESIS"] = d["WT_CACHE_THESIS_CHAINED"] = "1";
-  } else if (config.kind == "open" || config.kind == "thesis") {
-    d[config.kind == "open" ? "WT_CACHE_OPEN" : "WT_CACHE_THESIS"] = "1";
-    if (config.locking == "mutex") {
+  } else if (config.in_slots()) {
+    d[config.as_printed() ? "WT_CACHE_THESIS" : "WT_CACHE_OPEN"] = "1";
+    if (config.locks()) {
       d["WT_CACHE_MUTEX"] = "1";
     } else {
       d["WT_CACHE_READERS"] = fmt::format("{}u", config.readers_number);
@@ -132,14 +126,14 @@ gpu::Definitions CacheTable::definitions(bool bulk) const {
   } else {
     d["WT_CACHE_CONCURRENT"] = "1";
   }
-  if (config.key == "exact") {
+  if (config.exact()) {
     d["WT_CACHE_EXACT"] = "1";
-  } else if (config.purge == "precision") {
+  } else if (config.by_precision()) {
     d["WT_CACHE_PRECISION"] = "1";
     d["WT_CACHE_RESIDUAL"] = fmt::format("{:a}f", static_cast<float>(config.residual_value));
   }
-  if (config.hit_point == "own") d["WT_CACHE_OWN_POINT"] = "1";
-  if (config.scope == "all") d["WT_CACHE_ALL"] = "1";
+  if (config.own_points()) d["WT_CACHE_OWN_POINT"] = "1";
+  if (config.holds_all()) d["WT_CACHE_ALL"] = "1";
   if (config.statistics) d["WT_CACHE_STATISTICS"] = "1";
   if (bulk) d["WT_CACHE_BULK"] = "1";
   return d;
@@ -154,7 +148,7 @@ void CacheTable::clear(gpu::Context& context, uint32_t region) {
   const wt_cache_region& r = regions.at(region);
   const uint32_t head = empty_head(config);
   fill(context, entries, 0, r.first_entry, r.entries);
-  if (config.kind == "chained") {
+  if (config.pooled()) {
     const uint64_t all_buckets = uint64_t{r.buckets} * regions.size();
     fill(context, heads, head, r.first_bucket, r.buckets);
     fill(context, heads, head, all_buckets + 2 * uint64_t{r.first_entry}, 2 * uint64_t{r.entries});

@@ -23,11 +23,6 @@ struct CacheTable {
   gpu::Buffer<uint32_t> hits;
   gpu::Buffer<device::wt_cache_cycles> cycles;  // the same for cycles
 
-  // Is it one of the thesis' tables, faults included?
-  bool as_printed() const { return config.kind == "thesis" || config.kind == "thesis-chained"; }
-  // Does it record uses and evict entries? Other kinds overwrite entries, or, as the thesis prints them, are never
-  // cleared.
-  bool evicts() const { return config.kind == "chained" || config.kind == "concurrent"; }
   // The definitions for kernels that use lib/cache_table.clh. bulk: nothing is written while the kernel reads.
   gpu::Definitions definitions(bool bulk) const;
   uint64_t bytes() const;

@@ -32,9 +32,14 @@ Counters::Counters(gpu::Context& context) : context_(context), buffer_(context.b
   zero();
 }
 
-void Counters::zero() {
+Counters::Zeroed Counters::zero() {
   buffer_.write(std::vector<wt_counters>{{}}, 0, Stage::sequences);
-  zeroed();
+  return {};
+}
+
+void Counters::begin() {
+  foreseen_.clear();
+  in_parts_ = false;
 }
 
 void Counters::restart(Count count, uint32_t from, Stage stage) {
@@ -61,7 +66,7 @@ uint32_t Counters::length(Count count, size_t capacity, Stage stage) {
   return most;
 }
 
-bool Counters::settle(const wt_counters& now) {
+bool Counters::settles(const wt_counters& now) {
   const bool fits = now.trie_overflow == 0 &&
                     std::ranges::all_of(foreseen_, [&](const auto& list) { return now.*list.first <= list.second; });
   keep_most(most_, now);

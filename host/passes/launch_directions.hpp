@@ -14,9 +14,9 @@ namespace wavetracer {
 struct LaunchDirections {
   // rays: those of a launch, for each transmitter, 1 .. 2^31.
   LaunchDirections(Directions directions, uint64_t rays, uint64_t seed)
-      : by_table(directions == "horizon"),
+      : by_table(by_slopes(directions)),
         places("wt_place_" + (by_table ? "hilbert" : directions.text())),
-        parameter(directions == "random" ? seed : ~uint64_t{0} / rays) {
+        parameter(at_random(directions) ? seed : ~uint64_t{0} / rays) {
     // This takes the fewest cells that suffice: faces of 120 degrees are about square at the horizon, and up to eleven
     // fill the gap to the next level.
     while (uint64_t{12} << (2 * level) < rays) ++level;

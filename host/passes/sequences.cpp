@@ -38,13 +38,13 @@ void Sequences::resize(uint64_t slots) {
   clear();
 }
 
-void Sequences::clear() {
+Counters::Zeroed Sequences::clear() {
   clear_(slots_work_.range(table_.size()), Stage::sequences,
          kernels::sequences::clear{.table = table_,
                                    .quarters = quarters_,
                                    .slots = static_cast<uint32_t>(table_.size()),
                                    .counters = counters_.buffer()});
-  counters_.zeroed();
+  return {};
 }
 
 gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uint32_t oldest) {

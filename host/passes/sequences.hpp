@@ -17,7 +17,7 @@ class Sequences {
   // keep_ages: sequences stay from frame to frame, and their ages say which are still met.
   Sequences(gpu::Context& context, uint64_t slots, bool keep_ages = false);
   // Empties the set and the counters.
-  void clear();
+  Counters::Zeroed clear();
   // The set for passes that enter sequences.
   Trie trie() { return {table_, quarters_, counters_, ages(), now()}; }
   gpu::Buffer<uint64_t>& table() { return table_; }

@@ -23,8 +23,6 @@ std::vector<glm::dvec3> panel_m(const ArrayConfig& array, double wavelength_m) {
   return out;
 }
 
-uint32_t ports_of(const RadioEnd& end) { return end.polarization == "VH" || end.polarization == "cross" ? 2 : 1; }
-
 }  // namespace
 
 std::vector<double> carriers_hz(const RadioConfig& radio) {
@@ -73,8 +71,9 @@ ElementModel::ElementModel(const Config& config, const Scene& scene, std::span<c
       carriers_hz_(wavetracer::carriers_hz(config.radio)),
       plane_(config.radio.wavefront == "plane") {
   for (const RadioEnd& end : config.transmitters)
-    transmitters_.push_back({element_positions_m(config, end), ports_of(end)});
-  for (const RadioEnd& end : config.receivers) receivers_.push_back({element_positions_m(config, end), ports_of(end)});
+    transmitters_.push_back({element_positions_m(config, end), ports_of(end.polarization)});
+  for (const RadioEnd& end : config.receivers)
+    receivers_.push_back({element_positions_m(config, end), ports_of(end.polarization)});
 }
 
 }  // namespace wavetracer

@@ -136,7 +136,7 @@ Codebook load_codebook(const std::string& file, uint32_t elements) {
 
 Codebook codebook_of(const Config& config, const RadioEnd& end) {
   const auto array = std::ranges::find(config.arrays, end.array, &ArrayConfig::name);
-  if (end.array.empty() || array == config.arrays.end() || array->codebook == "none") return {};
+  if (end.array.empty() || array == config.arrays.end() || !array->has_codebook()) return {};
   if (array->codebook != "dft")
     return load_codebook(array->codebook, static_cast<uint32_t>(element_positions_m(config, end).size()));
   if (!array->positions_m.empty())
@@ -146,7 +146,7 @@ Codebook codebook_of(const Config& config, const RadioEnd& end) {
 }
 
 bool has_beams(const Config& config) {
-  return std::ranges::any_of(config.arrays, [](const ArrayConfig& array) { return array.codebook != "none"; });
+  return std::ranges::any_of(config.arrays, [](const ArrayConfig& array) { return array.has_codebook(); });
 }
 
 }  // namespace wavetracer

@@ -76,7 +76,7 @@ SavedWorld load_saved_world(const SavedRun& run, bool with_wedges) {
   if (!attempt("the scene cannot be shown", [&] { out.scene = load_scene(config); })) return out;
   attempt("streets are not shown", [&] {
     out.streets = known_streets(out.config);
-    if (config.trajectories.above == "ground" && !out.streets.empty()) drape(out.streets, out.scene);
+    if (from_ground(config.trajectories.above) && !out.streets.empty()) drape(out.streets, out.scene);
   });
   if (run.instances().empty()) return out;
   attempt("vehicles are shown without their bodies", [&] {

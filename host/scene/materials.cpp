@@ -103,12 +103,12 @@ class Resolver {
       fail("scattering_lobe must be an integer");
     if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
     const bool surface = law || fixed || m.thickness_m || m.scattering_lobe || !m.library.empty();
-    if (m.vegetation != "none" && surface)
+    if (is_vegetation(m.vegetation) && surface)
       fail(
           "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
           "remove those keys");
     const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
-    if (leaves && (surface || (m.vegetation == "none" && woodland_named(spellings(m.name)[2]) == "none")))
+    if (leaves && (surface || (!is_vegetation(m.vegetation) && !is_vegetation(woodland_named(spellings(m.name)[2])))))
       fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
   }
 
@@ -177,9 +177,9 @@ class Resolver {
   // Returns leaves and twigs if the name stands for them.
   std::optional<Material> leaves(std::string_view name, const MaterialConfig* over) {
     Woodland woodland = over ? over->vegetation : "none";
-    if (woodland == "none" && over && (gives_law(*over) || !over->library.empty())) return std::nullopt;
-    if (woodland == "none") woodland = woodland_named(spellings(name)[2]);
-    if (woodland == "none") return std::nullopt;
+    if (!is_vegetation(woodland) && over && (gives_law(*over) || !over->library.empty())) return std::nullopt;
+    if (!is_vegetation(woodland)) woodland = woodland_named(spellings(name)[2]);
+    if (!is_vegetation(woodland)) return std::nullopt;
     if (over) used_.insert("material " + over->name);
     Material out{.name = spellings(over ? over->name : name)[2]};
     out.vegetation = VegetationLaw{.deciduous = woodland == "deciduous"};

@@ -22,7 +22,7 @@ struct Tables {
 
   // The two links of an entry are side by side.
   size_t links_at(uint32_t slot) const {
-    if (table.config.kind == "thesis-chained") return 3 * size_t{slot};
+    if (table.config.as_printed()) return 3 * size_t{slot};
     return table.regions.size() * table.regions.front().buckets + 2 * size_t{slot};
   }
 
@@ -40,7 +40,7 @@ struct Tables {
   void walk_trees() {
     for (const wt_cache_region& region : table.regions)
       for (uint32_t bucket = 0; bucket < region.buckets; ++bucket) {
-        if (table.config.kind == "chained")
+        if (table.config.pooled())
           walk(heads[region.first_bucket + bucket]);
         else if (is_written(region.first_entry + bucket))
           walk(region.first_entry + bucket);
@@ -49,9 +49,9 @@ struct Tables {
 
   void find_depths() {
     depths.assign(entries.size(), 0);
-    if (table.config.kind == "chained" || table.config.kind == "thesis-chained") return walk_trees();
+    if (table.config.linked()) return walk_trees();
     for (uint32_t slot = 0; slot < entries.size(); ++slot)
-      depths[slot] = table.config.kind != "concurrent" || heads[slot] > removed_tag ? 1 : 0;
+      depths[slot] = !table.config.in_buckets() || heads[slot] > removed_tag ? 1 : 0;
   }
 };
 
@@ -70,7 +70,7 @@ void add_cache_entries(const CacheTable& table, uint32_t frame, uint32_t now, Ca
     const wt_cache_region& part = table.regions[region];
     for (uint32_t slot = part.first_entry; slot < part.first_entry + part.entries; ++slot) {
       const wt_cache_entry& entry = found.entries[slot];
-      if (!found.is_written(slot) || (table.config.kind == "concurrent" && found.depths[slot] == 0)) continue;
+      if (!found.is_written(slot) || (table.config.in_buckets() && found.depths[slot] == 0)) continue;
       rows.frame.push_back(frame);
       rows.slot.push_back(slot);
       rows.region.push_back(region);

@@ -27,8 +27,7 @@ class GroupedMisses final : public CacheMisses {
         context_(context),
         static_surfaces_(static_surfaces),
         groups_(context, table),
-        may_refuse_(table.config.key == "quantised" &&
-                    (table.config.hit_point == "own" || table.config.purge == "precision")) {}
+        may_refuse_(!table.config.exact() && (table.config.own_points() || table.config.by_precision())) {}
 
   void reserve(uint64_t rays) override {
     CacheMisses::reserve(rays);
@@ -65,12 +64,12 @@ MissTracer::MissTracer(gpu::Context& context, const DeviceScene& scene, const Ca
                        uint32_t static_surfaces, TraceShape shape, const LaunchShape& launch, RayTrails* trails)
     : context_(context),
       static_surfaces_(static_surfaces),
-      receives_(table.config.scope == "all"),
+      receives_(table.config.holds_all()),
       trails_(trails),
       compact_(context),
       scan_(context),
       gather_(context, Stage::cache_gather),
-      trace_(context, scene, shape, launch, table.config.scope == "static" ? Trace::Scope::fixed : Trace::Scope::all),
+      trace_(context, scene, shape, launch, table.config.holds_all() ? Trace::Scope::all : Trace::Scope::fixed),
       store_(context, table) {}
 
 void MissTracer::reserve(uint64_t rays) {

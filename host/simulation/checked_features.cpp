@@ -12,7 +12,7 @@ std::string CheckedFeatures::words() const {
   if (scattering) out += ", scattering";
   if (instances) out += ", vehicles";
   if (reuse) out += ", frames that follow each other";
-  if (cache.kind != "none") out += ", a ray cache (" + cache.kind.text() + ")";
+  if (cache.on()) out += ", a ray cache (" + cache.kind.text() + ")";
   return out;
 }
 

@@ -63,10 +63,8 @@ class DeviceCheck {
   }
 
   FrameResult run(FrameLoop& frames) {
-    const auto no_name = [](uint32_t) { return std::string(); };
-    return frames.run({.pose = [&] { return check_state(setup_->plan->world); },
-                       .transmitter_name = no_name,
-                       .receiver_name = no_name});
+    return frames.run(FrameTask::of_drive(
+        {.frame = 0, .pose = [&] { return check_state(setup_->plan->world); }, .names = FrameNames::none()}));
   }
 
   gpu::Context& context_;

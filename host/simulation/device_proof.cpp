@@ -19,7 +19,7 @@ std::string subject_of(const CheckedFeatures& features) {
   const CacheConfig& cache = features.cache;
   std::string out = fmt::format("device check of wavetracer {}, kernels {}: {}", WAVETRACER_VERSION,
                                 gpu::hash_of_sources(), features.words());
-  if (cache.kind != "none")
+  if (cache.on())
     out += fmt::format(" {} {} {} {} {} {} {} {}", cache.hash_method, cache.division, cache.locking.text(),
                        cache.readers_number, cache.scope.text(), cache.hit_point.text(), cache.innerframe,
                        cache.statistics);

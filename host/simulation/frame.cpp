@@ -33,7 +33,8 @@ LateCounts late_counts(const Paths& known, const Paths& all) {
 FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_.trace.discover_every_s) {
   if (s_.context.info().cpu) {
     try {
-      solve({.pose = [this] { return plan_.world.state(0); }, .compiling = true});
+      FrameTask task = FrameTask::to_compile([this] { return plan_.world.state(0); });
+      solve(task);
     } catch (const gpu::BufferError&) {
       // Real frames shorten their lists, or report the error.
     }
@@ -47,13 +48,14 @@ void FrameLoop::forget() {
   if (s_.cache) s_.cache->clear();
 }
 
-// A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of
-// blocks neither reuse sequences nor leave any.
-FrameResult FrameLoop::run(const FrameTask& task) {
-  if (task.is_block()) forget();
+// A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of a
+// part of their links neither reuse sequences nor leave any.
+FrameResult FrameLoop::run(FrameTask task) {
+  const bool whole = task.links().is_all();
+  if (!whole) forget();
   try {
     FrameResult out = solve(task);
-    if (task.is_block()) forget();
+    if (!whole) forget();
     return out;
   } catch (const FrameStopped&) {
     forget();
@@ -64,46 +66,46 @@ FrameResult FrameLoop::run(const FrameTask& task) {
   }
 }
 
-FrameResult FrameLoop::solve(const FrameTask& task) {
-  s_.context.set_profiling(task.timed);
-  FrameAccount account(s_.context, task.frame);
+FrameResult FrameLoop::solve(FrameTask& task) {
+  s_.context.set_profiling(task.is_timed());
+  FrameAccount account(s_.context, task.frame());
   FrameResult& out = account.result;
 
   out.world = task.pose();
   std::optional<LinkBlock> block;
-  if (task.is_block())
-    block = make_link_block(out.world.links, task.transmitters.value_or(TransmitterRange{0, no_end}),
-                            task.receivers.value_or(ReceiverRange{}), plan_.world.twins.receiver_of_transmitter,
-                            plan_.world.twins.transmitter_of_receiver, plan_.origins);
+  const LinkPart part = task.links();
+  if (!part.is_all())
+    block = make_link_block(out.world.links, part.transmitters(), part.receivers(),
+                            plan_.world.twins.receiver_of_transmitter, plan_.world.twins.transmitter_of_receiver,
+                            plan_.origins);
   account.end_stage(Stage::poses);
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level
   const std::vector<Link>& links = block ? block->solved : out.world.links;
   set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, plan_.origins.listeners);
   const RadioEnds& ends = ends_;
-  const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.between && warm && clock_.spares();
-  DiscoveryMark& discovery = task.discovery ? *task.discovery : discovery_;
-  const bool searches = !spared && clock_.due(out.world, !warm, discovery);
+  const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.is_between_poses() && warm && clock_.spares();
+  const bool searches = !spared && clock_.due(out.world, !warm, task.mark(discovery_));
   std::optional<Paths> known;  // computed before rays add to the sequences
-  if (searches && warm && clock_.spares()) known = known_paths(task, out.world, ends, account);
+  if (searches && warm && clock_.spares()) known = known_paths(task.frame(), out.world, ends, account);
   // Frames are alike if they do the same as the one before; those that follow rays and those of blocks of links are
   // not.
-  const bool alike = !block && !task.compiling && !known && !s_.cache && !s_.trails;
+  const bool alike = !block && !task.only_compiles() && !known && !s_.cache && !s_.trails;
   if (searches) next_frame(s_.discovery->sequences());
   if (s_.cache) s_.cache->begin_frame(out.world);
-  if (s_.trails) s_.trails->begin_frame(task.frame, ends, out.world);
+  if (s_.trails) s_.trails->begin_frame(task.frame(), ends, out.world);
 
   const auto [found, counted] = find_paths(task, out.world, ends, block ? &*block : nullptr, searches, alike, account);
   account.discovered(found);
   if (s_.cache) out.cache = s_.cache->summary();
-  if (s_.cache && plan_.asked.output.cache_entries) s_.cache->add_entries(task.frame, out.cache_entries);
+  if (s_.cache && plan_.asked.output.cache_entries) s_.cache->add_entries(task.frame(), out.cache_entries);
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   LeftOut left_out;
   out.paths = s_.finish.take(counted, left_out, &out.carriers);
-  if (!task.compiling) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
+  if (!task.only_compiles()) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
-  const bool spheres = s_.trails && s_.trails->receives();
+  const bool spheres = plan_.trace.by_spheres();
   if (s_.cache || spheres) out.paths.quarters.clear();  // their quarters do not estimate misses
   const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
   if (few) account.warn(*few);
@@ -111,12 +113,12 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, plan_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
-  if (task.left_out)
-    task.left_out->merge(left_out);
-  else if (!task.compiling)
-    account.left_out(left_out, task.transmitter_name, task.receiver_name);
+  if (part.is_batch())
+    part.add_left_out(std::move(left_out));
+  else if (!task.only_compiles())
+    account.left_out(left_out, task.names().transmitter, task.names().receiver);
   account.end_stage(Stage::columns);
-  if (s_.elements.on() && !task.compiling && !task.receivers) {
+  if (s_.elements.on() && !task.only_compiles() && !part.is_batch()) {
     s_.elements(out);
     account.end_stage(Stage::elements);
   }
@@ -128,37 +130,37 @@ FrameResult FrameLoop::solve(const FrameTask& task) {
 FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                                        const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
-  Counters& counters = set.counters();
   Found out;
-  counters.foresee(alike);
-  for (bool settled = false; !settled; counters.foresee(false)) {
-    begin_sequences(set, searches);
+  Uncounted besides;
+  const auto passes = [&] {
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
-    const Uncounted besides = s_.trails && s_.trails->receives()
-                                  ? receive_paths(ends, account)
-                                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches, *s_.frame_watch,
-                                                account);  // sequences to visible
+    besides = plan_.trace.by_spheres() ? receive_paths(ends, account)
+                                       : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches,
+                                                     *s_.frame_watch, account);  // sequences to visible
     account.end_stage(Stage::paths);
-    finish_paths(task.frame, world, ends, block ? &block->own : nullptr, true);  // distinct to fields
-    out.counted = counters.read(Stage::fields);
-    account.device_done();
-    account.counted(out.counted, ends.transmitter_count, besides);
-    settled = !alike || counters.settle(out.counted);
-  }
+    finish_paths(task.frame(), world, ends, block ? &block->own : nullptr, true);  // distinct to fields
+  };
+  out.counted = set.counters().settled(
+      alike, Stage::fields, [&] { return begin_sequences(set, searches); }, passes,
+      [&](const wt_counters& now) {
+        account.device_done();
+        account.counted(now, ends.transmitter_count, besides);
+      });
   if (out.rays.unread > 0) out.rays.add_ended(out.rays.unread, out.counted.ended);
   return out;
 }
 
 // The paths of the known sequences, by the same rules as those of the frame.
-Paths FrameLoop::known_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
-                             FrameAccount& account) {
+Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
-  set.counters().zero();
-  solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
-  account.end_stage(Stage::paths);
-  finish_paths(task.frame, world, ends, nullptr, false);
-  const wt_counters counted = set.counters().read(Stage::fields);
-  account.device_done();
+  const auto passes = [&] {
+    solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
+    account.end_stage(Stage::paths);
+    finish_paths(frame, world, ends, nullptr, false);
+  };
+  const wt_counters counted = set.counters().settled(
+      false, Stage::fields, [&] { return set.counters().zero(); }, passes,
+      [&](const wt_counters&) { account.device_done(); });
   LeftOut left_out;
   Paths out = s_.finish.take(counted, left_out, nullptr);
   account.end_stage(Stage::columns);
@@ -182,11 +184,8 @@ void FrameLoop::next_frame(Sequences& set) {
 }
 
 // A cold frame starts from nothing; others go on with the sequences that are still met.
-void FrameLoop::begin_sequences(Sequences& set, bool searches) {
-  if (searches && warm_frames_ == 0)
-    set.clear();
-  else
-    set.counters().zero();
+Counters::Zeroed FrameLoop::begin_sequences(Sequences& set, bool searches) {
+  return searches && warm_frames_ == 0 ? set.clear() : set.counters().zero();
 }
 
 // With diffraction listeners launch, too, and prefixes of both ends meet at the edge.
@@ -197,7 +196,7 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
   if (s_.slopes) tables = s_.slopes->tables(world, plan_.origins);
   for (std::vector<Launcher>* const ends : {&transmitters, &listeners}) {
     if (block) *ends = launchers_of(*block, *ends);
-    if (task.compiling) ends->resize(std::min<size_t>(ends->size(), 1));
+    if (task.only_compiles()) ends->resize(std::min<size_t>(ends->size(), 1));
     if (!s_.trails) *ends = s_.launch_sides.of(*ends, world);  // trails follow one launch of each transmitter
     for (Launcher& launcher : *ends)
       if (s_.slopes) launcher.heights = tables.of_origin[launcher.transmitter];
@@ -211,7 +210,7 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
   std::vector<Launch> launches =
       frame_launches(plan_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
   for (Launch& launch : launches)
-    if (task.compiling) launch.share = few_directions(launch.rays);
+    if (task.only_compiles()) launch.share = few_directions(launch.rays);
   return s_.discovery->find_all(s_.device_scene, launches);
 }
 

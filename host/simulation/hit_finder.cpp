@@ -8,7 +8,7 @@ namespace wavetracer {
 // launched or sorted in order.
 TraceShape choose_shape(const gpu::DeviceInfo& device, const TraceConfig& trace, const OrderPlan& order) {
   if (!device.cpu) return TraceShape::bvh2;
-  return trace.directions == "random" && !order.key ? TraceShape::bvh8 : TraceShape::packet16;
+  return at_random(trace.directions) && !order.key ? TraceShape::bvh8 : TraceShape::packet16;
 }
 
 TracedHits::TracedHits(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch)

@@ -121,7 +121,7 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
         fmt::format("{} -> {} has no path", world.transmitters.ends[link.tx].name, world.receivers.ends[link.rx].name);
     const std::vector<Obstacle> obstacles = lines.obstacles(link);
     if (obstacles.empty())
-      return text + (config.trace.reception == "sphere"
+      return text + (config.trace.by_spheres()
                          ? ": no ray passed through the sphere of the receiver; use more rays (trace.rays)"
                          : ", although nothing blocks its direct line");
     text += fmt::format(": its direct line meets {} ({}) after {:.4g} m", obstacles[0].name,

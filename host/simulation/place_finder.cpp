@@ -36,7 +36,7 @@ std::array<double, 3> PlaceFinder::position_m(const RadioEnd& end) {
     const auto& [latitude, longitude, height_m] = *end.position_wgs84;
     const glm::dvec2 place_m = from_degrees({longitude, latitude}, fmt::format("\"{}\"", end.name));
     out = {place_m.x, place_m.y, height_m};
-  } else if (end.above == "zero") {
+  } else if (!from_ground(end.above)) {
     return out;
   }
   const std::optional<double> below_m = ground_m({out[0], out[1]});

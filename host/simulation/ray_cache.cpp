@@ -40,7 +40,7 @@ bool moved(const Placement& a, const Placement& b, double step_m) {
 }  // namespace
 
 void check_cache(const Config& config, const World& world) {
-  if (config.cache.kind == "none") return;
+  if (!config.cache.on()) return;
   check_cache_share(config.cache, make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver,
                                                config.trace.diffraction)
                                       .count());
@@ -67,7 +67,7 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       movement_(make_cache_movement(context)),
       lookup_(context, table_),
       purge_(context, table_),
-      trails_(config.scope == "all" ? reception.trails : nullptr),
+      trails_(config.holds_all() ? reception.trails : nullptr),
       misses_(make_cache_misses(context, table_, world.static_surfaces,
                                 {context, scene, table_, world.static_surfaces, shape, launch, trails_})),
       compact_(context),
@@ -76,14 +76,14 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       keys_(world.transmitters),
       instance_since_(world.instances),
       used_(world.transmitters) {
-  if (world.instances > 0 && config.scope == "static") trace_moving_.emplace(context, scene);
+  if (world.instances > 0 && !config.holds_all()) trace_moving_.emplace(context, scene);
   if (world.instances > 0) movement_.instance_since = context.buffer(instance_since_, "instances moved");
   if (trails_) movement_.radius_m = static_cast<float>(reception.radius_m);
 }
 
 std::optional<AnsweredRays> RayCache::answered(uint32_t depth) const {
   if (!asked(depth)) return {};
-  return AnsweredRays{answers_.missed, trails_ ? &answers_.receivers : nullptr, table_.config.scope == "all"};
+  return AnsweredRays{answers_.missed, trails_ ? &answers_.receivers : nullptr, table_.config.holds_all()};
 }
 
 void RayCache::count_blocks(const RayQueue& rays, HitList& hits, uint32_t depth) {
@@ -107,7 +107,7 @@ void RayCache::begin_frame(const WorldState& world) {
   frame_summary_.on = true;
   table_.counters.write(std::vector<device::wt_cache_counters>(1), 0, Stage::cache_purge);
   if (touch_) purge();
-  touch_ = table_.evicts() && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
+  touch_ = table_.config.evicts() && std::ranges::any_of(std::views::iota(size_t{0}, used_.size()), [this](size_t r) {
              return used_[r] > filling * table_.regions[r].entries;
            });
   note_positions(world.transmitters);
@@ -117,7 +117,7 @@ void RayCache::begin_frame(const WorldState& world) {
 
 // Removes entries that no ray of the last frame used, where a region is nearly full.
 void RayCache::purge() {
-  bool wanted = table_.config.kind == "chained" && counters_.exhausted > 0;
+  bool wanted = table_.config.pooled() && counters_.exhausted > 0;
   for (size_t r = 0; r < used_.size(); ++r) wanted = wanted || used_[r] > full * table_.regions[r].entries;
   if (wanted) purge_(context_, table_, frame_ - 1);
 }
@@ -125,7 +125,7 @@ void RayCache::purge() {
 // Algorithm 3: entries from before the transmitter's position key changed are stale.
 void RayCache::note_positions(const std::vector<EndState>& transmitters) {
   const CacheConfig& config = table_.config;
-  if (config.key != "quantised" || config.purge != "position") return;
+  if (!config.by_position()) return;
   bool changed = false;
   for (size_t r = 0; r < keys_.size(); ++r) {
     const uint64_t key = position_key(transmitters[r].position_m, config.position_step_m);
@@ -134,7 +134,7 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
     table_.regions[r].since = frame_;
     table_.regions[r].stamp = device::wt_cache_tag(key, 0);
     changed = true;
-    if (!table_.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
+    if (!table_.config.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
     frame_summary_.evicted += used_[r];
     table_.clear(context_, static_cast<uint32_t>(r));
   }
@@ -143,7 +143,7 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
 
 // Section 3.2.3, movement of objects: entries on instances that have moved are stale.
 void RayCache::note_movement(std::span<const Placement> instances) {
-  if (table_.config.scope != "all" || instances.empty()) return;
+  if (!table_.config.holds_all() || instances.empty()) return;
   const bool first = placements_.empty();
   placements_.resize(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
@@ -170,7 +170,7 @@ void RayCache::note_receivers(const std::vector<EndState>& receivers) {
 void RayCache::reserve(uint64_t rays) {
   misses_->reserve(rays);
   answers_.missed = context_.buffer<float>(misses_->capacity(), "missed");
-  if (table_.config.scope == "all")
+  if (table_.config.holds_all())
     answers_.receivers = context_.buffer<uint32_t>(misses_->capacity(), "cached receptions");
 }
 

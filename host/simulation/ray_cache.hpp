@@ -47,7 +47,7 @@ class RayCache final : public HitFinder {
            TraceShape shape, const LaunchShape& launch, CachedReception reception = {});
   void reserve(uint64_t rays) override;
   // Is it the thesis' table with its faults, whose answers may be those of other keys?
-  bool as_printed() const { return table_.as_printed(); }
+  bool as_printed() const { return table_.config.as_printed(); }
   // Removes everything: the next frame meets an empty table.
   void clear();
   // Begins a frame: purges regions of transmitters that have moved away and, if room is short, unused entries.

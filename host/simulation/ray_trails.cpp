@@ -33,7 +33,7 @@ std::vector<uint32_t> chosen(const LaunchPart& part, uint64_t wanted) {
 RayTrails::RayTrails(gpu::Context& context, const TraceConfig& trace, uint64_t samples_a_transmitter, uint32_t depth,
                      const SurfaceTable& surfaces)
     : wanted_(samples_a_transmitter), depth_(depth), surfaces_(surfaces), waypoints_(context, depth) {
-  if (trace.reception == "sphere") reception_.emplace(context, trace.sphere_radius_m);
+  if (trace.by_spheres()) reception_.emplace(context, trace.sphere_radius_m);
 }
 
 void RayTrails::begin_frame(uint32_t frame, const RadioEnds& ends, const WorldState& world) {

@@ -98,7 +98,7 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
       for (uint32_t ix = 0; ix < shape.columns; ++ix) {
         const glm::dvec2 place_m{shape.x_m + ix * shape.step_m, shape.y_m + iy * shape.step_m};
         const double zero_m =
-            grid.above == "ground" ? places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z) : 0;
+            from_ground(grid.above) ? places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z) : 0;
         RadioEnd end{.name = fmt::format("{}/{},{}", grid.name, ix, iy),
                      .position_m = {place_m.x, place_m.y, zero_m + grid.height_m},
                      .antenna = grid.antenna,

@@ -16,16 +16,12 @@ Config with_all_ends(Config config, const World& world) {
   return config;
 }
 
-bool receives_by_spheres(const TraceConfig& trace) { return trace.reception == "sphere"; }
-
 // A sphere receives what this frame's rays meet.
 bool reuses(const TraceConfig& trace, const World& world, bool frames_follow) {
-  return trace.reuse && !receives_by_spheres(trace) && (world.clock.frame_count() > 1 || world.live || frames_follow);
+  return trace.reuse && !trace.by_spheres() && (world.clock.frame_count() > 1 || world.live || frames_follow);
 }
 
 }  // namespace
-
-bool RunPlan::by_spheres() const { return receives_by_spheres(trace); }
 
 Config RunPlan::computed() const {
   Config out = asked;

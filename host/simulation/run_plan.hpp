@@ -24,8 +24,6 @@ struct RunPlan {
   Origins origins;
   bool reuse;  // frames reuse the sequences of earlier frames
 
-  // Receivers get the rays that pass through their spheres, instead of exact paths.
-  bool by_spheres() const;
   // Rays may meet something.
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.fleet.instances.empty(); }
   // `asked` with `trace`, for what needs all of a configuration. It copies all ends.

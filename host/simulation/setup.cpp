@@ -42,14 +42,14 @@ SceneOnDevice upload(gpu::Context& context, const RunPlan& plan) {
 
 OrderChoice make_order(gpu::Context& context, const RunPlan& plan, const DeviceScene& scene) {
   const Config& asked = plan.asked;
-  if (asked.order.method != "auto") return {plan_order(asked.order, asked.launch), ""};
+  if (!asked.order.by_trial()) return {plan_order(asked.order, asked.launch), ""};
   return choose_order(context, plan.scene, scene, asked.order, asked.launch, plan.trace,
                       first_transmitters(plan.world));
 }
 
 std::unique_ptr<RayTrails> make_trails(gpu::Context& context, const RunPlan& plan) {
   const uint64_t waypoints = plan.asked.output.waypoints;
-  if (!plan.by_spheres() && waypoints == 0) return nullptr;
+  if (!plan.trace.by_spheres() && waypoints == 0) return nullptr;
   const Fleet& fleet = plan.world.fleet;
   return std::make_unique<RayTrails>(context, plan.trace, waypoints, tracing_depth(plan.trace).reflections,
                                      SurfaceTable(plan.scene, fleet.models, fleet.instances));
@@ -58,16 +58,16 @@ std::unique_ptr<RayTrails> make_trails(gpu::Context& context, const RunPlan& pla
 std::optional<LaunchWindows> make_windows(const RunPlan& plan, bool followed) {
   std::optional<LaunchWindows> out;
   const Fleet& fleet = plan.world.fleet;
-  if (!plan.by_spheres())
-    out.emplace(plan.scene, fleet.models, fleet.instances, followed || plan.asked.cache.kind != "none");
+  if (!plan.trace.by_spheres())
+    out.emplace(plan.scene, fleet.models, fleet.instances, followed || plan.asked.cache.on());
   return out;
 }
 
 std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan, const DeviceScene& scene,
                                      const OrderPlan& order, RayTrails* trails) {
-  if (plan.asked.cache.kind == "none") return nullptr;
+  if (!plan.asked.cache.on()) return nullptr;
   CachedReception reception;
-  if (plan.by_spheres()) reception = {trails, plan.trace.sphere_radius_m};
+  if (plan.trace.by_spheres()) reception = {trails, plan.trace.sphere_radius_m};
   return std::make_unique<RayCache>(context, scene, plan.asked.cache,
                                     cache_world(plan.scene, plan.world, plan.origins.count()),
                                     choose_shape(context.info(), plan.trace, order), order.launch, reception);
@@ -91,9 +91,9 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
   LaunchSides launch_sides(scene, world.fleet.models, world.fleet.instances);
   stages.end("build");
   const OrderChoice order = make_order(context, *plan, device_scene);
-  if (config.order.method == "auto") stages.end("order");
+  if (config.order.by_trial()) stages.end("order");
   std::optional<LaunchSlopes> slopes;
-  if (trace.directions == "horizon") slopes.emplace(*around, world.reach_m);
+  if (by_slopes(trace.directions)) slopes.emplace(*around, world.reach_m);
   auto trails = make_trails(context, *plan);
   auto windows = make_windows(*plan, trails != nullptr);
   auto cache = make_cache(context, *plan, device_scene, order.plan, trails.get());

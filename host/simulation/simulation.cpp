@@ -21,32 +21,37 @@ struct Simulation::State {
 
   const RunPlan& plan() const { return *setup.plan; }
 
-  // Makes tasks for frames of the configuration's own ends.
-  FrameTask task(uint32_t frame) const {
-    const auto name = [](const std::vector<RadioEnd>& ends) { return [&](uint32_t end) { return ends[end].name; }; };
-    return {.frame = frame,
-            .pose = [this, frame] { return plan().world.state(frame); },
-            .transmitter_name = name(plan().asked.transmitters),
-            .receiver_name = name(plan().asked.receivers)};
+  FrameNames names() const { return FrameNames::of(plan().asked); }
+
+  // Makes the task of a frame of the drive, for links that may be a part of them.
+  using TaskOf = std::function<FrameTask(const LinkPart& links)>;
+  TaskOf tasks(uint32_t frame, bool profiled) const {
+    return [this, frame, profiled](const LinkPart& links) {
+      return FrameTask::of_drive({.frame = frame,
+                                  .pose = [this, frame] { return plan().world.state(frame); },
+                                  .names = names(),
+                                  .timed = profiled},
+                                 links);
+    };
   }
 
-  // Runs a frame. If it reuses nothing, it may be solved in batches of receivers, which are halved if their lists are
-  // too long for the device.
-  FrameResult run(FrameTask task) {
+  // Runs a frame, or the part of it with these links. If it reuses nothing, it may be solved in batches of receivers,
+  // which are halved if their lists are too long for the device.
+  FrameResult run(const TaskOf& task, const LinkPart& links) {
     const bool whole = plan().reuse || !block_obstacle(plan().asked).empty();
     const auto receivers = static_cast<uint32_t>(plan().world.receivers.ends.size());
-    if (whole || receivers < 2) return frames.run(task);
+    if (whole || receivers < 2) return frames.run(task(links));
     std::deque<ReceiverRange> left;
     for (const ReceiverRange& batch : receiver_batches(plan().trace, receivers, fitting))
       left.push_back({batch.first, std::min(batch.end, receivers)});
     if (left.size() == 1) {
       try {
-        return frames.run(task);
+        return frames.run(task(links));
       } catch (const gpu::BufferError&) {
         halve(left);
       }
     }
-    return run_batches(std::move(task), std::move(left));
+    return run_batches(task, links, std::move(left));
   }
 
   // Splits the first batch into two, and later frames begin with none that is longer.
@@ -58,15 +63,13 @@ struct Simulation::State {
     left.push_front({first, middle});
   }
 
-  FrameResult run_batches(FrameTask task, std::deque<ReceiverRange> left) {
+  FrameResult run_batches(const TaskOf& task, const LinkPart& links, std::deque<ReceiverRange> left) {
     std::vector<FrameResult> parts;
     LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
-    task.left_out = &left_out;
     while (!left.empty()) {
       setup.frame_watch->set_part(parts.size(), parts.size() + left.size());
-      task.receivers = left.front();
       try {
-        parts.push_back(frames.run(task));
+        parts.push_back(frames.run(task(links.batch(left.front(), left_out))));
         left.pop_front();
       } catch (const gpu::BufferError&) {
         if (left.front().end - left.front().first < 2) throw;
@@ -81,8 +84,7 @@ struct Simulation::State {
           "time, for each of which the transmitters launch their rays again{}",
           setup.device.name, fitting,
           plan().trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
-    if (!left_out.empty())
-      out.warnings.push_back(left_out_warning(left_out, task.transmitter_name, task.receiver_name));
+    if (!left_out.empty()) out.warnings.push_back(left_out_warning(left_out, names().transmitter, names().receiver));
     if (setup.elements.on()) {  // for all links at once
       Stopwatch watch;
       setup.elements(out);
@@ -91,18 +93,15 @@ struct Simulation::State {
     return out;
   }
 
-  // Runs a frame of a live world. pose: gives the world, and sets the names in the frame.
-  LiveFrame live_frame(const LiveTraffic& traffic, DiscoveryMark& discovery, bool between,
-                       const std::function<WorldState(LiveNames&)>& pose) {
+  // Runs a frame of a live world. pose: gives the world, and sets the names in the frame; task: makes its task.
+  LiveFrame live_frame(uint32_t frame, const std::function<WorldState(LiveNames&)>& pose,
+                       const std::function<FrameTask(FrameInput)>& task) {
     LiveFrame out;
-    FrameTask task{.transmitter_name = [&](uint32_t end) { return out.transmitters[end]; },
-                   .receiver_name = [&](uint32_t end) { return out.receivers[end]; }};
-    task.frame = traffic.frames;
-    task.discovery = &discovery;
-    task.between = between;
-    task.pose = [&] { return pose(out); };
-    task.timed = timed();
-    out.result = frames.run(task);
+    out.result = frames.run(task({.frame = frame,
+                                  .pose = [&] { return pose(out); },
+                                  .names = {[&](uint32_t end) { return out.transmitters[end]; },
+                                            [&](uint32_t end) { return out.receivers[end]; }},
+                                  .timed = timed()}));
     return out;
   }
 
@@ -143,8 +142,8 @@ std::vector<std::string> Simulation::warnings() const {
     out.push_back(fmt::format(
         "cache.kind = \"{}\" is the table as A. Zhdanov's thesis prints it, with its faults: rays get results of "
         "others, so that paths are missing{}; it is for comparison, and \"{}\" is the table without them",
-        plan.asked.cache.kind.text(), plan.asked.trace.reception == "sphere" ? " or wrong" : "",
-        plan.asked.cache.kind == "thesis" ? "open" : "chained"));
+        plan.asked.cache.kind.text(), plan.asked.trace.by_spheres() ? " or wrong" : "",
+        plan.asked.cache.linked() ? "chained" : "open"));
   if (frame_count() > 1 && !plan.world.live)
     if (const auto text = unmeasured_warning(plan.trace.discover_every_s, plan.world.clock.step_s(), frame_count(),
                                              plan.asked.output.shard_frames))
@@ -171,15 +170,13 @@ const Features& Simulation::features() const { return state_->plan().features; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup.stages.seconds(); }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
-  FrameTask task = state_->task(frame);
-  task.timed = state_->timed();
-  return state_->run(std::move(task));
+  return state_->run(state_->tasks(frame, state_->timed()), LinkPart());
 }
 
 std::string block_obstacle(const Config& config) {
   if (!config.trace.rays) return "trace.rays = \"auto\" looks at the rays of all transmitters together";
-  if (config.trace.reception != "exact") return "trace.reception = \"" + config.trace.reception.text() + "\"";
-  if (config.cache.kind != "none") return "all transmitters share one ray cache (cache.kind)";
+  if (config.trace.by_spheres()) return "trace.reception = \"" + config.trace.reception.text() + "\"";
+  if (config.cache.on()) return "all transmitters share one ray cache (cache.kind)";
   if (config.output.waypoints > 0) return "output.waypoints follows the rays of all transmitters";
   return {};
 }
@@ -187,29 +184,31 @@ std::string block_obstacle(const Config& config) {
 FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters) {
   if (const std::string why = block_obstacle(config()); !why.empty())
     throw ConfigError("a frame of this configuration cannot be cut into blocks of transmitters: " + why);
-  FrameTask task = state_->task(frame);
-  task.transmitters = transmitters;
-  return state_->run(std::move(task));
+  return state_->run(state_->tasks(frame, true), LinkPart(transmitters));
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {
-  return state_->live_frame(traffic, traffic.discovery, false, [&](LiveNames& names) {
+  const auto pose = [&](LiveNames& names) {
     const World& world = state_->plan().world;
     const std::vector<PlacedPose> placed = world.live_places().place(traffic, time_s, poses);
     WorldState state = world.state(time_s, placed);
     ++traffic.frames;
     names = world.names(placed);
     return state;
-  });
+  };
+  return state_->live_frame(traffic.frames, pose,
+                            [&](FrameInput input) { return FrameTask::of_poses(std::move(input), traffic.discovery); });
 }
 
 LiveFrame Simulation::run_between(const LiveTraffic& traffic, double time_s) {
-  DiscoveryMark discovery = traffic.discovery;
-  return state_->live_frame(traffic, discovery, true, [&](LiveNames& names) {
+  const auto pose = [&](LiveNames& names) {
     const World& world = state_->plan().world;
     const std::vector<PlacedPose> placed = world.live_places().between(traffic, time_s);
     names = world.names(placed);
     return world.state(time_s, placed);
+  };
+  return state_->live_frame(traffic.frames, pose, [&](FrameInput input) {
+    return FrameTask::between_poses(std::move(input), traffic.discovery);
   });
 }
 

@@ -73,7 +73,7 @@ void add_mounted(EndsOfRole& role, const MountConfig& mount, const Fleet& fleet,
                  uint32_t track) {
   const Track& vehicle = fleet.trajectories.tracks[track];
   const MountedEnd end{track, offset_of(mount, fleet, track), rotation_of(mount.orientation_deg),
-                       mount.above == "ground"};
+                       from_ground(mount.above)};
   const EndState first = mounted_at(end, fleet, ground, vehicle_at(vehicle, vehicle.samples.front().time_s));
   role.mounted.push_back(end);
   role.ends.push_back(radio_end(mount, vehicle, first, ground.origin_m));
@@ -95,7 +95,7 @@ std::optional<double> GroundBelow::height_m(const glm::dvec3& place_m) const {
 }
 
 GroundBelow ground_below(const std::vector<MountConfig>& mounts, PlaceFinder& places, const glm::dvec3& origin_m) {
-  const bool asked = std::ranges::any_of(mounts, [](const MountConfig& m) { return m.above == "ground"; });
+  const bool asked = std::ranges::any_of(mounts, [](const MountConfig& m) { return from_ground(m.above); });
   return {asked ? places.ground() : nullptr, origin_m};
 }
 
@@ -126,8 +126,8 @@ WorldEnds with_mounts(WorldEnds standing, const std::vector<MountConfig>& mounts
       if (const std::string name = track.id + "/" + mount.name; !taken.insert(name).second)
         throw ConfigError(fmt::format(
             "[[mount]] \"{}\": a radio end of the name \"{}\" exists already: rename one of them", mount.name, name));
-      if (mount.role != "receiver") add_mounted(out.transmitters, mount, fleet, ground, k);
-      if (mount.role != "transmitter") add_mounted(out.receivers, mount, fleet, ground, k);
+      if (sends(mount.role)) add_mounted(out.transmitters, mount, fleet, ground, k);
+      if (receives(mount.role)) add_mounted(out.receivers, mount, fleet, ground, k);
     }
   }
   return out;

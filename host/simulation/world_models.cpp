@@ -144,10 +144,10 @@ VehicleType VehicleModels::sized(const VehicleTypeConfig& row) {
     known = {row.name, extent_m.x, extent_m.y, extent_m.z};
   }
   // A vehicle without a body needs no size: its place is where its file puts it.
-  if (row.model == "none" && !known) known = VehicleType{row.name, 0, 0, 0};
+  if (!row.has_body() && !known) known = VehicleType{row.name, 0, 0, 0};
   for (double VehicleType::*size : {&VehicleType::length_m, &VehicleType::width_m, &VehicleType::height_m}) {
     if (out.*size > 0) continue;
-    if (!known || (!((*known).*size > 0) && row.model != "none"))
+    if (!known || (!((*known).*size > 0) && row.has_body()))
       throw ConfigError(fmt::format("vehicle_type \"{}\": {}: give length_m, width_m and height_m", row.name,
                                     is_mesh(row) ? row.model + " is flat" : "SUMO has no vehicle class of this name"));
     out.*size = (*known).*size;

@@ -32,7 +32,7 @@ Trajectories read(const TrajectoriesConfig& config, const VehicleModels& vehicle
   options.containers = config.containers;
   options.types = vehicles.given_types();
   options.default_type = vehicles.default_type();
-  options.above_ground = config.above == "ground";
+  options.above_ground = from_ground(config.above);
   options.ground = ground_of(places);
   if (places.has_georeference())
     options.from_degrees = [&](const glm::dvec2& degrees) { return places.from_degrees(degrees, config.file); };
@@ -70,7 +70,7 @@ Trajectories connect(const std::vector<TrackConfig>& tracks, const VehicleModels
                       "of SUMO: add a [[vehicle_type]] with its length_m, width_m and height_m",
                       track.id, track.type));
     type->name = track.type;
-    const bool above_ground = track.above == "ground" || !track.waypoints_wgs84.empty();
+    const bool above_ground = from_ground(track.above) || !track.waypoints_wgs84.empty();
     out.push_back({track.id, *type, waypoints_of(track, places), above_ground});
   }
   return connect_waypoints(out, ground_of(places));

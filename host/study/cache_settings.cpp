@@ -90,7 +90,7 @@ Setting precision(double residual, uint32_t hash_method) {
 Setting as_printed(Setting setting) {
   return {"printed " + setting.name, [apply = std::move(setting.apply)](Config& config) {
             apply(config);
-            config.cache.kind = config.cache.kind == "chained" ? CacheKind("thesis-chained") : CacheKind("thesis");
+            config.cache.kind = config.cache.pooled() ? CacheKind("thesis-chained") : CacheKind("thesis");
           }};
 }
 

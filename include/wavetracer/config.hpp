@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "wavetracer/cache_config.hpp"
 #include "wavetracer/choice.hpp"
 #include "wavetracer/material_config.hpp"
 #include "wavetracer/outdoors_config.hpp"
@@ -48,8 +49,12 @@ struct RadioConfig {
 // The antenna patterns that are built in (else: a pattern file), and the ports of an antenna.
 using NamedAntenna = Choice<"isotropic", "short-dipole", "dipole", "tr38901">;
 using Polarization = Choice<"V", "H", "VH", "cross">;
+constexpr uint32_t ports_of(Polarization polarization) {
+  return polarization == "VH" || polarization == "cross" ? 2 : 1;
+}
 
 using HeightAbove = Choice<"zero", "ground">;
+constexpr bool from_ground(HeightAbove above) { return above == "ground"; }
 
 struct RadioEnd {  // [[transmitter]], [[receiver]] or [[station]]
   std::string name;
@@ -75,6 +80,8 @@ struct ArrayConfig {  // [[array]]: the positions of the elements of ends
   // Instead of a panel: positions of elements, in the antenna's axes.
   std::vector<std::array<double, 3>> positions_m = {};
   std::string codebook = "none";  // a NamedCodebook, or a codebook file
+
+  bool has_codebook() const { return codebook != "none"; }
 };
 
 struct ResponseConfig {                     // [response]: the channel at subcarriers, for all pairs of elements
@@ -135,9 +142,13 @@ struct VehicleTypeConfig {  // [[vehicle_type]]: the body of a type of the traje
   // Not given: the size of the mesh file, or else of SUMO's vehicle class of this name.
   std::optional<double> length_m = {}, width_m = {}, height_m = {};
   std::string material = "metal";  // radio material of meshes that name none
+
+  bool has_body() const { return model != "none"; }
 };
 
 using MountRole = Choice<"transmitter", "receiver", "both">;
+constexpr bool sends(MountRole role) { return role != "receiver"; }
+constexpr bool receives(MountRole role) { return role != "transmitter"; }
 
 struct MountConfig {     // [[mount]]: an antenna on vehicles
   std::string name;      // the end is called VEHICLE/NAME
@@ -165,6 +176,12 @@ struct TimeConfig {                      // [time]: frames of a drive
 };
 
 using Directions = Choice<"horizon", "hilbert", "fibonacci", "random">;
+// Heights are spread by tables of the slopes that paths can have.
+constexpr bool by_slopes(Directions directions) { return directions == "horizon"; }
+// Neighbours in the launch are neighbours on a Hilbert curve, whose cells can be split.
+constexpr bool along_curve(Directions directions) { return directions == "horizon" || directions == "hilbert"; }
+constexpr bool at_random(Directions directions) { return directions == "random"; }
+
 using Reception = Choice<"exact", "sphere">;
 
 struct TraceConfig {
@@ -189,6 +206,9 @@ struct TraceConfig {
   uint64_t seed = 1;
   std::optional<uint64_t> batch_rays = {};       // number of rays traced at once; not given: chosen for the device
   std::optional<uint32_t> batch_receivers = {};  // number of ray-launching receivers computed at once; not given: 8192
+
+  // Receivers get the rays that pass through their spheres, instead of exact paths.
+  bool by_spheres() const { return reception == "sphere"; }
 };
 
 // Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the given word.
@@ -200,6 +220,9 @@ struct OrderConfig {
   OrderMethod method = "none";
   bool each_depth = false;
   uint32_t bin_num = 16;  // bins per direction component, histogram methods
+
+  // The method is the one that a trial on the device finds fastest.
+  bool by_trial() const { return method == "auto"; }
 };
 
 using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
@@ -207,32 +230,6 @@ using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
 struct LaunchConfig {
   LaunchDimensions shape = "auto";
   std::optional<uint32_t> local_size = {};  // work-items per work-group; not given: chosen for the device
-};
-
-using CacheKind = Choice<"none", "chained", "open", "concurrent", "thesis", "thesis-chained">;
-using CacheKey = Choice<"quantised", "exact">;
-using CacheLocking = Choice<"mutex", "readers">;
-using CachePurging = Choice<"position", "precision">;
-using CacheScope = Choice<"static", "all">;
-using CacheHitPoint = Choice<"own", "cached">;
-
-struct CacheConfig {
-  CacheKind kind = "none";
-  CacheKey key = "quantised";        // quantised: primitive and cells of directions; exact: the ray itself
-  uint32_t hash_method = 3;          // 1 uniform, 2 Morton, 3 mixed
-  uint32_t division = 200000;        // cells per direction component, of a quantised key
-  uint64_t buffer_size = 1048576;    // entries, shared evenly by the transmitters
-  double load_factor = 3;            // chained: entries per bucket, on average
-  CacheLocking locking = "readers";  // only for an open table
-  uint32_t readers_number = 5;       // open, readers: an entry must be renewed after this many reads
-  CachePurging purge = "position";
-  double position_step_m = 0.1;     // step of the transmitter's position key
-  double residual_value = 0.0125;   // precision: largest L1 distance of origins and directions
-  CacheScope scope = "static";      // static: vehicles and receivers are tested every time; all: they are cached too
-  CacheHitPoint hit_point = "own";  // of an answered ray: own (its line meets the surface), cached (of the other ray)
-  uint32_t first_depth = 1;         // segments before this one of a ray, counted from 1, are always traced
-  bool innerframe = false;          // trace one ray of each group of equal keys at a depth; the others take its hit
-  bool statistics = false;          // count hits per entry, and entries linked along paths
 };
 
 struct OutputConfig {

@@ -11,6 +11,7 @@ namespace wavetracer {
 
 // The measurements for the largest attenuation of vegetation, see VegetationLaw (wavetracer/scene.hpp).
 using Woodland = Choice<"none", "mixed", "deciduous">;
+constexpr bool is_vegetation(Woodland woodland) { return woodland != "none"; }
 
 struct MaterialConfig {  // [[material]]: overrides or adds a radio material by name
   std::string name;

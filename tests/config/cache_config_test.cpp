@@ -2,6 +2,10 @@
 // The ray cache, reception spheres and waypoints in config files: accepted and refused values, and the places of
 // errors. Texts are written here by hand; lines and columns are counted in them, not computed by the parser.
 #include <doctest/doctest.h>
+
+#include <array>
+#include <iterator>
+
 #include "config/texts.hpp"
 
 using namespace wavetracer;
@@ -16,6 +20,46 @@ namespace {
 std::string of(const std::string& line) { return error_of(scene + line + "\n" + ends); }
 
 }  // namespace
+
+// The documented properties of each kind (docs/ray_caches.md, docs/design/ray_caches.md).
+TEST_CASE("the questions about a cache, for each of its kinds") {
+  struct Row {
+    CacheKind kind;
+    bool on, as_printed, linked, pooled, in_slots, in_buckets, evicts;
+  };
+  const Row rows[] = {
+      {"none", false, false, false, false, false, false, false},
+      {"chained", true, false, true, true, false, false, true},
+      {"open", true, false, false, false, true, false, false},
+      {"concurrent", true, false, false, false, false, true, true},
+      {"thesis", true, true, false, false, true, false, false},
+      {"thesis-chained", true, true, true, false, false, false, false},
+  };
+  REQUIRE(std::size(rows) == CacheKind::words.size());
+  for (const Row& row : rows) {
+    CAPTURE(row.kind.word());
+    const CacheConfig cache{.kind = row.kind};
+    CHECK(cache.on() == row.on);
+    CHECK(cache.as_printed() == row.as_printed);
+    CHECK(cache.linked() == row.linked);
+    CHECK(cache.pooled() == row.pooled);
+    CHECK(cache.in_slots() == row.in_slots);
+    CHECK(cache.in_buckets() == row.in_buckets);
+    CHECK(cache.evicts() == row.evicts);
+  }
+}
+
+TEST_CASE("an exact key is purged by nothing, a quantised one by position or precision") {
+  CHECK(CacheConfig{.key = "quantised", .purge = "position"}.by_position());
+  CHECK(CacheConfig{.key = "quantised", .purge = "precision"}.by_precision());
+  for (const CachePurging purge : std::to_array<CachePurging>({"position", "precision"})) {
+    const CacheConfig exact{.key = "exact", .purge = purge};
+    CHECK(exact.exact());
+    CHECK(!exact.by_position());
+    CHECK(!exact.by_precision());
+    CHECK(CacheConfig{.purge = purge}.by_position() != CacheConfig{.purge = purge}.by_precision());
+  }
+}
 
 TEST_CASE("every key of the cache is read, and the resolved config reads back the same") {
   const Config c = parse_config(scene + R"([cache]

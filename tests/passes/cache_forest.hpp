@@ -61,7 +61,7 @@ struct Forest {
     x = (x ^ x >> 33) * 0xFF51AFD7ED558CCDu;
     x = (x ^ x >> 33) * 0xC4CEB9FE1A85EC53u;
     Key key{x ^ x >> 33, e.cells, e.left};
-    if (table_.config.key == "exact") {
+    if (table_.config.exact()) {
       key[3] = pair(e.origin[0], e.origin[1]);
       key[4] = pair(e.origin[2], e.direction[0]);
       key[5] = pair(e.direction[1], e.direction[2]);

@@ -26,7 +26,7 @@ std::vector<CachedRay> rays_with_twins(uint32_t seed, size_t count) {
 // This follows the definition of the key (docs/architecture.md), without the hashes and cells of the cache.
 bool same_key(const CacheConfig& config, const CachedRay& a, const CachedRay& b) {
   if (a.region != b.region || a.left != b.left) return false;
-  if (config.key == "exact") return a.origin == b.origin && a.direction == b.direction;
+  if (config.exact()) return a.origin == b.origin && a.direction == b.direction;
   const auto cell = [&](float x) {
     const auto last = static_cast<int64_t>(config.division) - 1;
     return std::min(static_cast<int64_t>(std::floor((x + 1.0f) * (0.5f * static_cast<float>(config.division)))), last);
@@ -37,7 +37,7 @@ bool same_key(const CacheConfig& config, const CachedRay& a, const CachedRay& b)
 }
 
 bool may_share(const CacheConfig& config, const CachedRay& ray) {
-  return config.key == "exact" || config.scope == "all" || ray.left == WT_NONE || ray.surface < static_surfaces;
+  return config.exact() || config.holds_all() || ray.left == WT_NONE || ray.surface < static_surfaces;
 }
 
 // Returns the first ray of the group that each ray follows, WT_NONE if it is the first, alone or not missed.
@@ -164,7 +164,7 @@ TEST_CASE("cache_groups: every ray of a group takes the hit of the one that was 
       CHECK(found.hits[i].surface == hits[from].surface);
       CHECK(found.rays[i].origin == rays[from].origin);
       CHECK(found.rays[i].direction == rays[from].direction);
-      if (config.scope == "all") CHECK(found.receivers[i] == 100 + from);
+      if (config.holds_all()) CHECK(found.receivers[i] == 100 + from);
       CHECK_FALSE(found.refused[i]);
       moved += rays[i].origin != rays[from].origin;
     }

@@ -54,7 +54,7 @@ inline std::vector<Hit> hits_of(size_t count) {
 }
 
 inline uint64_t cells_of(const CacheConfig& config, const CachedRay& ray) {
-  const uint32_t division = config.key == "exact" ? WT_CACHE_MAX_DIVISION : config.division;
+  const uint32_t division = config.exact() ? WT_CACHE_MAX_DIVISION : config.division;
   return device::wt_cache_cells(ray.direction[0], ray.direction[1], ray.direction[2], division);
 }
 

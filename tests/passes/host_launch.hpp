@@ -15,7 +15,7 @@ struct HostLaunch {
   uint64_t parameter;
   unsigned level = 0, faces = 3;
 
-  HostLaunch(Directions of, uint64_t n, uint64_t seed) : map(of), parameter(of == "random" ? seed : ~uint64_t{0} / n) {
+  HostLaunch(Directions of, uint64_t n, uint64_t seed) : map(of), parameter(at_random(of) ? seed : ~uint64_t{0} / n) {
     while ((uint64_t{12} << (2 * level)) < n) ++level;
     while ((uint64_t{faces} << (2 * level)) < n) ++faces;
   }

@@ -45,12 +45,9 @@ TEST_CASE("every known frame is what the device computes") {
     const Config config = check_config(features);
     Setup setup = make_setup(context, config, check_scene(config), false);
     FrameLoop frames(setup);
-    const auto no_name = [](uint32_t) { return std::string(); };
-    const KnownFrame found = known_of(frames
-                                          .run({.pose = [&] { return check_state(setup.plan->world); },
-                                                .transmitter_name = no_name,
-                                                .receiver_name = no_name})
-                                          .paths);
+    const FrameTask task = FrameTask::of_drive(
+        {.frame = 0, .pose = [&] { return check_state(setup.plan->world); }, .names = FrameNames::none()});
+    const KnownFrame found = known_of(frames.run(task).paths);
     if (found == known_frames[frame]) continue;
     FAIL_CHECK(fmt::format("    {{{}, 0x{:016x}, 0x{:016x}}},", found.paths, found.sequences, found.points));
   }

@@ -51,10 +51,8 @@ std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
   const FieldModel host(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
   std::map<uint8_t, size_t> kinds;
   for (uint32_t frame = 0; frame < frames; ++frame) {
-    const FrameResult found = loop.run({.frame = frame,
-                                        .pose = [&] { return s.plan->world.state(frame); },
-                                        .transmitter_name = [](uint32_t) { return ""; },
-                                        .receiver_name = [](uint32_t) { return ""; }});
+    const FrameResult found = loop.run(FrameTask::of_drive(
+        {.frame = frame, .pose = [&] { return s.plan->world.state(frame); }, .names = FrameNames::none()}));
     const Paths expected = host.compute(frame, read_visible(s), found.world);
     CHECK(found.paths.size() > 50);
     CHECK(found.paths.size() <= expected.size());

@@ -115,10 +115,10 @@ TEST_CASE("innerframe: settings group by the control equation, at random and in 
       uncached(config);
       study.settings[i].apply(config);
       CHECK(config.trace.directions.word() == (name == "innerframe" ? "random" : "hilbert"));
-      CHECK((config.cache.kind == "none") == (i == 0));
+      CHECK(config.cache.on() == (i > 0));
       if (i == 0) continue;
       CHECK(config.cache.innerframe == (study.settings[i].name != "no groups"));
-      CHECK((config.cache.hit_point == "own") == (study.settings[i].name == "groups with own hit points"));
+      CHECK(config.cache.own_points() == (study.settings[i].name == "groups with own hit points"));
       divisions.insert(config.cache.division);
     }
     CHECK(divisions.contains(10));  // 50,000 rays in cells of a tenth: a hundred in each

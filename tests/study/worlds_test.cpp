@@ -57,7 +57,7 @@ TEST_CASE("traffic: the cold frame and those that count, by a mast or by vehicle
     CHECK(config.trace.reception.word() == (spheres ? "sphere" : "exact"));
     CHECK(config.transmitters.size() == (moving ? 0 : 1));
     const auto senders =
-        std::ranges::count(config.mounts, true, [](const MountConfig& mount) { return mount.role != "receiver"; });
+        std::ranges::count(config.mounts, true, [](const MountConfig& mount) { return sends(mount.role); });
     CHECK(senders == (moving ? 3 : 0));
   }
 }
