@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edges are visited twice: first counted, then entered.
+// Edges are visited twice: first counted, then entered. Cells and lists are arrays of a device, so they are no
+// SceneGrid.
 #include "passes/wedge_grid.hpp"
 
 #include <algorithm>

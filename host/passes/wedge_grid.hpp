@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The edges that may cross a line in plan: those of the static scene by the cells of a grid, those of vehicles by
-// instance. It serves kernels/lib/curtain.clh, so its cells and lists are arrays of a device, and no SceneGrid. Only
-// edges that diffract outwards count, and none that is upright.
+// instance. It serves kernels/lib/curtain.clh. Only edges that diffract outwards count, and none that is upright.
 #pragma once
 #include <cstdint>
 #include <vector>

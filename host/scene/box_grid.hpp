@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the boxes that a place is in or near: boxes that do not move, listed by the cells of a SceneGrid.
+// That grid is the index of all host code that asks what is at a place or along a line; triangle_grid.hpp asks it for
+// triangles. Two others ask something else: weld.cpp has cells of the size of a tolerance, and points come one by one;
+// passes/wedge_grid.cpp writes the lists that a kernel walks through.
 #pragma once
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>

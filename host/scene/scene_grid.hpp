@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A uniform grid over boxes that do not change, and lists of the items in its cells. It is the index of all host code
-// that asks what is at a place, or along a line: triangle_grid.hpp and box_grid.hpp ask for triangles and boxes.
-// Two others ask something else: weld.cpp has cells of the size of a tolerance, and points come one by one;
-// passes/wedge_grid.hpp writes the lists that a kernel walks through.
+// A uniform grid over a scene, and lists of the items in its cells.
 // Positions must be finite and within the boxes that the grid was made for.
 #pragma once
 #include <algorithm>

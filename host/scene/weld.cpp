@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Welds with a hash grid of cells four tolerances wide: each vertex looks into the cells within one tolerance of it,
-// 3.4 on average, so that no pair is split by a border. Groups are kept in a forest. Cells as small as a tolerance, over
-// a scene of kilometres, are too many for a SceneGrid, which has all of its cells in memory.
+// 3.4 on average, so that no pair is split by a border. Groups are kept in a forest. Cells as small as a tolerance,
+// over a scene of kilometres, are too many for a SceneGrid, which has all of its cells in memory.
 #include "scene/weld.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 #include <vector>
-#include "study/cache_points.hpp"
+#include "study/cache_predicates.hpp"
 #include "study/claim.hpp"
 
 namespace wavetracer::study {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include "output/median.hpp"
 #include "simulation/name_pattern.hpp"
-#include "study/cache_subjects.hpp"
+#include "study/interleaved_caches.hpp"
 #include "study/ray_counts.hpp"
 #include "study/run.hpp"
 #include "study/worlds.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 #include "study/cache_rows.hpp"
-#include "study/cache_settings.hpp"
+#include "study/compared_caches.hpp"
 
 namespace wavetracer::study {
 

@@ -9,7 +9,7 @@
 
 namespace wavetracer::study {
 
-// Returns the verdict on rows. order_claims.hpp, cache_claims.hpp, cache_regions.hpp and coherence_frames.hpp make such
+// Returns the verdict on rows. order_claims.hpp, cache_claims.hpp, table_regions.hpp and coherence_frames.hpp make such
 // judges.
 template <class Row>
 using Judge = std::function<Judgement(const std::vector<Row>&)>;

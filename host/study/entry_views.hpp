@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 #include <vector>
-#include "study/cache_settings.hpp"
 #include "study/cache_views.hpp"
+#include "study/compared_caches.hpp"
 
 namespace wavetracer::study {
 

@@ -2,10 +2,10 @@
 // Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
 #include "study/cache_claims.hpp"
-#include "study/cache_regions.hpp"
 #include "study/entry_views.hpp"
 #include "study/experiment.hpp"
 #include "study/order_claims.hpp"
+#include "study/table_regions.hpp"
 
 namespace wavetracer::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the settings that figures in traffic compare, as cache_settings.hpp makes them.
+// Names of the settings that figures in traffic compare, as compared_caches.hpp makes them.
 #pragma once
 #include <string>
 

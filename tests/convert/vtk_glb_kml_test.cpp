@@ -10,8 +10,8 @@
 #include <numbers>
 #include <tuple>
 #include "base/file.hpp"
-#include "convert/convert.hpp"
 #include "base/xml_text.hpp"
+#include "convert/convert.hpp"
 #include "folders.hpp"
 #include "results/saved_world.hpp"
 #include "scene/load.hpp"

@@ -47,7 +47,7 @@ TEST_CASE("the boxes at a point are those of a search one by one") {
     for (int k = 0; k < 500; ++k) {
       glm::dvec3 p{between(-55, 55), between(-55, 55), between(-1, 9)};
       if (count > 0 && k % 2 == 0) p.x = boxes[static_cast<size_t>(k) % count].lower.x;  // on a side
-      const double margin_m = k % 3 == 0 ? 0 : 1e-3;
+      const double margin_m = k % 3 == 0 ? 0 : k % 3 == 1 ? 1e-3 : 4;  // the last reaches into several cells
       const std::set<uint32_t> expected = found_one_by_one(boxes, p, margin_m);
       CHECK(found_by_grid(grid, p, margin_m) == expected);
       found += expected.size();

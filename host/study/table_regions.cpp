@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns rows of one region each into a plot, a table and verdicts.
 // Rows are those of add_regions() of cache_study.cpp.
-#include "study/cache_regions.hpp"
+#include "study/table_regions.hpp"
 #include <fmt/format.h>
 #include <cmath>
 #include "study/entry_views.hpp"

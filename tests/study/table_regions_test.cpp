@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Regions of a cache's table: their claims and their table, on made rows.
 // Correlations are those of lists whose coefficient is known.
-#include "study/cache_regions.hpp"
+#include "study/table_regions.hpp"
 #include <doctest/doctest.h>
 #include <algorithm>
 #include "contains.hpp"

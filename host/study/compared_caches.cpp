@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each setting is a list of keys, with the words of the field table (host/config).
-#include "study/cache_settings.hpp"
+#include "study/compared_caches.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <utility>

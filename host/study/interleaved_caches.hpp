@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 #include "study/cache_rows.hpp"
-#include "study/cache_settings.hpp"
+#include "study/compared_caches.hpp"
 #include "study/study_watch.hpp"
 
 namespace wavetracer::study {

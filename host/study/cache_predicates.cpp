@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Predicates on rows of caches.
 // Each looks its rows up by setting, number of rays and world.
-#include "study/cache_points.hpp"
+#include "study/cache_predicates.hpp"
 #include <algorithm>
 #include <cmath>
 #include "study/statistics.hpp"

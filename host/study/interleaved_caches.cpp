@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A world of one frame is traced cold, then warm, again and again; a drive is driven once, and its first frame is cold.
 // Errors are against the first subject, which has no cache.
-#include "study/cache_subjects.hpp"
+#include "study/interleaved_caches.hpp"
 #include <fmt/format.h>
 #include <cmath>
 #include "config/contradictions.hpp"
