@@ -32,7 +32,7 @@ class PathGroups {
   wt_path_groups_arguments arguments_{};
   gpu::Buffer<uint32_t> planes_of_;
   gpu::Buffer<device::wt_path_wave> waves_;
-  gpu::Buffer<device::wt_path_waves> shared_;  // of paths that belong to several waves
+  gpu::Buffer<device::wt_path_waves> shared_;  // the waves of paths that belong to several
   gpu::Buffer<uint32_t> shared_count_;
   gpu::HostMemory host_waves_, host_shared_, host_shared_count_;
   size_t read_ = 0, shared_read_ = 0;  // rows and records that were read already

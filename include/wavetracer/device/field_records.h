@@ -109,7 +109,7 @@ typedef struct {
 // The waves of a path as the host reads them. Most paths belong to one wave alone.
 #define WT_ONE_WAVE 0xFFFFFFFFu
 typedef struct {
-  wt_ulong key;    // of that wave, or of the one with the largest weight
+  wt_ulong key;    // key of that wave, or of the one with the largest weight
   wt_uint shared;  // number of the record of all its waves, where there are several; else WT_ONE_WAVE
   wt_uint bends;   // not 0: the path is diffracted
 } wt_path_wave;
