@@ -36,7 +36,8 @@ MeshFile plate() {
   return MeshFile({mesh_of(part)});
 }
 
-// The mean of both polarisations, over the field in free space; Kirchhoff's integral knows none.
+// The mean of both polarisations, over the field in free space; Kirchhoff's integral knows none. H points the other way
+// at the receiver.
 std::vector<Complex> fields_of(const Config& config, const Paths& paths) {
   std::vector<Complex> out(config.receivers.size());
   for (size_t i = 0; i < paths.size(); ++i) {
@@ -44,7 +45,7 @@ std::vector<Complex> fields_of(const Config& config, const Paths& paths) {
     const double direct_m = std::hypot(from[0] - to[0], from[1] - to[1], from[2] - to[2]);
     const double k = 2 * M_PI * frequency_hz / speed_of_light;
     const Complex phase = std::polar(2 * k * direct_m, -k * (paths.delay_s[i] * speed_of_light - direct_m));
-    out[paths.rx[i]] += (paths.a[i][0] + paths.a[i][3]) / 2.0 * phase;
+    out[paths.rx[i]] += (paths.a[i][0] - paths.a[i][3]) / 2.0 * phase;
   }
   return out;
 }
@@ -68,7 +69,7 @@ std::pair<double, double> step_and_error(const Config& config, const std::vector
   for (size_t i = 0; i < fields.size(); ++i) {
     const auto& to = config.receivers[i].position_m;
     const Complex truth = 1.0 - covered(width_m, 0.3, to[1]) * covered(height_m, 0.2, to[2]);
-    const Complex off = fields[i] * (fields.back().real() < 0 ? -1.0 : 1.0) - truth;
+    const Complex off = fields[i] - truth;
     if (i > 0) step = std::max(step, std::abs(off - before));
     error = std::max(error, std::abs(off));
     before = off;
