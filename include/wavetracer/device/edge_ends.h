@@ -31,11 +31,25 @@ inline wt_edge_ends wt_without_ends(void) {
   return ends;
 }
 
+// From this argument on the pole is so far away that two terms of its series in t^2 - x^2 give the part beyond x, to
+// 5e-5 of the wave that ends at the boundary.
+#define WT_FAR_POLE 6.0
+
+// The integral from x on of s / (t^2 + s^2) exp(-j (t^2 - x^2)), for s beyond WT_FAR_POLE. Those of 1 and t^2 in place
+// of the fraction are known.
+inline wt_double2 wt_beyond_by_series(double s, double x) {
+  const wt_double2 g = wt_transition_over_root(x), of_one = WT_DOUBLE2(0.5 * g.y, -0.5 * g.x);
+  const wt_double2 of_square = WT_DOUBLE2(0.5 * of_one.y, -0.5 * (x + of_one.x));
+  const double pole = 1.0 / (x * x + s * s);
+  return (of_one - (of_square - of_one * (x * x)) * pole) * (s * pole);
+}
+
 // The part of g(s) that sources from x on have, without the phase exp(-j x^2) of the way over that place; x >= 0. At 0
 // it is half of g(s). In Owen's form it is the integral of the slope's function over directions.
 inline wt_double2 wt_transition_beyond(double s, double x) {
   const double from = fmax(x, WT_LEAST_ARGUMENT);
-  return wt_times(WT_EIGHTH_TURN, wt_sum_of_slopes(from, s, s / from)) * WT_INV_SQRT_PI;
+  const wt_double2 sum = s > WT_FAR_POLE ? wt_beyond_by_series(s, x) : wt_sum_of_slopes(from, s, s / from);
+  return wt_times(WT_EIGHTH_TURN, sum) * WT_INV_SQRT_PI;
 }
 
 // The part of g(s), whose value is g, that the edge between its ends has.
