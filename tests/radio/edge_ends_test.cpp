@@ -57,7 +57,7 @@ TEST_CASE("the wave beyond a place of an edge is its integral, and at the shorte
     const Complex half = complex_of(device::wt_transition_over_root(s)) / 2.0;
     CHECK(std::abs(complex_of(device::wt_transition_beyond(s, 0)) / half - 1.0) < 1e-4);
   }
-  for (const double s : {5.999, 6.001, 8.0})  // of the wave that ends at the boundary, on both sides of WT_FAR_POLE
+  for (const double s : {5.999, 6.001, 8.0})  // on both sides of WT_FAR_POLE
     for (const double x : {0.0, 0.4, 1.5, 3.5}) {
       const Complex error = complex_of(device::wt_transition_beyond(s, x)) - integral_beyond(s, x);
       CHECK(std::abs(error) / (2 * std::sqrt(M_PI)) < 5e-5);
