@@ -13,6 +13,16 @@ inline int may_reach(const global wt_wedge_prefix* a, const global wt_surface* s
   return a->depth == 0 || wt_may_pass(surfaces + a->last, (float3)(a->image[0], a->image[1], a->image[2]), p);
 }
 
+// May there be a path over a free end of the edge, where the shortest way between two images leaves it at x?
+inline int may_end(const global wt_wedge_prefix* a, const global wt_wedge_prefix* b, uint free_ends, float x,
+                   float margin, float end_detour_m) {
+  if (!(free_ends & (x < 0.0f ? WT_FREE_START : WT_FREE_END))) return 0;
+  const float end = x < 0.0f ? 0.0f : a->length, legs = a->away + b->away, apart = b->along - a->along;
+  const float from = end - a->along, to = b->along - end;
+  const float over = sqrt(from * from + a->away * a->away) + sqrt(to * to + b->away * b->away);
+  return over - sqrt(legs * legs + apart * apart) <= end_detour_m + 4.0f * margin;
+}
+
 // `lanes` work-items take each prefix of a block, in order of their wedges, with all prefixes that see the same wedge.
 // The path crosses the edge where the unfolded one does: between both images' feet on its line, divided as their
 // distances from it (Keller's cone).
@@ -25,6 +35,7 @@ kernel void wedge_join(const global uint* keys, const global wt_wedge_prefix* pr
   const global wt_wedge_prefix* a = prefixes + i;
   if (a->origin >= args.transmitter_count || a->depth >= args.max_depth) return;
   const uint wedge = wt_wedge_of(keys[i]), last = wt_wedge_key(wedge, args.max_depth - 1 - a->depth);
+  const uint free_ends = wedges[wedge].free_ends;
   const uint first = wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0));
   wt_found_candidates batch;
   batch.count = 0;
@@ -32,10 +43,12 @@ kernel void wedge_join(const global uint* keys, const global wt_wedge_prefix* pr
     const global wt_wedge_prefix* b = prefixes + j;
     const uint receiver = wt_wanted_receiver(a, b, 1, args.max_depth, receiver_of_origin, links, args.groups);
     if (receiver == WT_NONE) continue;
-    const float legs = a->away + b->away, x = (a->along * b->away + b->along * a->away) / legs;
+    const float legs = a->away + b->away, at = (a->along * b->away + b->along * a->away) / legs;
     const float margin = margin_of(fabs(a->along) + fabs(b->along) + legs);
     if (legs > margin) {
-      if (!(x >= -margin && x <= a->length + margin)) continue;
+      if (!(at >= -margin && at <= a->length + margin) && !may_end(a, b, free_ends, at, margin, args.end_detour_m))
+        continue;
+      const float x = clamp(at, -margin, a->length + margin);
       const global wt_wedge* w = wedges + wedge;
       const float3 p = (float3)((float)(w->start[0] + x * w->along[0]), (float)(w->start[1] + x * w->along[1]),
                                 (float)(w->start[2] + x * w->along[2]));

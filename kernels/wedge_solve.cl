@@ -60,6 +60,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   } else {
     x = y = wt_shortest_over(v, a, b);
   }
+  if (!two && v->free_ends != 0u) x = y = wt_at_free_end(v, x, wt_in_wedge(v, a), wt_in_wedge(v, b), args.wavelength_m);
   if (!wt_within_edge(v, x) || !wt_within_edge(w, y)) return;
   const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
   if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return;  // edges that meet, at their corner

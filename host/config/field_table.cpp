@@ -91,6 +91,11 @@ Table trace_table() {
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, "
                   "signs and the borders of open meshes. The border of the ground never diffracts, "
                   "because the real ground continues where the map ends."},
+          {.name = "edge_ends",
+           .slot = t(&TraceConfig::edge_ends),
+           .doc = "Only with diffraction, for paths over one edge of the scene: where an edge ends in the open, "
+                  "at the corner of a roof or of a screen, the wave that it diffracts is that of an edge with an end, "
+                  "and does not stop there. Paths over ends are added, a few percent in a city."},
           {.name = "diffraction_rays",
            .slot = t(&TraceConfig::diffraction_rays),
            .unit = "rays per receiver",

@@ -16,7 +16,8 @@ namespace wavetracer {
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
     : context_(context),
       kernel_(context, {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
-                        {"WT_SCATTERS", tables.scatters ? "1" : "0"},
+                        {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
+                       {"WT_SCATTERS", tables.scatters ? "1" : "0"},
                         {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
                         {"WT_LOSSES", tables.loses() ? "1" : "0"}}),
       work_(tuning_of(context.info()).exact),

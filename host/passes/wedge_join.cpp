@@ -29,13 +29,14 @@ uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
 }  // namespace
 
 WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
-                     uint32_t row_depth)
+                     uint32_t row_depth, double wavelength_m)
     : context_(context),
       kernel_(context),
       max_depth_(max_depth),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
       most_(most_candidates(context.info(), row_depth)),
+      end_detour_m_(static_cast<float>(WT_END_DETOUR * wavelength_m)),
       receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
       list_(context.buffer<wt_wedge_candidate>(least_candidates, {"wedge candidates", advice::links})) {}
 
@@ -57,7 +58,8 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .transmitter_count = ends.transmitter_count,
                                             .groups = ends.receiver_capacity / 16,
                                             .max_depth = max_depth_,
-                                            .capacity = static_cast<uint32_t>(list_.size())};
+                                            .capacity = static_cast<uint32_t>(list_.size()),
+                                            .end_detour_m = end_detour_m_};
     kernel_({items, group_}, Stage::wedge_join,
             kernels::wedge_join::wedge_join{.keys = prefixes.keys,
                                             .prefixes = prefixes.sorted,

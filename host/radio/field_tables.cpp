@@ -100,6 +100,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   tables.air = air_at(config.air, config.radio.frequency_hz);
   tables.volumes = volume_table(scene);
   tables.foliages = foliages_at(tables.volumes, scene, config.radio.frequency_hz);
+  tables.edge_ends = std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.free_ends != 0; });
   tables.scatters = config.trace.scattering;
   if (!tables.scatters) return tables;
   const TileTable tiles(scene, models, instances, config.trace.tile_m);

@@ -30,6 +30,7 @@ struct FieldTables {
   uint32_t transmissions = 0;  // the most of a path; 0: waves do not pass surfaces
   uint32_t reflections = 0;    // the most of a path
   bool scatters = false;
+  bool edge_ends = false;                    // edges with free ends diffract
   VolumeTable volumes;                       // volumes of vegetation
   std::vector<device::wt_foliage> foliages;  // kinds of vegetation
   device::wt_air air{};

@@ -24,8 +24,9 @@ Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& fa
     if (side) known.lit[i] = *side;
   }
   const double plane_waves[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  const device::wt_wave_map wave =
-      device::wt_diffract(frame, records, k_in, k_out, &turn, plane_waves, distance_m, wavelength_m, transmits, &known);
+  const device::wt_edge_ends ends = device::wt_without_ends();
+  const device::wt_wave_map wave = device::wt_diffract(frame, records, k_in, k_out, &turn, plane_waves, distance_m,
+                                                       wavelength_m, transmits, &known, &ends);
   return {{wave.from.first, wave.from.second}, {wave.to.first, wave.to.second}, matrix_of(wave.matrix)};
 }
 

@@ -29,6 +29,7 @@ wt_wedge record_of(const Wedge& wedge, uint32_t first_surface, uint32_t instance
     record.planes[face] = first_surface + wedge.plane[face];
   }
   record.instance = instance;
+  record.free_ends = wedge.free_ends;
   return record;
 }
 

@@ -15,6 +15,7 @@
 #include "base/input_file.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/city.hpp"
+#include "scene/free_ends.hpp"
 #include "scene/georeference.hpp"
 #include "scene/mitsuba.hpp"
 #include "scene/model.hpp"
@@ -137,7 +138,9 @@ Scene load_scene(const Config& config) {
   RawScene raw =
       scene.file.empty() ? generate_city(parse_city_options(scene.generate)) : read_with_georeference(scene.file);
   add_volumes(raw, config.vegetation);
-  return finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
+  Scene out = finish(std::move(raw), scene, config.materials, config.radio.frequency_hz, edges);
+  if (config.trace.diffraction && config.trace.edge_ends) mark_free_ends(out);
+  return out;
 }
 
 Scene load_scene_file(const std::filesystem::path& path, const SceneConfig& scene,

@@ -35,7 +35,7 @@ struct DiffractedPaths {
                   uint32_t max_depth, uint32_t row_depth, double wavelength_m, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
-        join(context, receiver_of_origin, max_depth, row_depth),
+        join(context, receiver_of_origin, max_depth, row_depth, wavelength_m),
         pairs(std::move(two)),
         solve(context, row_depth, wavelength_m),
         sort_(context) {

@@ -197,6 +197,7 @@ struct TraceConfig {
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   uint32_t max_diffractions = 1;                  // per path, 1 to 8
   bool free_edges = true;                         // edges of one face diffract as half planes
+  bool edge_ends = false;                         // a static edge's wave ends with the wave of its corner
   std::optional<uint64_t> diffraction_rays = {};  // per receiver; not given: a tenth of rays, at least 100,000
   uint32_t max_transmissions = 2;                 // per path
   double tile_m = 5;                              // largest side length of a tile of scattering

@@ -71,6 +71,9 @@ struct Wedge {
   std::array<uint32_t, 2> surface{0, 0};
   // For face 0 and face 1: the lowest of the surfaces that form one plane with it, see host/scene/face_planes.hpp.
   std::array<uint32_t, 2> plane{0, 0};
+  // WT_FREE_START, WT_FREE_END of wavetracer/device/records.h: free ends, which diffract too
+  // (host/scene/free_ends.hpp).
+  uint32_t free_ends = 0;
 };
 
 // A volume of vegetation, which waves pass with attenuation.

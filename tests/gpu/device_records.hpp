@@ -72,7 +72,7 @@ inline const std::vector<Record> other_records{
      sizeof(wt_wedge),
      {FIELD(wt_wedge, start), FIELD(wt_wedge, along), FIELD(wt_wedge, face), FIELD(wt_wedge, normal),
       FIELD(wt_wedge, length), FIELD(wt_wedge, exterior), FIELD(wt_wedge, cosine), FIELD(wt_wedge, sine),
-      FIELD(wt_wedge, surfaces), FIELD(wt_wedge, planes), FIELD(wt_wedge, instance), FIELD(wt_wedge, padding)}},
+      FIELD(wt_wedge, surfaces), FIELD(wt_wedge, planes), FIELD(wt_wedge, instance), FIELD(wt_wedge, free_ends)}},
     {"wt_wedge_prefix",
      sizeof(wt_wedge_prefix),
      {FIELD(wt_wedge_prefix, node), FIELD(wt_wedge_prefix, origin), FIELD(wt_wedge_prefix, depth),

@@ -153,6 +153,7 @@ typedef struct {
   wt_uint groups;  // groups of 16 receivers
   wt_uint max_depth;
   wt_uint capacity;
+  float end_detour_m;  // the detour over a free end of an edge up to which there are paths
 } wt_wedge_join_arguments;
 
 // Things that may block a leg, for wedge_sight and wedge_pairs (lib/sight.clh).

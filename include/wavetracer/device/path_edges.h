@@ -230,14 +230,14 @@ inline int wt_edge_transmits(const wt_field_world* world, const wt_edge* edge) {
 
 // Applies the diffraction at one edge of the path.
 inline void wt_diffract_at(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
-                           const wt_path* path, const wt_edge* edge, wt_transfer* transfer) {
+                           const wt_path* path, const wt_edge* edge, const wt_edge_ends* ends, wt_transfer* transfer) {
   wt_turn turn;
   const wt_known_waves known = wt_known_at(world, ordered, row, path, edge, &turn);
   const wt_wedge_face faces[2] = {wt_face_of(world, edge, 0), wt_face_of(world, edge, 1)};
   const double legs_m[2] = {edge->before_m, edge->after_m};
   const double distance_m = edge->before_m * edge->after_m / (edge->before_m + edge->after_m) * wt_sine2(edge);
   const wt_wave_map wave = wt_diffract(edge->frame, faces, edge->k_in, edge->k_out, &turn, legs_m, distance_m,
-                                       world->wavelength_m, wt_edge_transmits(world, edge), &known);
+                                       world->wavelength_m, wt_edge_transmits(world, edge), &known, ends);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 

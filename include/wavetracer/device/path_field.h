@@ -6,7 +6,7 @@
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
 #include "wavetracer/device/losses.h"
-#include "wavetracer/device/path_chain.h"
+#include "wavetracer/device/path_ends.h"
 #include "wavetracer/device/scattering.h"
 
 // A device need not compile code for things that the scene does not have.
@@ -193,15 +193,15 @@ inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* order
                        double length_m, wt_wave* wave) {
   wt_edge edges[WT_MOST_EDGES];
   const wt_uint count = wt_edges_of(world, path, edges);
-  int turns = 1;
-  for (wt_uint i = 0; i < count; ++i) turns &= wt_turns(&edges[i].frame, edges[i].k_in, edges[i].k_out);
+  const wt_edge_ends ends = wt_ends_of(world, path, edges, count);
+  const int turns = wt_turns_at_all(edges, count);
   if (count > 0) wave->spread = turns ? wt_edge_spreading(edges, count) : 0.0;
   const wt_uint k = wt_pass_surfaces(world, path, length_m, 0, wave);
   if (!turns) {
     for (wt_uint i = 0; i < count; ++i) wt_pass(world, path, k + i, wave);
   } else if (count > 0) {
     wt_pass(world, path, k, wave);
-    if (count == 1) wt_diffract_at(world, ordered, row, path, edges, &wave->transfer);
+    if (count == 1) wt_diffract_at(world, ordered, row, path, edges, &ends, &wave->transfer);
 #if WT_DIFFRACTS > 1
     if (count == 2) wt_pass_two(world, ordered, row, path, k + 1, edges, wave);
 #endif

@@ -108,6 +108,14 @@ typedef struct {
 #define WT_STEP_DIFFRACTION (2u << WT_STEP_SHIFT)
 #define WT_STEP_SCATTERING (3u << WT_STEP_SHIFT)
 
+// Ends of an edge beyond which its line runs on in the open: there its wave ends with the wave of a corner.
+#define WT_FREE_START 1u
+#define WT_FREE_END 2u
+// From this detour over an end on, in wavelengths, the edge is as one without an end (edge_ends.h). Paths over an end
+// are put this far inside of it.
+#define WT_END_DETOUR 2.0
+#define WT_END_INSET_M 1e-3
+
 // A wedge of the world (double, recentred), see Wedge in wavetracer/scene.hpp.
 typedef struct {
   double start[3];
@@ -120,7 +128,7 @@ typedef struct {
   wt_uint surfaces[2];  // numbers in the world
   wt_uint planes[2];    // surfaces that stand for the planes of the faces
   wt_uint instance;     // WT_NONE: static
-  wt_uint padding;
+  wt_uint free_ends;    // WT_FREE_START, WT_FREE_END
 } wt_wedge;
 
 // A candidate: a sequence (trie node or root) with a receiver.

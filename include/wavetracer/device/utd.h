@@ -5,6 +5,7 @@
 #ifndef WAVETRACER_DEVICE_UTD_H
 #define WAVETRACER_DEVICE_UTD_H
 #include "wavetracer/device/corner.h"
+#include "wavetracer/device/edge_ends.h"
 #include "wavetracer/device/transition.h"
 
 #ifndef __OPENCL_VERSION__
@@ -261,10 +262,10 @@ inline wt_double2 wt_edge_amplitude(double distance_m, double n) {
 }
 
 // The matrix is in sqrt(m), see Diffraction in host/radio/utd.hpp. turn: that of these directions. distance_m: s s'
-// sin^2 beta0 / (s + s').
+// sin^2 beta0 / (s + s'). ends: those of the edge.
 inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces, wt_double3 k_in, wt_double3 k_out,
                                const wt_turn* turn, const double* legs_m, double distance_m, double wavelength_m,
-                               int transmits, const wt_known_waves* known) {
+                               int transmits, const wt_known_waves* known, const wt_edge_ends* ends) {
   wt_wave_map out;
   out.matrix = wt_diagonal(wt_real(0.0), wt_real(0.0));
   if (!wt_turns(&wedge, k_in, k_out)) {
@@ -280,7 +281,8 @@ inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces,
     if (wedge.exterior < WT_PI && images > 1 && images > known->most_images) continue;  // no such wave ends here
     const wt_term_factors factors = wt_factors_of(wt_decided(boundary, known, term), bend.n);
     const double s = root_2kl * factors.sine;
-    const wt_double2 g = wt_transition_over_root(s), factor = g * factors.ratio;
+    const wt_double2 g = wt_transition_over_root(s);
+    const wt_double2 factor = (ends->counts ? wt_transition_between(s, g, ends) : g) * factors.ratio;
     wt_double2 spread = wt_real(0.0);
     if (term >= 2 && wedge.exterior >= WT_PI)
       spread = wt_spread_of(s, g, copysign(root_2kl * wavelength_m / (2.0 * WT_PI), -factors.ratio));
