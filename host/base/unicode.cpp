@@ -65,30 +65,4 @@ std::u16string utf16(std::string_view utf8) {
   return out;
 }
 
-std::string xml_text(std::string_view utf8) {
-  std::string out;
-  for (const char32_t c : utf32(utf8)) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&apos;";
-        break;
-      default:
-        append_utf8(out, is_xml(c) ? c : replacement_of_xml);
-    }
-  }
-  return out;
-}
-
 }  // namespace wavetracer

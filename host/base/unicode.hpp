@@ -14,7 +14,4 @@ void append_utf8(std::string& text, char32_t code);
 std::u32string utf32(std::string_view utf8);
 std::u16string utf16(std::string_view utf8);
 
-// Escapes <, >, &, " and '; bytes that are not UTF-8, and characters that XML forbids, become U+FFFD.
-std::string xml_text(std::string_view utf8);
-
 }  // namespace wavetracer
