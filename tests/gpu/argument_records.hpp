@@ -107,7 +107,7 @@ inline const std::vector<Record> argument_records{
      {FIELD(wt_wedge_join_arguments, count), FIELD(wt_wedge_join_arguments, first), FIELD(wt_wedge_join_arguments, end),
       FIELD(wt_wedge_join_arguments, lanes), FIELD(wt_wedge_join_arguments, transmitter_count),
       FIELD(wt_wedge_join_arguments, groups), FIELD(wt_wedge_join_arguments, max_depth),
-      FIELD(wt_wedge_join_arguments, end_detour_m), FIELD(wt_wedge_join_arguments, capacity)}},
+      FIELD(wt_wedge_join_arguments, capacity), FIELD(wt_wedge_join_arguments, end_detour_m)}},
     {"wt_cache_lookup_arguments",
      sizeof(wt_cache_lookup_arguments),
      {FIELD(wt_cache_lookup_arguments, capacity), FIELD(wt_cache_lookup_arguments, count),
