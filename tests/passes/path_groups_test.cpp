@@ -31,7 +31,7 @@ wt_wedge upright(uint32_t number, double exterior_rad) {
           .surfaces = {2 * number, 2 * number + 1},
           .planes = {2 * number, 2 * number + 1},
           .instance = WT_NONE,
-          .padding = 0};
+          .free_ends = 0};
 }
 
 // Two neighbours each lie in one plane.

@@ -108,10 +108,8 @@ TEST_CASE("paths over ends have the same bits on device and host, and the same f
   Config all = s.plan->asked;
   all.trace = s.plan->trace;
   const FieldModel host(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
-  const FrameResult found = loop.run({.frame = 0,
-                                      .pose = [&] { return s.plan->world.state(0); },
-                                      .transmitter_name = [](uint32_t) { return ""; },
-                                      .receiver_name = [](uint32_t) { return ""; }});
+  const FrameResult found = loop.run(
+      FrameTask::of_drive({.frame = 0, .pose = [&] { return s.plan->world.state(0); }, .names = FrameNames::none()}));
   const Paths expected = host.compute(0, read_visible(s), found.world);
   const auto sorted = [](const Paths& paths) {
     std::vector<std::tuple<uint32_t, double, std::array<Complex, 4>>> rows;
