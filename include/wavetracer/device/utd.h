@@ -57,8 +57,7 @@ inline wt_boundary wt_nearest_boundary(double in, double out, double exterior, i
   return boundary;
 }
 
-// The factors of a term, cot(epsilon / 2n) F(k L a) / sqrt(2 k L) with a = 2 sin^2(epsilon / 2). F(x) = sqrt(x) g(sqrt
-// x) removes the pole.
+// Factors of cot(e / 2n) F(k L a) / sqrt(2 k L), e = epsilon, a = 2 sin^2(e / 2); F(x) = sqrt(x) g(sqrt x): no pole.
 typedef struct {
   double sine;   // |sin(epsilon / 2)|: times sqrt(2 k L), it is the argument of g
   double ratio;  // cot(epsilon / 2n) |sin(epsilon / 2)|
