@@ -109,12 +109,9 @@ class KernelOf {
     size_t count = 0;
     call.each([&](const char*, const auto& argument) { count += given(argument); });
     kernel_.check_count(count);
-    unsigned i = 0;
-    call.each([&](const char* name, const auto& argument) {
-      if (given(argument)) kernel_.check_name(i++, name);
-    });
+    if (!named_) check_names(call);
     if (range.empty()) return;
-    i = 0;
+    unsigned i = 0;
     call.each([&](const char*, const auto& argument) {
       if (given(argument)) set(i++, argument);
     });
@@ -123,6 +120,15 @@ class KernelOf {
 
  private:
   Kernel kernel_;
+  bool named_ = false;  // the names are those of the kernel that the device has compiled
+
+  void check_names(const Call& call) {
+    unsigned i = 0;
+    call.each([&](const char* name, const auto& argument) {
+      if (given(argument)) kernel_.check_name(i++, name);
+    });
+    named_ = true;
+  }
 
   template <class Argument>
   static bool given(const Argument&) {

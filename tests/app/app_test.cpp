@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program without a device: usage, config and input errors, init, validate, scene.
+// The program without a device: config and input errors, init, validate.
 // Each error must have its exit code, name the place and the fault, and leave no file behind.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
-#include <array>
-#include <sstream>
 #include "folders.hpp"
 #include "program.hpp"
-#include "wavetracer/version.hpp"
+#include "refused.hpp"
 
 namespace {
 
@@ -17,109 +15,7 @@ const std::string ends =
     "[[transmitter]]\nname = \"t\"\nposition_m = [0, 0, 6]\n[[receiver]]\nname = \"r\"\nposition_m = [50, 0, 2]\n";
 const std::string city = "scene.generate = \"--blocks 2\"\n";
 
-void check(const Outcome& outcome, int code, const std::string& message) {
-  CAPTURE(outcome.out);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(contains(outcome.err, message));
-  CHECK(outcome.out.empty());
-}
-
 }  // namespace
-
-TEST_CASE("--version and --help") {
-  const Outcome version = run_program({"--version"});
-  CHECK(version.code == 0);
-  CHECK(version.out.starts_with("wavetracer " WAVETRACER_VERSION "\n"));
-}
-
-TEST_CASE("help is about what was asked: a command on a page, the keys of configurations by themselves") {
-  using Words = std::vector<std::string>;
-  for (const Words& words : {Words{"--help"},
-                             {"help"},
-                             {"run", "-h"},
-                             {"help", "run"},
-                             {"scene", "city", "--help"},
-                             {"help", "scene", "city"},
-                             {"thesis", "--help"},
-                             {"help", "help"}}) {
-    CAPTURE(words.back());
-    const Outcome help = run_program(words);
-    CHECK(help.code == 0);
-    CHECK(help.err.empty());
-    CHECK(contains(help.out, "Usage: wavetracer"));
-    CHECK(contains(help.out, "`wavetracer help config`") !=
-          (words.front() == "thesis"));  // lists its experiments there
-    CHECK_FALSE(contains(help.out, "trace.max_depth"));
-    CHECK(std::ranges::count(help.out, '\n') < 50);
-  }
-  CHECK(run_program({"help", "run"}).out == run_program({"run", "--help"}).out);
-  CHECK(run_program({"help", "scene", "city"}).out == run_program({"scene", "city", "--help"}).out);
-  const Outcome experiments = run_program({"thesis"});
-  CHECK(experiments.code == 0);
-  CHECK(experiments.err.empty());
-  CHECK(contains(experiments.out, "  figure-6.18 "));
-  CHECK(contains(experiments.out, "  all "));
-  const Outcome keys = run_program({"help", "config"});
-  CHECK(keys.code == 0);
-  CHECK(contains(keys.out, "trace.max_depth"));
-  CHECK(contains(keys.out, "cache.residual_value"));
-  const Outcome rays = run_program({"help", "trace.rays"});
-  CHECK(rays.code == 0);
-  CHECK(contains(rays.out, "  trace.rays\n"));
-  CHECK_FALSE(contains(rays.out, "trace.max_depth"));
-  CHECK(run_program({"help", "rays"}).out == rays.out);
-  CHECK(contains(run_program({"help", "receiver_grid"}).out, "receiver_grid.step_m"));
-  const Outcome scene = run_program({"help", "scene"});  // a command and a table
-  CHECK(contains(scene.out, "Usage: wavetracer scene"));
-  CHECK(contains(scene.out, "\n  scene.file\n"));
-  check(run_program({"help", "trace.ray"}), 2, "help: there is no key \"trace.ray\"; did you mean \"trace.rays\"?");
-  check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
-}
-
-TEST_CASE("misspelt commands, options and choices are answered with what was meant") {
-  check(run_program({"rum"}), 2,
-        "wavetracer: there is no command \"rum\"; did you mean \"run\"? See `wavetracer help`\n");
-  check(run_program({"run", "--devise", "x"}), 2,
-        "wavetracer: run: there is no option --devise; did you mean \"--device\"? See `wavetracer help run`\n");
-  check(run_program({"run", "--devise=x"}), 2, "did you mean \"--device\"?");
-  check(run_program({"scene", "inf"}), 2, "scene: there is no command \"inf\"; did you mean \"info\"?");
-  check(run_program({"scene"}), 2, "scene: name one of them: info or materials or city; see `wavetracer help scene`");
-  check(run_program({"run", "-c"}), 2, "run: --config needs a value");
-  check(run_program({"init", "x"}), 2, "init: \"x\" is not expected here");
-  check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
-  check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
-  check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
-  check(run_program({"thesis", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"bench"}, {"bench", "figure-6.2", "-o", "x", "--quick"}, {"help", "bench"}}) {
-    CAPTURE(words.size());
-    check(run_program(words), 2, "\"bench\"; the experiments of the thesis are run by `wavetracer thesis`; ");
-  }
-  check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
-}
-
-TEST_CASE("usage errors exit 2") {
-  const Folder folder;
-  const std::string file = folder.file("a.toml", city + ends);
-  check(run_program({}), 2, "Subcommands:");
-  check(run_program({"runn"}), 2, "runn");
-  check(run_program({"run"}), 2, "--config is required");
-  check(run_program({"run", "-c", file, "--repeat", "0"}), 2, "--repeat");
-  check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
-  check(run_program({"accuracy", "-c", file, "--inputs", "--position", "nan"}), 2, "nan is not a finite number");
-  check(run_program({"accuracy", "-c", file, "--inputs", "--permittivity", "-nan"}), 2, "--permittivity");
-  check(run_program({"thesis", "rays", "--minutes", "nan"}), 2, "nan is not a finite number");
-  check(run_program({"scene", "materials", "--frequency", "nan"}), 2, "nan is not a finite number");
-  check(run_program({"scene", "info", file, "--scale", "inf"}), 2, "--scale: Value inf not in range");
-  check(run_program({"convert", file, "-o", folder.path("map"), "--level-height", "nan"}), 2, "nan is not a finite");
-  check(run_program({"run", "-c", file, "--set", "trace.tile_m=nan"}), 2, "trace.tile_m = nan is out of range");
-  check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
-  check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: a run without trajectories has only one frame");
-  check(run_program({"thesis", "rays"}), 2, "no experiment \"rays\"");
-  check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
-  CHECK(folder.entries() == 1);
-}
 
 TEST_CASE("config errors exit 2 with file, line and column, and write nothing") {
   const Folder folder;
@@ -335,51 +231,6 @@ TEST_CASE("the configs that come with the program are valid") {
   }
 }
 
-TEST_CASE("scene info --edges lists every edge that diffracts, and nothing else") {
-  const Folder folder;
-  const std::string scenes = wavetracer::test::source_folder() + "/tests/reference/scenes/";
-  const Outcome wedge = run_program({"scene", "info", scenes + "simple_wedge/simple_wedge.xml", "--edges"});
-  CHECK(wedge.code == 0);
-  CHECK(wedge.err.empty());
-  std::istringstream lines(wedge.out);
-  std::string line;
-  std::getline(lines, line);
-  CHECK(contains(line, "inside, deg"));
-  // Two plates of 30 x 30 m that meet at right angles along z: seven edges, six of them free.
-  size_t count = 0, right_angles = 0;
-  for (; std::getline(lines, line); ++count) {
-    std::istringstream words(line);
-    size_t edge = 0;
-    std::array<double, 8> numbers{};
-    words >> edge;
-    for (double& number : numbers) words >> number;
-    REQUIRE(words);
-    CHECK(edge == count);
-    CHECK(numbers[6] == 30);
-    if (numbers[7] == 0) continue;
-    ++right_angles;
-    CHECK(numbers == std::array<double, 8>{0, 0, -15, 0, 0, 15, 30, 90});
-    CHECK(line.ends_with("1 concrete, 0 concrete"));
-  }
-  CHECK(count == 7);
-  CHECK(right_angles == 1);
-  CHECK_FALSE(contains(wedge.out, "triangles"));
-  CHECK(contains(run_program({"scene", "info", scenes + "simple_wedge/simple_wedge.xml"}).out,
-                 "diffract   7 edges: 1 wedges, 6 free\n"));
-}
-
-TEST_CASE("scene info --edges of a room: its edges diffract nowhere but outside, and a wrong file is refused") {
-  const Folder folder;
-  const std::string box = wavetracer::test::source_folder() + "/tests/reference/scenes/box/box.xml";
-  const Outcome room = run_program({"scene", "info", box, "--edges"});
-  CHECK(room.code == 0);
-  CHECK(std::ranges::count(room.out, '\n') == 1 + 12);  // the twelve outer edges, of 270 degrees
-  check(run_program({"scene", "info", folder.path("absent.xml"), "--edges"}), 3, "absent.xml");
-  check(run_program({"scene", "info", folder.file("a.ply", "no mesh"), "--edges"}), 3, "a.ply");
-  check(run_program({"scene", "info", "--edges"}), 2, "file is required");
-  check(run_program({"scene", "info", box, "--edge"}), 2, "--edge");
-}
-
 TEST_CASE("what diffraction excludes, and a key that was taken away, is said before anything is traced") {
   const Folder folder;
   const std::string file = folder.file("a.toml", city + "trace.diffraction = true\ntrace.join = true\n" + ends);
@@ -389,14 +240,4 @@ TEST_CASE("what diffraction excludes, and a key that was taken away, is said bef
                      "trace.reception=sphere"}),
         2, "--set trace.reception=sphere: trace.reception = \"sphere\" receives reflected rays only");
   CHECK(folder.entries() == 1);
-}
-
-TEST_CASE("scene city writes what scene info reads") {
-  const Folder folder;
-  const Outcome made = run_program({"scene", "city", "-o", folder.path("city"), "--seed", "3", "--blocks", "2"});
-  CHECK(made.code == 0);
-  const Outcome info = run_program({"scene", "info", folder.path("city/city.xml")});
-  CHECK(info.code == 0);
-  CHECK(contains(info.out, "triangles"));
-  CHECK(contains(info.out, "concrete"));
 }

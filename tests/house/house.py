@@ -211,7 +211,7 @@ def comments(lines, mark):
     block, begin = [], 0
     for number, line in enumerate([*lines, ""], 1):
         alone = re.match(rf"\s*(?:{mark}(?!##)|/\*)\s?(.*)", line)  # ### is a heading in a text
-        if alone and not (mark == "#" and line.startswith("#!")):
+        if alone and not (mark == "#" and line.startswith("#!")) and "SPDX-License-Identifier" not in line:
             begin = begin if block else number
             block.append(alone[1].strip())
             continue

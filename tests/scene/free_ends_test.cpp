@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which ends of edges are free: corners of plates and roofs are, feet of houses and cuts are not.
+// Free ends of edges: corners of plates and roofs are free, feet of houses and cuts are not.
 #include "scene/free_ends.hpp"
 
 #include "wavetracer/device/records.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an edge that ends leaves of the wave that it diffracts. An edge is a line of sources. A term of its wave whose
+// The wave that an edge with ends diffracts. An edge is a line of sources. A term of its wave whose
 // argument at a boundary is s (transition.h) is the integral over the edge of s / (x^2 + s^2) exp(-j x^2), where x^2 is
 // the phase by which the way over a place of the edge is longer than the shortest way, and the fraction is the pole of
 // the sources at the boundary. So beyond an end is the same integral from there on, the generalized Fresnel integral

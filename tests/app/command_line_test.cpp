@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of the program: version, help, hints at misspelt words, usage errors.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include "folders.hpp"
+#include "program.hpp"
+#include "refused.hpp"
+#include "wavetracer/version.hpp"
+
+TEST_CASE("--version and --help") {
+  const Outcome version = run_program({"--version"});
+  CHECK(version.code == 0);
+  CHECK(version.out.starts_with("wavetracer " WAVETRACER_VERSION "\n"));
+}
+
+TEST_CASE("help is about what was asked: a command on a page, the keys of configurations by themselves") {
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"--help"},
+                             {"help"},
+                             {"run", "-h"},
+                             {"help", "run"},
+                             {"scene", "city", "--help"},
+                             {"help", "scene", "city"},
+                             {"thesis", "--help"},
+                             {"help", "help"}}) {
+    CAPTURE(words.back());
+    const Outcome help = run_program(words);
+    CHECK(help.code == 0);
+    CHECK(help.err.empty());
+    CHECK(contains(help.out, "Usage: wavetracer"));
+    CHECK(contains(help.out, "`wavetracer help config`") !=
+          (words.front() == "thesis"));  // lists its experiments there
+    CHECK_FALSE(contains(help.out, "trace.max_depth"));
+    CHECK(std::ranges::count(help.out, '\n') < 50);
+  }
+  CHECK(run_program({"help", "run"}).out == run_program({"run", "--help"}).out);
+  CHECK(run_program({"help", "scene", "city"}).out == run_program({"scene", "city", "--help"}).out);
+  const Outcome experiments = run_program({"thesis"});
+  CHECK(experiments.code == 0);
+  CHECK(experiments.err.empty());
+  CHECK(contains(experiments.out, "  figure-6.18 "));
+  CHECK(contains(experiments.out, "  all "));
+  const Outcome keys = run_program({"help", "config"});
+  CHECK(keys.code == 0);
+  CHECK(contains(keys.out, "trace.max_depth"));
+  CHECK(contains(keys.out, "cache.residual_value"));
+  const Outcome rays = run_program({"help", "trace.rays"});
+  CHECK(rays.code == 0);
+  CHECK(contains(rays.out, "  trace.rays\n"));
+  CHECK_FALSE(contains(rays.out, "trace.max_depth"));
+  CHECK(run_program({"help", "rays"}).out == rays.out);
+  CHECK(contains(run_program({"help", "receiver_grid"}).out, "receiver_grid.step_m"));
+  const Outcome scene = run_program({"help", "scene"});  // a command and a table
+  CHECK(contains(scene.out, "Usage: wavetracer scene"));
+  CHECK(contains(scene.out, "\n  scene.file\n"));
+  check(run_program({"help", "trace.ray"}), 2, "help: there is no key \"trace.ray\"; did you mean \"trace.rays\"?");
+  check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
+}
+
+TEST_CASE("misspelt commands, options and choices are answered with what was meant") {
+  check(run_program({"rum"}), 2,
+        "wavetracer: there is no command \"rum\"; did you mean \"run\"? See `wavetracer help`\n");
+  check(run_program({"run", "--devise", "x"}), 2,
+        "wavetracer: run: there is no option --devise; did you mean \"--device\"? See `wavetracer help run`\n");
+  check(run_program({"run", "--devise=x"}), 2, "did you mean \"--device\"?");
+  check(run_program({"scene", "inf"}), 2, "scene: there is no command \"inf\"; did you mean \"info\"?");
+  check(run_program({"scene"}), 2, "scene: name one of them: info or materials or city; see `wavetracer help scene`");
+  check(run_program({"run", "-c"}), 2, "run: --config needs a value");
+  check(run_program({"init", "x"}), 2, "init: \"x\" is not expected here");
+  check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");
+  check(run_program({"convert", "x", "-o", "y", "--to", "vkt"}), 2, "did you mean \"vtk\"?");
+  check(run_program({"convert", "nope.osm", "-o", "y"}), 3, "nope.osm: there is no such file or folder");
+  check(run_program({"thesis", "figur-6.2"}), 2, "did you mean \"figure-6.2\"?");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bench"}, {"bench", "figure-6.2", "-o", "x", "--quick"}, {"help", "bench"}}) {
+    CAPTURE(words.size());
+    check(run_program(words), 2, "\"bench\"; the experiments of the thesis are run by `wavetracer thesis`; ");
+  }
+  check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
+}
+
+TEST_CASE("usage errors exit 2") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({}), 2, "Subcommands:");
+  check(run_program({"runn"}), 2, "runn");
+  check(run_program({"run"}), 2, "--config is required");
+  check(run_program({"run", "-c", file, "--repeat", "0"}), 2, "--repeat");
+  check(run_program({"run", "-c", file, "--nonsense"}), 2, "--nonsense");
+  check(run_program({"accuracy", "-c", file, "--inputs", "--position", "nan"}), 2, "nan is not a finite number");
+  check(run_program({"accuracy", "-c", file, "--inputs", "--permittivity", "-nan"}), 2, "--permittivity");
+  check(run_program({"thesis", "rays", "--minutes", "nan"}), 2, "nan is not a finite number");
+  check(run_program({"scene", "materials", "--frequency", "nan"}), 2, "nan is not a finite number");
+  check(run_program({"scene", "info", file, "--scale", "inf"}), 2, "--scale: Value inf not in range");
+  check(run_program({"convert", file, "-o", folder.path("map"), "--level-height", "nan"}), 2, "nan is not a finite");
+  check(run_program({"run", "-c", file, "--set", "trace.tile_m=nan"}), 2, "trace.tile_m = nan is out of range");
+  check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");
+  check(run_program({"run", "-c", file, "--resume"}), 2, "--resume: a run without trajectories has only one frame");
+  check(run_program({"thesis", "rays"}), 2, "no experiment \"rays\"");
+  check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
+  CHECK(folder.entries() == 1);
+}
