@@ -99,6 +99,9 @@ Table receiver_grid_table();
 Table air_table();
 Table vegetation_table();
 
+// Defined in trace_fields.cpp: the search for paths.
+Table trace_table();
+
 // Defined in vehicle_fields.cpp: moving objects.
 Table trajectories_table();
 Table time_table();

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the field table about the search for paths.
+// The doc of each row gives the reason for its default; the default itself is the initialiser in config.hpp.
+#include "config/field_rows.hpp"
+
+namespace wavetracer::config {
+
+Table trace_table() {
+  const auto t = [](auto member) { return at(&Config::trace, member); };
+  return {
+      .name = "trace",
+      .doc = "The search of rays for the surfaces that paths may touch.",
+      .fields = {
+          {.name = "rays",
+           .slot = t(&TraceConfig::rays),
+           .unit = "rays per transmitter",
+           .range = {1, 2147483648.0},
+           .none = "auto",
+           .doc = "More rays find more of the weak paths; the paths that are found are exact in any case. "
+                  "The default finds more than 99% of the paths of a city quarter at depth 5. "
+                  "auto: as many rays as trace.recall needs, launched along a Hilbert curve."},
+          {.name = "recall",
+           .slot = t(&TraceConfig::recall),
+           .range = {0, 1, true},
+           .doc = "Only with rays = \"auto\": the share of all paths that must be found. "
+                  "It is estimated from the sequences that only one ray has met (Good-Turing estimate). "
+                  "The last percent costs more rays than all before it."},
+          {.name = "max_rays",
+           .slot = t(&TraceConfig::max_rays),
+           .unit = "rays per transmitter",
+           .range = {1, 2147483648.0},
+           .doc = "Only with rays = \"auto\": the largest number of rays, whatever recall asks for."},
+          {.name = "reuse",
+           .slot = t(&TraceConfig::reuse),
+           .doc = "Keep the sequences of surfaces that rays of earlier frames of a drive have found. "
+                  "Their paths are computed anew in every frame, so they are exact, and fewer rays find more paths."},
+          {.name = "refresh_rays",
+           .slot = t(&TraceConfig::refresh_rays),
+           .unit = "rays per transmitter",
+           .range = {0, 2147483648.0},
+           .none = "0",
+           .doc = "The largest number of rays in a frame that reuses sequences of earlier frames; "
+                  "each such frame launches other directions. 0: a tenth of trace.rays, "
+                  "because little is new from one frame to the next. "
+                  "With rays = \"auto\" the number is chosen automatically."},
+          {.name = "discover_every_s",
+           .slot = t(&TraceConfig::discover_every_s),
+           .unit = "s",
+           .range = {0, 3600},
+           .doc = "Frames that reuse sequences launch rays only this long after the frame that did so before; "
+                  "the frames between compute the paths of the known sequences, exactly, at their own poses. "
+                  "For steps of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter "
+                  "that begins to send launch at once. 0: every frame launches rays. "
+                  "Each launch of rays measures which paths the frames before it may have missed: "
+                  "late in summary.json."},
+          {.name = "forget_frames",
+           .slot = t(&TraceConfig::forget_frames),
+           .unit = "frames",
+           .range = {1, 4294967295.0},
+           .doc = "A sequence of surfaces is dropped after this many frames in which no ray "
+                  "and no path has followed it; only frames that launch rays are counted. "
+                  "50 frames are 5 s at 10 Hz."},
+          {.name = "max_depth",
+           .slot = t(&TraceConfig::max_depth),
+           .unit = "interactions",
+           .range = {0, 32},
+           .doc = "The largest number of interactions of one path. 0 computes the line of sight only. "
+                  "Beyond 5, a path in a street canyon carries little power."},
+          {.name = "reflection", .slot = t(&TraceConfig::reflection), .doc = "Specular reflection."},
+          {.name = "diffraction",
+           .slot = t(&TraceConfig::diffraction),
+           .doc = "Diffraction at edges, by the uniform theory of diffraction (UTD). It fills the shadows. "
+                  "It also launches rays from every receiver that is not a transmitter too, which costs time."},
+          {.name = "max_diffractions",
+           .slot = t(&TraceConfig::max_diffractions),
+           .unit = "diffractions per path",
+           .range = {1, 8},
+           .doc = "2 adds paths over two edges, with a straight line from one edge to the other: "
+                  "the field behind a whole building. Pairs of edges that buildings hide from each other "
+                  "are passed over; the others are candidates, which cost time: in a city of 36 blocks some ten times "
+                  "as much as one diffraction. With 2 and more each link also gets a few paths over up to "
+                  "so many edges: those that a string between its ends touches when it is pulled tight over "
+                  "the roofs or around corners, and those a little under it. They take little time, "
+                  "and reach receivers far behind the houses. Such a path has no other interactions, and max_depth, "
+                  "which must be at least 2, does not limit its edges."},
+          {.name = "free_edges",
+           .slot = t(&TraceConfig::free_edges),
+           .doc = "Edges that belong to one face only also diffract, as half planes: screens, "
+                  "signs and the borders of open meshes. The border of the ground never diffracts, "
+                  "because the real ground continues where the map ends."},
+          {.name = "edge_ends",
+           .slot = t(&TraceConfig::edge_ends),
+           .doc = "Only with diffraction, for paths over one edge of the scene: where an edge ends in the open, "
+                  "at the corner of a roof or of a screen, the wave that it diffracts is that of an edge with an end, "
+                  "and does not stop there. Paths over ends are added, a few percent in a city."},
+          {.name = "diffraction_rays",
+           .slot = t(&TraceConfig::diffraction_rays),
+           .unit = "rays per receiver",
+           .range = {0, 2147483648.0},
+           .none = "0",
+           .doc = "Only with diffraction: the largest number of rays from a receiver that is not a transmitter too. 0: "
+                  "a tenth of trace.rays, but at least 100,000, because many rays meet each edge."},
+          {.name = "transmission",
+           .slot = t(&TraceConfig::transmission),
+           .doc = "Transmission straight through surfaces. Each surface is a slab whose thickness is "
+                  "that of its material. Rays split at every surface, so each transmission "
+                  "that is allowed may double the time of tracing."},
+          {.name = "max_transmissions",
+           .slot = t(&TraceConfig::max_transmissions),
+           .unit = "transmissions per path",
+           .range = {1, 32},
+           .doc = "The largest number of transmissions of one path. Each also counts as an interaction for max_depth. "
+                  "A path through one building or vehicle needs 2."},
+          {.name = "scattering",
+           .slot = t(&TraceConfig::scattering),
+           .doc = "Diffuse scattering by surfaces and vegetation whose material has a scattering coefficient "
+                  "(material.scattering). They are divided into tiles and cells, and a path goes from the transmitter "
+                  "to one of them to the receiver."},
+          {.name = "tile_m",
+           .slot = t(&TraceConfig::tile_m),
+           .unit = "m",
+           .range = {0, 1e6, true},
+           .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths "
+                  "and about a quarter of the error; of vegetation, which is cut into cells, eight times as many."},
+          {.name = "directions",
+           .slot = t(&TraceConfig::directions),
+           .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "
+                  "given their heights above the ground and the size of the scene; "
+                  "a quarter of the rays is spread evenly. "
+                  "hilbert: evenly spread over the sphere. Both follow a Hilbert curve, "
+                  "so that neighbours in memory are neighbours in space. fibonacci and random: evenly spread, "
+                  "in other orders."},
+          {.name = "seed",
+           .slot = t(&TraceConfig::seed),
+           .range = {0, 9223372036854775807.0},
+           .doc = "The seed of directions = \"random\", and of the random phases of scattered paths."},
+          {.name = "reception",
+           .slot = t(&TraceConfig::reception),
+           .doc = "exact: rays only find surfaces, and paths are computed by the image method. "
+                  "sphere: a ray that passes within sphere_radius_m of a receiver is taken as a path, "
+                  "as in the thesis; lengths are a little wrong, some paths are missed, and some are reported "
+                  "that do not exist. Frames then reuse no sequences: each frame is traced completely."},
+          {.name = "sphere_radius_m",
+           .slot = t(&TraceConfig::sphere_radius_m),
+           .unit = "m",
+           .range = {0, 1e4, true},
+           .doc = "Only with reception = \"sphere\". A larger sphere misses fewer paths and makes larger errors "
+                  "in those that it finds."},
+          {.name = "batch_rays",
+           .slot = t(&TraceConfig::batch_rays),
+           .unit = "rays",
+           .range = {0, 2147483648.0},
+           .none = "0",
+           .doc = "The number of rays that are traced at once, which limits the device memory; "
+                  "results do not depend on it. 0: chosen for the device."},
+          {.name = "batch_receivers",
+           .slot = t(&TraceConfig::batch_receivers),
+           .unit = "receivers",
+           .range = {0, 4294967295.0},
+           .none = "0",
+           .doc = "Only with diffraction, in a run of one frame: the number of receivers that are computed "
+                  "at once. It limits the memory of coverage maps, because every receiver keeps what its rays have "
+                  "found; results do not depend on it. 0: 8192."},
+      }};
+}
+
+}  // namespace wavetracer::config
