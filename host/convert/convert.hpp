@@ -2,6 +2,7 @@
 // Exports of runs to the formats of other programs: one function per format, and the list that `wavetracer convert
 // --to` offers. Each writes what its readers expect, completely or not at all; its own file describes the conventions.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -34,9 +35,6 @@ struct Exporter {
                                               std::vector<std::string>& warnings);
 };
 
-std::span<const Exporter> exporters();
-std::vector<std::string> exporter_names();
-
 using Written = std::vector<std::filesystem::path>;
 using Warnings = std::vector<std::string>;
 Written export_sionna(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
@@ -47,5 +45,26 @@ Written export_vtk(const SavedRun& run, const ExportOptions& options, Warnings& 
 Written export_glb(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 Written export_osi(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
 Written export_kml(const SavedRun& run, const ExportOptions& options, Warnings& warnings);
+
+// The list that --to offers. A new format is its file, its declaration above and a row here.
+// clang-format off
+inline constexpr auto exporter_list = std::to_array<Exporter>({
+    {"sionna", ".npz", "NumPy arrays in the layout of Sionna RT's Paths", export_sionna},
+    {"deepmimo", "", "a scenario folder as DeepMIMO loads it", export_deepmimo},
+    {"ns3", "", "a scenario folder of ns-3's QdChannelModel", export_ns3},
+    {"matlab", ".mat", "MATLAB 7.3 (HDF5), one struct of arrays", export_matlab},
+    {"vtk", "", "a folder for ParaView: scene.vtp, paths and ends a frame, and a .pvd with their times", export_vtk},
+    {"glb", ".glb", "glTF 2.0 binary: scene, vehicles and paths of one frame", export_glb},
+    {"kml", ".kml", "Google Earth: ends, vehicles and paths, with times", export_kml},
+    {"osi", ".osi", "ASAM OSI 3: the traffic as a binary trace of GroundTruth messages", export_osi},
+});
+// clang-format on
+constexpr std::span<const Exporter> exporters() { return exporter_list; }
+
+inline std::vector<std::string> exporter_names() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : exporters()) names.push_back(exporter.name);
+  return names;
+}
 
 }  // namespace wavetracer

@@ -7,6 +7,7 @@
 #include <vector>
 #include "app/gate.hpp"
 #include "app/program.hpp"
+#include "convert/convert.hpp"
 #include "output/sample_run.hpp"
 #include "wavetracer/output.hpp"
 
@@ -47,8 +48,12 @@ Outcome convert(std::vector<std::string> arguments) {
 TEST_CASE("the list names every format") {
   const Outcome list = convert({"--list"});
   CHECK(list.code == 0);
-  for (const char* name : {"sionna", "deepmimo", "ns3", "matlab", "vtk", "glb", "kml", "osi", ".npz", "folder"})
-    CHECK(contains(list.out, name));
+  for (const Exporter& each : exporters()) {
+    CAPTURE(each.name);
+    CHECK(contains("\n" + list.out, "\n" + std::string(each.name) + " "));
+    CHECK(contains(list.out, *each.suffix ? std::string(" ") + each.suffix + " " : " folder "));
+    CHECK(contains(list.out, each.doc));
+  }
 }
 
 TEST_CASE("the suffix decides where it says enough") {

@@ -39,12 +39,17 @@ CASES = {
     "no reflection": ("edges", FEW + ["trace.reflection=false"]),
 }
 FILES = ("paths.h5", "waypoints.h5", "links.csv")
-EXPORTS = ("sionna", "deepmimo", "ns3", "matlab", "vtk", "glb", "kml")
 
 
 def run(program, *arguments):
     done = subprocess.run([program, *arguments], capture_output=True, text=True)
     return done.returncode, done.stderr.strip().splitlines()[-1:] or [""]
+
+
+def exports_of(program):
+    """Returns the names of the formats that the program exports to."""
+    done = subprocess.run([program, "convert", "--list"], capture_output=True, text=True, check=True)
+    return [line.split()[0] for line in done.stdout.splitlines()]
 
 
 def files_of(path):
@@ -96,10 +101,11 @@ def main():
     options = parser.parse_args()
     before, after = options.before.resolve(), options.after.resolve()
     failed = False
+    formats = exports_of(before)
     for name, (config, sets) in CASES.items():
         if options.only not in name:
             continue
-        exports = EXPORTS if options.exports_of_all or name in ("demo", "all kinds") else ()
+        exports = formats if options.exports_of_all or name in ("demo", "all kinds") else ()
         with tempfile.TemporaryDirectory() as work:
             faults, count = compare(before, after, config, sets, pathlib.Path(work), exports)
         verdict = "DIFFERENT: " + "; ".join(faults) if faults else f"{count} files and folders, the same bytes"
