@@ -26,14 +26,14 @@ struct Lists {
   uint32_t candidates, solved;
 };
 
-struct Outcome {
+struct CountedFrames {
   std::vector<bool> foresaw;  // for each run
   std::vector<Lists> told;    // by length(), in each run
 };
 
 // Runs a frame whose lists are `first`, and `again` if it runs once more. Lengths that are read must be the true ones.
-Outcome run_frame(Counters& counters, bool alike, Lists first, Lists again, size_t capacity = list_room) {
-  Outcome out;
+CountedFrames run_frame(Counters& counters, bool alike, Lists first, Lists again, size_t capacity = list_room) {
+  CountedFrames out;
   const wt_counters end = counters.settled(
       alike, Stage::transfer, [&] { return counters.zero(); },
       [&] {
@@ -82,7 +82,7 @@ TEST_CASE("nothing is foreseen before a frame has settled; then lengths are boun
   Counters counters(context());
   CHECK(runs(counters, true, {10'000, 300}) == Runs{false});
   CHECK(counters.last().candidates == 10'000);
-  const Outcome next = run_frame(counters, true, {10'000, 300}, {});
+  const CountedFrames next = run_frame(counters, true, {10'000, 300}, {});
   CHECK(next.foresaw == Runs{true});
   CHECK(next.told[0].candidates >= 12'500);
   CHECK(run_frame(counters, true, {10'000, 300}, {}, 11'000).told[0].candidates == 11'000);  // the room of the list

@@ -22,7 +22,7 @@ namespace {
 
 constexpr Directions window_maps[] = {"horizon", "hilbert", "fibonacci", "random"};
 constexpr double half_rad = 0.01, low = -0.004, high = 0.002, ahead_m = 3e7;
-constexpr uint64_t seed = 42;
+constexpr uint64_t window_seed = 42;
 
 // The frame of a satellite that sees its scene to the north-east, 60 degrees down.
 const glm::dvec3 window_x = glm::normalize(glm::dvec3(1, 1, -std::sqrt(6.0)));
@@ -71,8 +71,8 @@ TEST_CASE("windows: device rays are the host's, bit for bit, alone, of several l
   for (const Directions map : window_maps) {
     CAPTURE(map);
     constexpr uint32_t n = 1000;
-    const HostLaunch launch(map, n, seed);
-    GenerateRays generate = window_generator(LaunchDirections(map, n, seed));
+    const HostLaunch launch(map, n, window_seed);
+    GenerateRays generate = window_generator(LaunchDirections(map, n, window_seed));
     const Float3 origin{1.5f, -2.25f, 40};
     RayQueue alone = make_ray_queue(context(), n, "alone"), several = make_ray_queue(context(), 2 * n, "several");
     generate(alone, through_window({1.5, -2.25, 40}), 0, n);
@@ -135,7 +135,7 @@ TEST_CASE("windows: rays fill them evenly, have unit length, and start where a l
     CAPTURE(map);
     constexpr uint64_t n = 40000;
     constexpr int columns = 16, rows = 8;
-    const HostLaunch launch(map, n, seed);
+    const HostLaunch launch(map, n, window_seed);
     std::vector<double> counts(columns * rows, 0);
     double off_m = 0, length = 0;
     for (uint64_t i = 0; i < n; ++i) {
