@@ -22,10 +22,10 @@ Array = NDArray[Any]
 # Delays and amplitudes of rows of a frame between all pairs of elements, for (rx elements, tx elements).
 Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 
-# The word for a path, which depends on the most special of its interactions, and the bits of its interactions that
-# decide it.
+# The word for a path, which depends on the most special of its interactions, and the bit of the interaction that
+# decides it; the least special comes first, as in include/wavetracer/interaction_kinds.hpp.
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
-_SPECIAL = (2, 8, 4, 1)
+_SPECIAL = tuple(KINDS.values())[:0:-1]
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
             "doppler_hz", "group", "group_weight", "vertex_offset", "vertex_position_m", "vertex_interaction",
             "vertex_surface", "vertex_instance")

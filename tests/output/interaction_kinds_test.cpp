@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of interactions against what is written by hand beside it: the documents and the drawing program. The page
-// of the viewer has no names of its own.
+// The table of interactions against what is written by hand beside it: the documents, the drawing program and the
+// Python package. The page of the viewer has no names of its own.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "contains.hpp"
 #include "folders.hpp"
 #include "output/reader.hpp"
+#include "wavetracer/device/records.h"
 #include "wavetracer/interaction_kinds.hpp"
 
 using namespace wavetracer;
@@ -37,6 +38,7 @@ TEST_CASE("codes, steps and names of interactions are distinct, and those in fil
     CHECK(steps.insert(kind.step).second);
     CHECK(words.insert(kind.word).second);
     CHECK(kinds.insert(kind.paths.word).second);
+    CHECK((WT_STEP_CODES >> 8 * kind.step & 0xFF) == kind.code);
     REQUIRE(find_interaction(kind.code) != nullptr);
     CHECK(find_interaction(kind.code)->word == kind.word);
   }
@@ -66,6 +68,13 @@ TEST_CASE("what the drawing program marks are interactions of these numbers and 
     CHECK(kind->word == (*found)[2].str());
   }
   CHECK(marks == 3);
+}
+
+TEST_CASE("the Python package has the words of paths and their codes, in the order of the table") {
+  std::string words = "KINDS = {\"line_of_sight\": 0";
+  for (const InteractionKind& kind : interaction_kinds)
+    words += ", \"" + std::string(kind.paths.word) + "\": " + std::to_string(kind.code);
+  CHECK(contains(flowing("python/wavetracer/paths.py"), words + "}"));
 }
 
 TEST_CASE("the page of the viewer names no kind of path itself") {

@@ -65,15 +65,8 @@ inline wt_double3 wt_vertex(const wt_path* path, wt_uint k) {
 }
 inline wt_uint wt_step(const wt_path* path, wt_uint k) { return path->steps[wt_entry(path, k)]; }
 
-// The kind of a step in files, see Interaction in wavetracer/paths.hpp.
-inline wt_uint wt_interaction(wt_uint step) {
-  const wt_uint kind = step & WT_STEP_KIND;
-  return kind == WT_STEP_REFLECTION     ? 1u
-         : kind == WT_STEP_SCATTERING   ? 2u
-         : kind == WT_STEP_TRANSMISSION ? 4u
-         : kind == WT_STEP_DIFFRACTION  ? 8u
-                                        : 0u;
-}
+// The kind of a step in files, see WT_STEP_CODES.
+inline wt_uint wt_interaction(wt_uint step) { return (wt_uint)(WT_STEP_CODES >> 8 * (step >> WT_STEP_SHIFT)) & 0xFFu; }
 
 inline double wt_path_length(const wt_path* path) {
   double length = 0.0;

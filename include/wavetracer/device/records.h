@@ -107,6 +107,8 @@ typedef struct {
 #define WT_STEP_TRANSMISSION (1u << WT_STEP_SHIFT)
 #define WT_STEP_DIFFRACTION (2u << WT_STEP_SHIFT)
 #define WT_STEP_SCATTERING (3u << WT_STEP_SHIFT)
+// The codes of these kinds in files (Interaction in wavetracer/paths.hpp), a byte each, the first kind's the lowest.
+#define WT_STEP_CODES (1ul | 4ul << 8 | 8ul << 16 | 2ul << 24)
 
 // Ends of an edge beyond which its line runs on in the open: there its wave ends with the wave of a corner.
 #define WT_FREE_START 1u
