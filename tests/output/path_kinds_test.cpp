@@ -2,6 +2,7 @@
 // Paths by their most special interaction: every mixture, and sums over the shards of a drive.
 #include "output/path_kinds.hpp"
 #include <doctest/doctest.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include "jobs/shards.hpp"
 #include "output/reader.hpp"
@@ -53,13 +54,18 @@ TEST_CASE("paths by kind add up over frames, whether written at once, in shards 
   const SampleRun sample;
   const std::vector<FrameResult> all = mixed_drive(sample, 3, 10);
   PathKindCounts expected{};
+  const auto number = [](std::string_view word) {
+    return static_cast<size_t>(std::ranges::find(path_kinds, word, &PathKind::word) - path_kinds.begin());
+  };
+  const size_t diffracted = number("diffracted"), scattered = number("scattered");
   uint64_t paths = 0;
   for (const FrameResult& frame : all) {
     const Paths& p = frame.paths;
-    for (size_t i = 0; i < p.size(); ++i) ++expected[p.depth[i] == 0 ? 0 : frame.frame % 2 == 0 ? 3 : 4];
+    for (size_t i = 0; i < p.size(); ++i)
+      ++expected[p.depth[i] == 0 ? 0 : frame.frame % 2 == 0 ? diffracted : scattered];
     paths += p.size();
   }
-  REQUIRE((expected[0] > 0 && expected[3] > 0 && expected[4] > 0));
+  REQUIRE((expected[0] > 0 && expected[diffracted] > 0 && expected[scattered] > 0));
 
   const TemporaryFolder folder;
   const RunIdentity identity = sample_identity(12);

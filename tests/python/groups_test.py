@@ -11,6 +11,7 @@ try:
 except ImportError:
     sys.exit(77)
 import wavetracer
+from wavetracer.paths import KINDS
 
 folder = sys.argv[1]
 shutil.rmtree(folder, ignore_errors=True)
@@ -23,7 +24,7 @@ paths, links = frame.paths, frame.links
 assert paths.group.shape == paths.group_weight.shape == (len(paths), 4)
 np.testing.assert_allclose((paths.group_weight ** 2).sum(axis=1), 1, rtol=1e-12)
 assert (np.abs(links["path_gain_db"] - links["sum_of_powers_db"]) > 0.01).any()
-again = paths.select(kind=("line_of_sight", "reflected", "transmitted", "diffracted", "scattered")).links
+again = paths.select(kind=tuple(KINDS)).links
 for name in ("path_gain_db", "sum_of_powers_db"):
     np.testing.assert_allclose(again[name], links[name], rtol=1e-9)
 few = pickle.loads(pickle.dumps(paths.select(rx="r3")))
