@@ -4,7 +4,6 @@
 // subcarrier 0 at f.
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "convert/response_arrays.hpp"
 #include "radio/link_groups.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/interaction_kinds.hpp"
 
 namespace wavetracer {
 namespace {
@@ -30,18 +30,15 @@ struct Sizes {
 
 double degrees(double radians) { return radians * (180 / std::numbers::pi); }
 
-// DeepMIMO's digits of interactions start at 1.
-constexpr std::array<uint8_t, 4> interaction_digits{reflection, diffraction, scattering, transmission};
-
 // Returns the code with one digit per interaction, from the transmitter on.
 double interaction_code(const Paths& paths, size_t row) {
   double code = 0;
   for (uint64_t v = paths.vertex_offset[row]; v < paths.vertex_offset[row + 1]; ++v) {
-    const auto digit = std::ranges::find(interaction_digits, paths.vertex_interaction[v]);
-    if (digit == interaction_digits.end())
+    const InteractionKind* kind = find_interaction(paths.vertex_interaction[v]);
+    if (!kind || kind->deepmimo == 0)
       throw RuntimeError(fmt::format("path {} has an interaction of kind {}, which DeepMIMO has no number for", row,
                                      paths.vertex_interaction[v]));
-    code = 10 * code + static_cast<double>(digit - interaction_digits.begin() + 1);
+    code = 10 * code + kind->deepmimo;
   }
   return code;
 }

@@ -233,7 +233,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
   Uncounted out;
   exact.visible.clear();
   const auto see = [&](SolvedList& solved) {
-    exact.check_legs(scene, ends, solved, counters);  // occlusion or transmissions
+    exact.check_legs(scene, ends, solved, counters);  // the passes of legs (exact_paths.cpp)
     exact.visible(solved, counters);                  // visible
     account.device_done();
   };

@@ -30,20 +30,21 @@ struct InteractionKind {
   std::string_view word;         // the name of the feature, and of the key in [trace]
   std::string_view legend;       // its name in descriptions in files
   PathKind paths;                // the paths whose most special interaction it is
+  uint8_t deepmimo;              // its digit in the codes of DeepMIMO; 0 if it has none
   bool TraceConfig::*asked_for;  // the value of that key
 };
 
-// The least special comes first. A row: code, step and waypoint; words; paths; key.
+// The least special comes first. A row: code, step and waypoint; words; paths; digit; key.
 // clang-format off
 inline constexpr std::array<InteractionKind, 4> interaction_kinds{{
     {reflection, 0, WaypointKind::reflection, "reflection", "reflection",
-     {"reflected", "#6db0f2", "#002080", 5}, &TraceConfig::reflection},
+     {"reflected", "#6db0f2", "#002080", 5}, 1, &TraceConfig::reflection},
     {transmission, 1, WaypointKind::launch, "transmission", "transmission",
-     {"transmitted", "#f23091", "#f230f2", 2}, &TraceConfig::transmission},
+     {"transmitted", "#f23091", "#f230f2", 2}, 4, &TraceConfig::transmission},
     {diffraction, 2, WaypointKind::diffraction, "diffraction", "diffraction",
-     {"diffracted", "#00f279", "#21a685", 6}, &TraceConfig::diffraction},
+     {"diffracted", "#00f279", "#21a685", 6}, 2, &TraceConfig::diffraction},
     {scattering, 3, WaypointKind::launch, "scattering", "diffuse scattering",
-     {"scattered", "#a67c00", "#804000", 3}, &TraceConfig::scattering},
+     {"scattered", "#a67c00", "#804000", 3}, 3, &TraceConfig::scattering},
 }};
 // clang-format on
 static_assert(std::ranges::all_of(interaction_kinds,

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The effect of one vertex of a path on the wave: its coefficients, and its part of the Doppler shift. Diffractions are
+// in path_edges.h. wt_pass_surfaces (path_field.h) walks over the vertices.
+#ifndef WAVETRACER_DEVICE_PATH_VERTEX_H
+#define WAVETRACER_DEVICE_PATH_VERTEX_H
+#include "wavetracer/device/path_world.h"
+#include "wavetracer/device/scattering.h"
+#include "wavetracer/device/slab.h"
+#include "wavetracer/device/transfer.h"
+
+// A device need not compile code for things that the scene does not have.
+#ifndef WT_SCATTERS
+#define WT_SCATTERS 1
+#endif
+
+#ifndef __OPENCL_VERSION__
+namespace wavetracer::device {
+#endif
+
+// A surface that mirrors the wave or lets it pass.
+inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double3 k_in, wt_double3 k_out, double path_m,
+                            wt_transfer* transfer) {
+  const wt_uint surface = step & ~WT_STEP_KIND;
+  const wt_double3 normal = wt_vector(world->surfaces[surface].normal);
+  const wt_material material = world->materials[world->materials_of[surface]];
+  const wt_double2 permittivity = WT_DOUBLE2(material.permittivity[0], material.permittivity[1]);
+  const double zone = wt_zone_cosine(path_m, world->wavelength_m);
+  const double cosine = wt_cosine_of_zone(permittivity, fmin(fabs(wt_dot3(k_in, normal)), 1.0), zone);
+  const wt_slab slab = wt_slab_coefficients(permittivity, cosine, material.thickness_m, world->wavelength_m);
+  if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) {
+    wt_meet(transfer, k_in, k_out, normal, slab.transmission_te, slab.transmission_tm);
+  } else {
+    const double share = world->scatters ? wt_specular_share(&material) : 1.0;
+    wt_meet(transfer, k_in, k_out, normal, slab.reflection_te * share, slab.reflection_tm * share);
+  }
+}
+
+#if WT_CELLS
+// solved: the number of the path in the list of solved ones.
+inline void wt_scatter_in_cell(const wt_field_world* world, wt_uint tile, wt_uint solved, wt_double3 k_in,
+                               wt_double3 k_out, wt_transfer* transfer) {
+  const wt_uint kind = world->surface_of_tile[tile] >> WT_CELL_KIND_SHIFT & (WT_MOST_KINDS - 1u);
+  const WT_GLOBAL wt_foliage* foliage = world->foliages + kind;
+  const double side_m = world->area_of_tile[tile];
+  const double extinction =
+      wt_foliage_extinction(foliage, world->lengths_inside[(wt_ulong)solved * world->foliage_count + kind]);
+  const wt_wave_map wave =
+      wt_scatter_in_leaves(foliage, extinction, k_in, k_out, side_m * side_m * side_m, world->seed, tile);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+#endif
+
+#if WT_SCATTERS
+inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 k_in, wt_double3 k_out,
+                          wt_transfer* transfer) {
+  const wt_uint surface = world->surface_of_tile[tile];
+  const wt_material material = world->materials[world->materials_of[surface]];
+  const wt_wave_map wave =
+      wt_scatter(&material, world->wavelength_m, k_in, k_out, wt_vector(world->surfaces[surface].normal),
+                 world->area_of_tile[tile], world->seed, tile);
+  wt_map(transfer, wave.from, wave.to, wave.matrix);
+}
+#endif
+
+// dL/dt = sum over legs of k . (x'(i+1) - x'(i)): returns how much vertex p, on a body that moves, adds to the speed at
+// which the path gets shorter. A vertex moves with the velocity v of the body there, and slides along its surface or
+// edge besides. k_in - k_out is normal to a mirror or to an edge, so sliding does not change L (Fermat's principle) and
+// x' = v is exact, also on a turning body. A scattering point is fixed to the body. A transmission goes straight on,
+// k_in = k_out, and adds nothing.
+inline double wt_closing_speed_at(const wt_field_world* world, wt_uint step, wt_double3 p, wt_double3 k_in,
+                                  wt_double3 k_out) {
+  const wt_uint instance = wt_step_instance(world, step);
+  if (instance == WT_NONE || (step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) return 0.0;
+  const WT_GLOBAL wt_exact_instance* body = world->instances + instance;
+  const wt_double3 arm = p - wt_vector(body->position);
+  const wt_double3 velocity = wt_vector(body->velocity) + wt_cross3(wt_vector(body->angular_velocity), arm);
+  return wt_dot3(velocity, k_out - k_in);
+}
+
+#ifndef __OPENCL_VERSION__
+}  // namespace wavetracer::device
+#endif
+#endif
