@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels whose arguments are checked where the host is compiled. cmake/kernel_calls.py makes a struct of every
-// kernel's declaration, kernels::PROGRAM::KERNEL in "kernel_calls/PROGRAM.hpp", with a member for each argument. A
+// kernel's declaration, calls::PROGRAM::KERNEL in "kernel_calls/PROGRAM.hpp", with a member for each argument. A
 // launch gives them by name and in their order: arguments in another order, one too few, or a buffer of other elements
 // do not compile.
 #pragma once

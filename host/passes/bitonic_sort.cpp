@@ -83,29 +83,29 @@ void BitonicSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& value
   const size_t items = std::min(items_, std::max(32u, std::bit_ceil(std::min(n, block_)) / 2));
   const size_t local = items_ == 1 ? 1 : items;
   sort_blocks_({blocks * local, local}, stage,
-               kernels::bitonic_sort::sort_blocks{.keys = keys, .values = values, .index = index, .n = n});
+               calls::bitonic_sort::sort_blocks{.keys = keys, .values = values, .index = index, .n = n});
   // The last merge has groups of bit_ceil(n); a launch has as many comparators as whole groups do.
   for (uint64_t stride = block_; stride < n; stride *= 2) {
     const size_t comparators = (n + 2 * stride - 1) / (2 * stride) * stride;
     const size_t group = std::min<size_t>(step_group_, block_);
     one_step_({comparators, group}, stage,
-              kernels::bitonic_sort::one_step{.keys = keys,
-                                              .index = index,
-                                              .n = n,
-                                              .stride = static_cast<uint32_t>(stride),
-                                              .mask = static_cast<uint32_t>(2 * stride - 1)});
+              calls::bitonic_sort::one_step{.keys = keys,
+                                            .index = index,
+                                            .n = n,
+                                            .stride = static_cast<uint32_t>(stride),
+                                            .mask = static_cast<uint32_t>(2 * stride - 1)});
     for (uint64_t below = stride / 2; below >= block_; below /= 2)
       one_step_({comparators, group}, stage,
-                kernels::bitonic_sort::one_step{.keys = keys,
-                                                .index = index,
-                                                .n = n,
-                                                .stride = static_cast<uint32_t>(below),
-                                                .mask = static_cast<uint32_t>(below)});
+                calls::bitonic_sort::one_step{.keys = keys,
+                                              .index = index,
+                                              .n = n,
+                                              .stride = static_cast<uint32_t>(below),
+                                              .mask = static_cast<uint32_t>(below)});
     merge_blocks_({blocks * local, local}, stage,
-                  kernels::bitonic_sort::merge_blocks{.keys = keys, .index = index, .n = n});
+                  calls::bitonic_sort::merge_blocks{.keys = keys, .index = index, .n = n});
   }
   if (payload_ == Payload::words && blocks > 1)
-    gather_({n, step_group_}, stage, kernels::bitonic_sort::gather{.values = values, .index = index, .n = n});
+    gather_({n, step_group_}, stage, calls::bitonic_sort::gather{.values = values, .index = index, .n = n});
 }
 
 template class BitonicSort<uint32_t>;

@@ -35,10 +35,10 @@ class BitonicSort {
  private:
   Payload payload_;
   uint32_t block_, items_, step_group_;
-  gpu::KernelOf<kernels::bitonic_sort::sort_blocks> sort_blocks_;
-  gpu::KernelOf<kernels::bitonic_sort::one_step> one_step_;
-  gpu::KernelOf<kernels::bitonic_sort::merge_blocks> merge_blocks_;
-  gpu::KernelOf<kernels::bitonic_sort::gather> gather_;
+  gpu::KernelOf<calls::bitonic_sort::sort_blocks> sort_blocks_;
+  gpu::KernelOf<calls::bitonic_sort::one_step> one_step_;
+  gpu::KernelOf<calls::bitonic_sort::merge_blocks> merge_blocks_;
+  gpu::KernelOf<calls::bitonic_sort::gather> gather_;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
             Stage stage);
 };

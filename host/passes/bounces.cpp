@@ -24,23 +24,23 @@ void Bounces::operator()(const DeviceScene& scene, const RayQueue& rays, uint32_
   if (interactions > WT_MAX_DEPTH) throw std::logic_error("bounces: more interactions than rays may have");
   kernel_(
       work_.range(rays.count), Stage::trace,
-      kernels::bounces::bounces{.nodes = scene.leg_nodes(),
-                                .triangles = scene.leg_leaves(),
-                                .moving = scene.moving,
-                                .rays = rays.planes,
-                                .surfaces = scene.surfaces,
-                                .table = trie.table,
-                                .quarters = trie.quarters,
-                                .counters = trie.counters.buffer(),
-                                .ages = trie.ages,
-                                .ends = ends,
-                                .args = wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
-                                                             .extent_m = scene.extent_m,
-                                                             .capacity = rays.capacity,
-                                                             .ray_count = rays.count,
-                                                             .interactions = interactions,
-                                                             .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
-                                                             .now = trie.now}});
+      calls::bounces::bounces{.nodes = scene.leg_nodes(),
+                              .triangles = scene.leg_leaves(),
+                              .moving = scene.moving,
+                              .rays = rays.planes,
+                              .surfaces = scene.surfaces,
+                              .table = trie.table,
+                              .quarters = trie.quarters,
+                              .counters = trie.counters.buffer(),
+                              .ages = trie.ages,
+                              .ends = ends,
+                              .args = wt_bounces_arguments{.triangle_slots = scene.triangle_slots,
+                                                           .extent_m = scene.extent_m,
+                                                           .capacity = rays.capacity,
+                                                           .ray_count = rays.count,
+                                                           .interactions = interactions,
+                                                           .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
+                                                           .now = trie.now}});
 }
 
 }  // namespace wavetracer

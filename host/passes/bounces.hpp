@@ -21,7 +21,7 @@ class Bounces {
 
  private:
   bool ages_, samples_;
-  gpu::KernelOf<kernels::bounces::bounces> kernel_;
+  gpu::KernelOf<calls::bounces::bounces> kernel_;
   Work work_;
 };
 

@@ -43,22 +43,22 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
   context_.fill(numbers_, &none, sizeof none, 0, places * sizeof none, stage);
   const gpu::Range range = work_.range(rays.count);
   keys_(range, stage,
-        kernels::cache_groups::cache_keys{.rays = rays.planes,
-                                          .capacity = rays.capacity,
-                                          .count = rays.count,
-                                          .missed = missed,
-                                          .widths = table.widths,
-                                          .static_surfaces = static_surfaces,
-                                          .keys = key_words_,
-                                          .places = representatives_});
+        calls::cache_groups::cache_keys{.rays = rays.planes,
+                                        .capacity = rays.capacity,
+                                        .count = rays.count,
+                                        .missed = missed,
+                                        .widths = table.widths,
+                                        .static_surfaces = static_surfaces,
+                                        .keys = key_words_,
+                                        .places = representatives_});
   elect_(range, stage,
-         kernels::cache_groups::cache_elect{.count = rays.count,
-                                            .keys = key_words_,
-                                            .table = numbers_,
-                                            .mask = static_cast<uint32_t>(places - 1),
-                                            .places = representatives_});
+         calls::cache_groups::cache_elect{.count = rays.count,
+                                          .keys = key_words_,
+                                          .table = numbers_,
+                                          .mask = static_cast<uint32_t>(places - 1),
+                                          .places = representatives_});
   follow_(range, stage,
-          kernels::cache_groups::cache_follow{
+          calls::cache_groups::cache_follow{
               .count = rays.count, .missed = missed, .table = numbers_, .places = representatives_});
 }
 
@@ -68,25 +68,25 @@ void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits,
   if (table.config.holds_all() && !receivers)
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
   share_(work_.range(rays.count), stage,
-         kernels::cache_groups::cache_share{.rays = rays.planes,
-                                            .hits = hits.planes,
-                                            .missed = missed,
-                                            .refused = refused,
-                                            .representatives = representatives_,
-                                            .entries = table.entries,
-                                            .heads = table.heads,
-                                            .used = table.used,
-                                            .regions = table.device_regions,
-                                            .counters = table.counters,
-                                            .surfaces = scene.surfaces,
-                                            .receivers = receivers,
-                                            .args = wt_cache_lookup_arguments{.capacity = rays.capacity,
-                                                                              .count = rays.count,
-                                                                              .now = now,
-                                                                              .touch = 0,
-                                                                              .static_surfaces = 0,
-                                                                              .radius_m = 0,
-                                                                              .widths = table.widths}});
+         calls::cache_groups::cache_share{.rays = rays.planes,
+                                          .hits = hits.planes,
+                                          .missed = missed,
+                                          .refused = refused,
+                                          .representatives = representatives_,
+                                          .entries = table.entries,
+                                          .heads = table.heads,
+                                          .used = table.used,
+                                          .regions = table.device_regions,
+                                          .counters = table.counters,
+                                          .surfaces = scene.surfaces,
+                                          .receivers = receivers,
+                                          .args = wt_cache_lookup_arguments{.capacity = rays.capacity,
+                                                                            .count = rays.count,
+                                                                            .now = now,
+                                                                            .touch = 0,
+                                                                            .static_surfaces = 0,
+                                                                            .radius_m = 0,
+                                                                            .widths = table.widths}});
 }
 
 }  // namespace wavetracer

@@ -33,10 +33,10 @@ class CacheGroups {
   gpu::Context& context_;
   Work work_;
   uint32_t words_;  // words of a key, WT_GROUP_WORDS
-  gpu::KernelOf<kernels::cache_groups::cache_keys> keys_;
-  gpu::KernelOf<kernels::cache_groups::cache_elect> elect_;
-  gpu::KernelOf<kernels::cache_groups::cache_follow> follow_;
-  gpu::KernelOf<kernels::cache_groups::cache_share> share_;
+  gpu::KernelOf<calls::cache_groups::cache_keys> keys_;
+  gpu::KernelOf<calls::cache_groups::cache_elect> elect_;
+  gpu::KernelOf<calls::cache_groups::cache_follow> follow_;
+  gpu::KernelOf<calls::cache_groups::cache_share> share_;
   gpu::Buffer<uint64_t> key_words_;
   gpu::Buffer<uint32_t> numbers_, representatives_;  // numbers of rays, by the places of their keys
 };

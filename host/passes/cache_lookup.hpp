@@ -26,7 +26,7 @@ class CacheLookup {
 
  private:
   Work work_;
-  gpu::KernelOf<kernels::cache_lookup::cache_lookup> kernel_;
+  gpu::KernelOf<calls::cache_lookup::cache_lookup> kernel_;
 };
 
 }  // namespace wavetracer

@@ -20,14 +20,14 @@ void CachePurge::operator()(gpu::Context& context, CacheTable& table, uint32_t k
   context.fill(old_, 0, Stage::cache_purge);
   const gpu::Range entries = work_.range(table.regions.front().entries);
   kernel_({{entries.global[0], table.regions.size(), 1}, entries.local, 2}, Stage::cache_purge,
-          kernels::cache_purge::cache_purge{.entries = table.entries,
-                                            .heads = table.heads,
-                                            .used = table.used,
-                                            .regions = table.device_regions,
-                                            .counters = table.counters,
-                                            .keep_from = keep_from,
-                                            .old = old_,
-                                            .uses = table.uses});
+          calls::cache_purge::cache_purge{.entries = table.entries,
+                                          .heads = table.heads,
+                                          .used = table.used,
+                                          .regions = table.device_regions,
+                                          .counters = table.counters,
+                                          .keep_from = keep_from,
+                                          .old = old_,
+                                          .uses = table.uses});
   if (table.config.pooled()) clear_old_regions(context, table);
 }
 

@@ -19,7 +19,7 @@ class CachePurge {
  private:
   void clear_old_regions(gpu::Context& context, CacheTable& table);
 
-  gpu::KernelOf<kernels::cache_purge::cache_purge> kernel_;
+  gpu::KernelOf<calls::cache_purge::cache_purge> kernel_;
   gpu::Buffer<uint32_t> old_;  // old entries of each region
   Work work_;
 };

@@ -23,7 +23,7 @@ class CacheStore {
 
  private:
   Work work_;
-  gpu::KernelOf<kernels::cache_store::cache_store> kernel_;
+  gpu::KernelOf<calls::cache_store::cache_store> kernel_;
 };
 
 }  // namespace wavetracer

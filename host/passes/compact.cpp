@@ -35,7 +35,7 @@ void Compact::count_blocks(const gpu::Buffer<float>& words, size_t first, uint32
                            gpu::Buffer<uint32_t>& block_counts) {
   check(words, first, count, block_counts);
   count_blocks_(work_.range(count), Stage::compact,
-                kernels::compact::count_blocks{
+                calls::compact::count_blocks{
                     .planes = words, .first = uint64_t{first}, .count = count, .block_counts = block_counts});
 }
 
@@ -43,11 +43,11 @@ void Compact::operator()(const gpu::Buffer<float>& words, size_t first, uint32_t
                          const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices) {
   check(words, first, count, block_offsets);
   compact_(work_.range(count), Stage::compact,
-           kernels::compact::compact{.planes = words,
-                                     .first = uint64_t{first},
-                                     .count = count,
-                                     .block_offsets = block_offsets,
-                                     .indices = indices});
+           calls::compact::compact{.planes = words,
+                                   .first = uint64_t{first},
+                                   .count = count,
+                                   .block_offsets = block_offsets,
+                                   .indices = indices});
 }
 
 }  // namespace wavetracer

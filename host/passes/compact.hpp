@@ -32,8 +32,8 @@ class Compact {
                   const gpu::Buffer<uint32_t>& block_offsets, gpu::Buffer<uint32_t>& indices);
 
  private:
-  gpu::KernelOf<kernels::compact::count_blocks> count_blocks_;
-  gpu::KernelOf<kernels::compact::compact> compact_;
+  gpu::KernelOf<calls::compact::count_blocks> count_blocks_;
+  gpu::KernelOf<calls::compact::compact> compact_;
   uint32_t block_;
   Work work_;
   void check(const gpu::Buffer<float>& words, size_t first, uint32_t count, const gpu::Buffer<uint32_t>& blocks) const;

@@ -49,16 +49,16 @@ SolvedList& Crowns::operator()(const RadioEnds& ends) {
   solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
   if (solved_.count > 0)
     kernel_(work_.range(solved_.count), Stage::crowns,
-            kernels::crowns::crowns{.links = links_,
-                                    .centres = centres_,
-                                    .solved = solved_.headers,
-                                    .vertices = solved_.vertices,
-                                    .sequences = solved_.sequences,
-                                    .args = wt_crowns_arguments{.row_count = solved_.count,
-                                                                .rows_per_item = work_.per_item,
-                                                                .cells = cells_,
-                                                                .first_tile = first_tile_,
-                                                                .max_depth = solved_.max_depth}});
+            calls::crowns::crowns{.links = links_,
+                                  .centres = centres_,
+                                  .solved = solved_.headers,
+                                  .vertices = solved_.vertices,
+                                  .sequences = solved_.sequences,
+                                  .args = wt_crowns_arguments{.row_count = solved_.count,
+                                                              .rows_per_item = work_.per_item,
+                                                              .cells = cells_,
+                                                              .first_tile = first_tile_,
+                                                              .max_depth = solved_.max_depth}});
   return solved_;
 }
 

@@ -26,7 +26,7 @@ class Crowns {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::crowns::crowns> kernel_;
+  gpu::KernelOf<calls::crowns::crowns> kernel_;
   Work work_;
   uint32_t cells_, first_tile_, links_count_ = 0;
   gpu::Buffer<double> centres_;

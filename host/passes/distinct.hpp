@@ -53,9 +53,9 @@ class Distinct {
   void reserve(size_t places);
 
   gpu::Context& context_;
-  gpu::KernelOf<kernels::distinct::row_keys> row_keys_;
-  gpu::KernelOf<kernels::distinct::mark_rows> mark_rows_;
-  gpu::KernelOf<kernels::distinct::order_rows> order_rows_;
+  gpu::KernelOf<calls::distinct::row_keys> row_keys_;
+  gpu::KernelOf<calls::distinct::mark_rows> mark_rows_;
+  gpu::KernelOf<calls::distinct::order_rows> order_rows_;
   uint32_t local_;
   bool twins_;
   gpu::Buffer<uint32_t> receiver_of_, transmitter_of_, keys_, order_;

@@ -47,7 +47,7 @@ class Fields {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::fields::fields> kernel_;
+  gpu::KernelOf<calls::fields::fields> kernel_;
   Work work_;
   uint32_t transmitters_;
   Ports ports_;

@@ -12,12 +12,12 @@ GatherRays::GatherRays(gpu::Context& context, Stage stage)
 
 void GatherRays::operator()(const RayQueue& rays, const gpu::Buffer<uint32_t>& order, uint32_t count, RayQueue& next) {
   kernel_(work_.range(count), stage_,
-          kernels::gather_rays::gather_rays{.rays = rays.planes,
-                                            .capacity = rays.capacity,
-                                            .count = count,
-                                            .order = order,
-                                            .next = next.planes,
-                                            .plane_count = next.plane_count});
+          calls::gather_rays::gather_rays{.rays = rays.planes,
+                                          .capacity = rays.capacity,
+                                          .count = count,
+                                          .order = order,
+                                          .next = next.planes,
+                                          .plane_count = next.plane_count});
   next.count = count;
 }
 

@@ -18,7 +18,7 @@ class GatherRays {
  private:
   Stage stage_;
   Work work_;
-  gpu::KernelOf<kernels::gather_rays::gather_rays> kernel_;
+  gpu::KernelOf<calls::gather_rays::gather_rays> kernel_;
 };
 
 }  // namespace wavetracer

@@ -42,7 +42,7 @@ GenerateRays::GenerateRays(gpu::Context& context, const LaunchDirections& direct
 void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t first, uint32_t count, uint64_t stride) {
   check_room(queue, count);
   generate_(work_.range(count), Stage::generate_rays,
-            kernels::generate_rays::generate_rays{
+            calls::generate_rays::generate_rays{
                 .rays = queue.planes,
                 .heights = heights_->tables(),
                 .map = directions_.arguments(),
@@ -66,7 +66,7 @@ void GenerateRays::operator()(RayQueue& queue, std::span<const Launcher> from, u
     launchers_ = context_.buffer<wt_launcher_arguments>(launchers.size(), "launchers");
   launchers_.write(launchers, 0, Stage::generate_rays);
   generate_launchers_(work_.range(rays), Stage::generate_rays,
-                      kernels::generate_rays::generate_launchers{
+                      calls::generate_rays::generate_launchers{
                           .rays = queue.planes,
                           .heights = heights_->tables(),
                           .map = directions_.arguments(),
@@ -85,17 +85,17 @@ void GenerateRays::operator()(RayQueue& queue, const Launcher& from, uint64_t fi
                               const gpu::Buffer<uint32_t>& order) {
   check_room(queue, count);
   generate_ordered_(work_.range(count), Stage::generate_rays,
-                    kernels::generate_rays::generate_ordered{.rays = queue.planes,
-                                                             .order = order,
-                                                             .heights = heights_->tables(),
-                                                             .map = directions_.arguments(),
-                                                             .from = arguments_of(from, *heights_),
-                                                             .args = wt_launch_arguments{.first_index = first,
-                                                                                         .stride = 1,
-                                                                                         .number = 0,
-                                                                                         .capacity = queue.capacity,
-                                                                                         .first_slot = queue.count,
-                                                                                         .count = count}});
+                    calls::generate_rays::generate_ordered{.rays = queue.planes,
+                                                           .order = order,
+                                                           .heights = heights_->tables(),
+                                                           .map = directions_.arguments(),
+                                                           .from = arguments_of(from, *heights_),
+                                                           .args = wt_launch_arguments{.first_index = first,
+                                                                                       .stride = 1,
+                                                                                       .number = 0,
+                                                                                       .capacity = queue.capacity,
+                                                                                       .first_slot = queue.count,
+                                                                                       .count = count}});
   queue.count += count;
 }
 
@@ -106,19 +106,19 @@ void GenerateRays::samples(RayQueue& queue, SampleList& list, uint32_t first, ui
   check_room(queue, count);
   generate_samples_(
       work_.range(count), Stage::generate_rays,
-      kernels::generate_rays::generate_samples{.rays = queue.planes,
-                                               .samples = list.samples,
-                                               .launchers = launchers,
-                                               .heights = heights_->tables(),
-                                               .ends = list.ends,
-                                               .map = directions.arguments(),
-                                               .args = wt_samples_arguments{.capacity = queue.capacity,
-                                                                            .first = first,
-                                                                            .count = count,
-                                                                            .sample_capacity = list.capacity,
-                                                                            .cosine = turn.cosine,
-                                                                            .sine = turn.sine,
-                                                                            .turn = turn.turn}});
+      calls::generate_rays::generate_samples{.rays = queue.planes,
+                                             .samples = list.samples,
+                                             .launchers = launchers,
+                                             .heights = heights_->tables(),
+                                             .ends = list.ends,
+                                             .map = directions.arguments(),
+                                             .args = wt_samples_arguments{.capacity = queue.capacity,
+                                                                          .first = first,
+                                                                          .count = count,
+                                                                          .sample_capacity = list.capacity,
+                                                                          .cosine = turn.cosine,
+                                                                          .sine = turn.sine,
+                                                                          .turn = turn.turn}});
   queue.count = count;
 }
 

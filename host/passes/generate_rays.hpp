@@ -52,10 +52,10 @@ class GenerateRays {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::generate_rays::generate_rays> generate_;
-  gpu::KernelOf<kernels::generate_rays::generate_launchers> generate_launchers_;
-  gpu::KernelOf<kernels::generate_rays::generate_ordered> generate_ordered_;
-  gpu::KernelOf<kernels::generate_rays::generate_samples> generate_samples_;
+  gpu::KernelOf<calls::generate_rays::generate_rays> generate_;
+  gpu::KernelOf<calls::generate_rays::generate_launchers> generate_launchers_;
+  gpu::KernelOf<calls::generate_rays::generate_ordered> generate_ordered_;
+  gpu::KernelOf<calls::generate_rays::generate_samples> generate_samples_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
   Work work_;

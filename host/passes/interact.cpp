@@ -33,24 +33,24 @@ void Interact::operator()(const DeviceScene& scene, const RayQueue& rays, const 
   if (to.transmitted && !options_.transmission) throw std::logic_error("interact: it was made without transmission");
   auto& kernel = to.transmitted ? kernel_through_ : kernel_;
   const auto planes = [](const RayQueue* queue) { return queue ? &queue->planes : nullptr; };
-  kernel(work_.range(rays.count), Stage::interact,
-         kernels::interact::interact{
-             .rays = rays.planes,
-             .hits = hits.planes,
-             .block_offsets = hits.block_hits,
-             .surfaces = scene.surfaces,
-             .table = trie.table,
-             .quarters = trie.quarters,
-             .counters = trie.counters.buffer(),
-             .next = planes(to.reflected),
-             .ages = trie.ages,
-             .ends = to.ends,
-             .through = planes(to.transmitted),
-             .args = wt_interact_arguments{.capacity = rays.capacity,
-                                           .ray_count = rays.count,
-                                           .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
-                                           .last = !to.reflected,
-                                           .now = trie.now}});
+  kernel(
+      work_.range(rays.count), Stage::interact,
+      calls::interact::interact{.rays = rays.planes,
+                                .hits = hits.planes,
+                                .block_offsets = hits.block_hits,
+                                .surfaces = scene.surfaces,
+                                .table = trie.table,
+                                .quarters = trie.quarters,
+                                .counters = trie.counters.buffer(),
+                                .next = planes(to.reflected),
+                                .ages = trie.ages,
+                                .ends = to.ends,
+                                .through = planes(to.transmitted),
+                                .args = wt_interact_arguments{.capacity = rays.capacity,
+                                                              .ray_count = rays.count,
+                                                              .trie_mask = static_cast<uint32_t>(trie.table.size() - 1),
+                                                              .last = !to.reflected,
+                                                              .now = trie.now}});
   for (RayQueue* const queue : {to.reflected, to.transmitted})
     if (queue) queue->count = hit_count;
 }

@@ -35,8 +35,8 @@ class Interact {
 
  private:
   InteractOptions options_;
-  gpu::KernelOf<kernels::interact::interact> kernel_;
-  gpu::KernelOf<kernels::interact::interact> kernel_through_;
+  gpu::KernelOf<calls::interact::interact> kernel_;
+  gpu::KernelOf<calls::interact::interact> kernel_through_;
   Work work_;
 };
 

@@ -20,33 +20,33 @@ const gpu::Buffer<uint32_t>* const unordered = nullptr;
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample) {
   label_(work_.range(count), Stage::generate_rays,
-         kernels::label_rays::label_rays{.rays = queue.planes,
-                                         .capacity = queue.capacity,
-                                         .first_slot = first_slot,
-                                         .count = count,
-                                         .first_sample = first_sample,
-                                         .order = unordered});
+         calls::label_rays::label_rays{.rays = queue.planes,
+                                       .capacity = queue.capacity,
+                                       .first_slot = first_slot,
+                                       .count = count,
+                                       .first_sample = first_sample,
+                                       .order = unordered});
 }
 
 void LabelRays::operator()(RayQueue& queue, uint32_t first_slot, uint32_t count, uint32_t first_sample,
                            const gpu::Buffer<uint32_t>& order) {
   label_ordered_(work_.range(count), Stage::generate_rays,
-                 kernels::label_rays::label_rays{.rays = queue.planes,
-                                                 .capacity = queue.capacity,
-                                                 .first_slot = first_slot,
-                                                 .count = count,
-                                                 .first_sample = first_sample,
-                                                 .order = order});
+                 calls::label_rays::label_rays{.rays = queue.planes,
+                                               .capacity = queue.capacity,
+                                               .first_slot = first_slot,
+                                               .count = count,
+                                               .first_sample = first_sample,
+                                               .order = order});
 }
 
 void LabelRays::operator()(RayQueue& queue) {
   label_samples_(work_.range(queue.count), Stage::generate_rays,
-                 kernels::label_rays::label_rays{.rays = queue.planes,
-                                                 .capacity = queue.capacity,
-                                                 .first_slot = 0u,
-                                                 .count = queue.count,
-                                                 .first_sample = 0u,
-                                                 .order = unordered});
+                 calls::label_rays::label_rays{.rays = queue.planes,
+                                               .capacity = queue.capacity,
+                                               .first_slot = 0u,
+                                               .count = queue.count,
+                                               .first_sample = 0u,
+                                               .order = unordered});
 }
 
 }  // namespace wavetracer

@@ -21,9 +21,9 @@ class LabelRays {
 
  private:
   Work work_;
-  gpu::KernelOf<kernels::label_rays::label_rays> label_;
-  gpu::KernelOf<kernels::label_rays::label_rays> label_ordered_;
-  gpu::KernelOf<kernels::label_rays::label_rays> label_samples_;
+  gpu::KernelOf<calls::label_rays::label_rays> label_;
+  gpu::KernelOf<calls::label_rays::label_rays> label_ordered_;
+  gpu::KernelOf<calls::label_rays::label_rays> label_samples_;
 };
 
 }  // namespace wavetracer

@@ -22,7 +22,7 @@ class Occlusion {
 
  private:
   Work work_;
-  gpu::KernelOf<kernels::occlusion::occlusion> kernel_;
+  gpu::KernelOf<calls::occlusion::occlusion> kernel_;
 };
 
 }  // namespace wavetracer

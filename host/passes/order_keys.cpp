@@ -53,24 +53,24 @@ OrderKeys::OrderKeys(gpu::Context& context, OrderKey key, uint32_t bins, const L
 
 void OrderKeys::operator()(uint64_t first, uint32_t count, gpu::Buffer<uint32_t>& keys, uint32_t heights, bool window) {
   launch_keys_(work_.range(count), Stage::order,
-               kernels::order_keys::launch_keys{.keys = keys,
-                                                .count = count,
-                                                .first_index = first,
-                                                .map = directions_.arguments(),
-                                                .heights = heights_->tables(),
-                                                .table = heights_->place(heights),
-                                                .window = window ? 1u : 0u,
-                                                .bins = bins_});
+               calls::order_keys::launch_keys{.keys = keys,
+                                              .count = count,
+                                              .first_index = first,
+                                              .map = directions_.arguments(),
+                                              .heights = heights_->tables(),
+                                              .table = heights_->place(heights),
+                                              .window = window ? 1u : 0u,
+                                              .bins = bins_});
 }
 
 void OrderKeys::operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys) {
   queue_keys_(work_.range(rays.count), Stage::order,
-              kernels::order_keys::queue_keys{.rays = rays.planes,
-                                              .capacity = rays.capacity,
-                                              .count = rays.count,
-                                              .to_unit = to_unit_,
-                                              .keys = keys,
-                                              .bins = bins_});
+              calls::order_keys::queue_keys{.rays = rays.planes,
+                                            .capacity = rays.capacity,
+                                            .count = rays.count,
+                                            .to_unit = to_unit_,
+                                            .keys = keys,
+                                            .bins = bins_});
 }
 
 }  // namespace wavetracer

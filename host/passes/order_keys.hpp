@@ -34,8 +34,8 @@ class OrderKeys {
   void operator()(const RayQueue& rays, gpu::Buffer<uint32_t>& keys);
 
  private:
-  gpu::KernelOf<kernels::order_keys::launch_keys> launch_keys_;
-  gpu::KernelOf<kernels::order_keys::queue_keys> queue_keys_;
+  gpu::KernelOf<calls::order_keys::launch_keys> launch_keys_;
+  gpu::KernelOf<calls::order_keys::queue_keys> queue_keys_;
   LaunchDirections directions_;
   std::shared_ptr<const LaunchHeights> heights_;
   uint32_t bins_, launch_bits_, queue_bits_;

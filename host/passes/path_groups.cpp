@@ -36,21 +36,21 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
   arguments_.row_capacity = static_cast<uint32_t>(waves_.size());
   arguments_.max_depth = visible.max_depth;
   kernel_(work_.range(rows.places), Stage::path_groups,
-          kernels::path_groups::path_groups{.solved = visible.headers,
-                                            .vertices = visible.vertices,
-                                            .steps = visible.sequences,
-                                            .transmitter_places = ends.transmitters,
-                                            .receiver_places = ends.receivers,
-                                            .receiver_of = distinct.receiver_of(),
-                                            .transmitter_of = distinct.transmitter_of(),
-                                            .rows = rows.rows,
-                                            .before = rows.counts,
-                                            .wedges = wedges,
-                                            .planes_of = planes_of_,
-                                            .out = waves_,
-                                            .shared = shared_,
-                                            .shared_count = shared_count_,
-                                            .args = arguments_});
+          calls::path_groups::path_groups{.solved = visible.headers,
+                                          .vertices = visible.vertices,
+                                          .steps = visible.sequences,
+                                          .transmitter_places = ends.transmitters,
+                                          .receiver_places = ends.receivers,
+                                          .receiver_of = distinct.receiver_of(),
+                                          .transmitter_of = distinct.transmitter_of(),
+                                          .rows = rows.rows,
+                                          .before = rows.counts,
+                                          .wedges = wedges,
+                                          .planes_of = planes_of_,
+                                          .out = waves_,
+                                          .shared = shared_,
+                                          .shared_count = shared_count_,
+                                          .args = arguments_});
 }
 
 void PathGroups::begin_read(uint32_t expected) {

@@ -27,7 +27,7 @@ class PathGroups {
   void make_rows(size_t most);
 
   gpu::Context& context_;
-  gpu::KernelOf<kernels::path_groups::path_groups> kernel_;
+  gpu::KernelOf<calls::path_groups::path_groups> kernel_;
   Work work_;
   wt_path_groups_arguments arguments_{};
   gpu::Buffer<uint32_t> planes_of_;

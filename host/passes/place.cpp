@@ -238,13 +238,13 @@ void Place::surfaces(DeviceScene& scene, std::span<const Placement> placements) 
   }
   scene.exact_instances.write(records_, 0, Stage::place);
   kernel_({surface_count_, local_}, Stage::place,
-          kernels::place::place{.instances = scene.exact_instances,
-                                .models = model_surfaces_,
-                                .surface_instances = surface_instances_,
-                                .first_surface = first_surface_,
-                                .surface_count = surface_count_,
-                                .exact = scene.exact_surfaces,
-                                .surfaces = scene.surfaces});
+          calls::place::place{.instances = scene.exact_instances,
+                              .models = model_surfaces_,
+                              .surface_instances = surface_instances_,
+                              .first_surface = first_surface_,
+                              .surface_count = surface_count_,
+                              .exact = scene.exact_surfaces,
+                              .surfaces = scene.surfaces});
 }
 
 void Place::write_top_level(DeviceScene& scene, std::span<const Placement> placements) {

@@ -52,7 +52,7 @@ class Place {
               const std::vector<Leaf>& leaves);
   wt_instance instance_record(uint32_t i, const Placement& placement) const;
 
-  gpu::KernelOf<kernels::place::place> kernel_;
+  gpu::KernelOf<calls::place::place> kernel_;
   uint32_t local_;
   std::vector<Instance> instances_;
   std::vector<uint32_t> first_primitive_;  // one per instance

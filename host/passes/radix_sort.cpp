@@ -16,10 +16,10 @@ namespace wavetracer {
 namespace {
 
 // Both programs have the same kernels.
-static_assert(kernels::radix_sort::count::declared == kernels::radix_sort_cpu::count::declared);
-static_assert(kernels::radix_sort::offsets::declared == kernels::radix_sort_cpu::offsets::declared);
-static_assert(kernels::radix_sort::move::declared == kernels::radix_sort_cpu::move::declared);
-static_assert(kernels::radix_sort::settle::declared == kernels::radix_sort_cpu::settle::declared);
+static_assert(calls::radix_sort::count::declared == calls::radix_sort_cpu::count::declared);
+static_assert(calls::radix_sort::offsets::declared == calls::radix_sort_cpu::offsets::declared);
+static_assert(calls::radix_sort::move::declared == calls::radix_sort_cpu::move::declared);
+static_assert(calls::radix_sort::settle::declared == calls::radix_sort_cpu::settle::declared);
 
 constexpr uint32_t flag_words = 16;  // WT_MAX_PASSES
 constexpr uint32_t line_words = 16;  // keys and values of the temporary memory begin at multiples of this
@@ -112,28 +112,28 @@ void RadixSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values,
     const uint32_t width = bits / passes + (pass < bits % passes);
     const uint32_t mask = (1u << width) - 1;
     count_(chunks, stage,
-           kernels::radix_sort::count{.keys = keys,
-                                      .temporary = temporary,
-                                      .n = n,
-                                      .chunk = chunk,
-                                      .pass = pass,
-                                      .shift = shift,
-                                      .digit_mask = mask});
-    offsets_({size_t{tuning_.offset_groups} * tuning_.offset_items, tuning_.offset_items}, stage,
-             kernels::radix_sort::offsets{.temporary = temporary, .n = n, .chunk = chunk, .pass = pass});
-    move_(moves, stage,
-          kernels::radix_sort::move{.keys = keys,
-                                    .values = values,
+           calls::radix_sort::count{.keys = keys,
                                     .temporary = temporary,
                                     .n = n,
                                     .chunk = chunk,
                                     .pass = pass,
                                     .shift = shift,
                                     .digit_mask = mask});
+    offsets_({size_t{tuning_.offset_groups} * tuning_.offset_items, tuning_.offset_items}, stage,
+             calls::radix_sort::offsets{.temporary = temporary, .n = n, .chunk = chunk, .pass = pass});
+    move_(moves, stage,
+          calls::radix_sort::move{.keys = keys,
+                                  .values = values,
+                                  .temporary = temporary,
+                                  .n = n,
+                                  .chunk = chunk,
+                                  .pass = pass,
+                                  .shift = shift,
+                                  .digit_mask = mask});
     shift += width;
   }
   settle_(chunks, stage,
-          kernels::radix_sort::settle{
+          calls::radix_sort::settle{
               .keys = keys, .values = values, .temporary = temporary, .n = n, .chunk = chunk, .passes = passes});
 }
 

@@ -48,10 +48,10 @@ class RadixSort {
 
   Payload payload_;
   RadixTuning tuning_;
-  gpu::KernelOf<kernels::radix_sort::count> count_;
-  gpu::KernelOf<kernels::radix_sort::offsets> offsets_;
-  gpu::KernelOf<kernels::radix_sort::move> move_;
-  gpu::KernelOf<kernels::radix_sort::settle> settle_;
+  gpu::KernelOf<calls::radix_sort::count> count_;
+  gpu::KernelOf<calls::radix_sort::offsets> offsets_;
+  gpu::KernelOf<calls::radix_sort::move> move_;
+  gpu::KernelOf<calls::radix_sort::settle> settle_;
 };
 
 extern template class RadixSort<uint32_t>;

@@ -35,27 +35,27 @@ void Receive::operator()(const RadioEnds& ends, const RayQueue& rays, const HitL
   append(receive_answered_, ends, rays, hits, depth, &traced, &answered);
 }
 
-void Receive::append(gpu::KernelOf<kernels::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
+void Receive::append(gpu::KernelOf<calls::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
                      const HitList& hits, uint32_t depth, const gpu::Buffer<float>* traced,
                      const gpu::Buffer<uint32_t>* answered) {
   count_ = grow_until_filled(
       [&] {
-        kernel(work_.range(rays.count), Stage::receive,
-               kernels::receive::receive{
-                   .rays = rays.planes,
-                   .hits = hits.planes,
-                   .receivers = ends.receiver_planes,
-                   .links = ends.links,
-                   .out = list_,
-                   .counter = counter_,
-                   .traced = gpu::Global<const uint32_t>::bits_of(traced),
-                   .answered = answered,
-                   .args = wt_receive_arguments{.capacity = rays.capacity,
-                                                .ray_count = rays.count,
-                                                .receiver_capacity = ends.receiver_capacity,
-                                                .radius_m = radius_m_,
-                                                .depth = depth,
-                                                .out_capacity = static_cast<uint32_t>(list_.size())}});
+        kernel(
+            work_.range(rays.count), Stage::receive,
+            calls::receive::receive{.rays = rays.planes,
+                                    .hits = hits.planes,
+                                    .receivers = ends.receiver_planes,
+                                    .links = ends.links,
+                                    .out = list_,
+                                    .counter = counter_,
+                                    .traced = gpu::Global<const uint32_t>::bits_of(traced),
+                                    .answered = answered,
+                                    .args = wt_receive_arguments{.capacity = rays.capacity,
+                                                                 .ray_count = rays.count,
+                                                                 .receiver_capacity = ends.receiver_capacity,
+                                                                 .radius_m = radius_m_,
+                                                                 .depth = depth,
+                                                                 .out_capacity = static_cast<uint32_t>(list_.size())}});
       },
       [&] { return counter_.read_one(0, Stage::receive); }, [&] { return list_.size(); },
       [&](size_t entries) {
@@ -68,7 +68,7 @@ void Receive::append(gpu::KernelOf<kernels::receive::receive>& kernel, const Rad
 
 void Receive::first(const RadioEnds& ends, const RayQueue& rays, const HitList& hits, gpu::Buffer<uint32_t>& first) {
   first_(work_.range(rays.count), Stage::receive,
-         kernels::receive::first_receiver{
+         calls::receive::first_receiver{
              .rays = rays.planes,
              .hits = hits.planes,
              .receivers = ends.receiver_planes,

@@ -29,14 +29,14 @@ class Receive {
   std::vector<wt_reception> list() const;
 
  private:
-  void append(gpu::KernelOf<kernels::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
+  void append(gpu::KernelOf<calls::receive::receive>& kernel, const RadioEnds& ends, const RayQueue& rays,
               const HitList& hits, uint32_t depth, const gpu::Buffer<float>* traced,
               const gpu::Buffer<uint32_t>* answered);
 
   gpu::Context& context_;
-  gpu::KernelOf<kernels::receive::receive> receive_;
-  gpu::KernelOf<kernels::receive::receive> receive_answered_;
-  gpu::KernelOf<kernels::receive::first_receiver> first_;
+  gpu::KernelOf<calls::receive::receive> receive_;
+  gpu::KernelOf<calls::receive::receive> receive_answered_;
+  gpu::KernelOf<calls::receive::first_receiver> first_;
   float radius_m_;
   Work work_;
   uint32_t count_ = 0;

@@ -27,10 +27,10 @@ class Refine {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::refine::count_ends> count_ends_;
-  gpu::KernelOf<kernels::refine::count_met> met_;
-  gpu::KernelOf<kernels::refine::mark> mark_;
-  gpu::KernelOf<kernels::refine::split> split_;
+  gpu::KernelOf<calls::refine::count_ends> count_ends_;
+  gpu::KernelOf<calls::refine::count_met> met_;
+  gpu::KernelOf<calls::refine::mark> mark_;
+  gpu::KernelOf<calls::refine::split> split_;
   gpu::Buffer<uint32_t> counts_;
   uint32_t local_;
 };

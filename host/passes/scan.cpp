@@ -41,9 +41,9 @@ void Scan::prefix(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {
   const auto words = static_cast<uint32_t>(std::min(chunk, uint64_t{~0u}));
   if (groups > 1)
     scan_sums_({groups * form_.items, form_.items}, stage,
-               kernels::scan::scan_sums{.counts = counts, .count = count, .chunk = words, .sums = sums_});
+               calls::scan::scan_sums{.counts = counts, .count = count, .chunk = words, .sums = sums_});
   scan_({groups * form_.items, form_.items}, stage,
-        kernels::scan::scan{.counts = counts, .count = count, .chunk = words, .sums = sums_, .total = total_});
+        calls::scan::scan{.counts = counts, .count = count, .chunk = words, .sums = sums_, .total = total_});
 }
 
 uint32_t Scan::operator()(gpu::Buffer<uint32_t>& counts, uint32_t count, Stage stage) {

@@ -20,8 +20,8 @@ class Scan {
 
  private:
   ScanTuning form_;
-  gpu::KernelOf<kernels::scan::scan_sums> scan_sums_;
-  gpu::KernelOf<kernels::scan::scan> scan_;
+  gpu::KernelOf<calls::scan::scan_sums> scan_sums_;
+  gpu::KernelOf<calls::scan::scan> scan_;
   gpu::Buffer<uint32_t> sums_, total_;
 };
 

@@ -58,17 +58,17 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
       [&] {
         context_.fill(count_, 0, Stage::scatter);
         lit_({size_t{node_count} * groups, local_}, Stage::scatter,
-             kernels::scatter::lit{.table = trie,
-                                   .nodes = nodes,
-                                   .transmitters = ends.transmitters,
-                                   .receivers = ends.receivers,
-                                   .links = ends.links,
-                                   .surfaces = scene.exact_surfaces,
-                                   .tiles_of = tiles_of_,
-                                   .out = entries_,
-                                   .count = count_,
-                                   .counters = counters.buffer(),
-                                   .args = wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()}});
+             calls::scatter::lit{.table = trie,
+                                 .nodes = nodes,
+                                 .transmitters = ends.transmitters,
+                                 .receivers = ends.receivers,
+                                 .links = ends.links,
+                                 .surfaces = scene.exact_surfaces,
+                                 .tiles_of = tiles_of_,
+                                 .out = entries_,
+                                 .count = count_,
+                                 .counters = counters.buffer(),
+                                 .args = wt_lit_arguments{node_count, ends.transmitter_count, groups, capacity()}});
       },
       [&] { return count_.read_one(0, Stage::scatter); }, capacity,
       [&](size_t larger) {
@@ -101,7 +101,7 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
   first_row_.write(first_row, 0, Stage::scatter);
   solved_.count = first_row.back();
   scatter_(tiles_work_.range(solved_.count), Stage::scatter,
-           kernels::scatter::scatter{
+           calls::scatter::scatter{
                .table = trie,
                .quarters = quarters,
                .entries = entries_,

@@ -37,8 +37,8 @@ class Scatter {
   std::vector<uint32_t> place_rows(uint32_t entry_count);
 
   gpu::Context& context_;
-  gpu::KernelOf<kernels::scatter::lit> lit_;
-  gpu::KernelOf<kernels::scatter::scatter> scatter_;
+  gpu::KernelOf<calls::scatter::lit> lit_;
+  gpu::KernelOf<calls::scatter::scatter> scatter_;
   uint32_t local_;
   Work tiles_work_;
   gpu::Buffer<uint32_t> tiles_of_;  // four words per surface, see scatter.cl

@@ -40,10 +40,10 @@ void Sequences::resize(uint64_t slots) {
 
 Counters::Zeroed Sequences::clear() {
   clear_(slots_work_.range(table_.size()), Stage::sequences,
-         kernels::sequences::clear{.table = table_,
-                                   .quarters = quarters_,
-                                   .slots = static_cast<uint32_t>(table_.size()),
-                                   .counters = counters_.buffer()});
+         calls::sequences::clear{.table = table_,
+                                 .quarters = quarters_,
+                                 .slots = static_cast<uint32_t>(table_.size()),
+                                 .counters = counters_.buffer()});
   return {};
 }
 
@@ -58,18 +58,18 @@ gpu::Buffer<uint32_t> Sequences::rebuild(uint64_t slots, uint32_t max_depth, uin
     resize(slots);
     for (uint32_t depth = 1; depth <= max_depth; ++depth)
       regrow_(work_.range(old_table.size()), Stage::sequences,
-              kernels::sequences::regrow{.old_table = old_table,
-                                         .old_slots = static_cast<uint32_t>(old_table.size()),
-                                         .depth = depth,
-                                         .moved = moved,
-                                         .table = table_,
-                                         .mask = static_cast<uint32_t>(table_.size() - 1),
-                                         .old_quarters = old_quarters,
-                                         .quarters = quarters_,
-                                         .counters = counters_.buffer(),
-                                         .old_ages = keep_ages_ ? &old_ages : nullptr,
-                                         .ages = ages(),
-                                         .oldest = oldest});
+              calls::sequences::regrow{.old_table = old_table,
+                                       .old_slots = static_cast<uint32_t>(old_table.size()),
+                                       .depth = depth,
+                                       .moved = moved,
+                                       .table = table_,
+                                       .mask = static_cast<uint32_t>(table_.size() - 1),
+                                       .old_quarters = old_quarters,
+                                       .quarters = quarters_,
+                                       .counters = counters_.buffer(),
+                                       .old_ages = keep_ages_ ? &old_ages : nullptr,
+                                       .ages = ages(),
+                                       .oldest = oldest});
     if (!overflowed()) return moved;
   }
 }
@@ -78,7 +78,7 @@ void Sequences::regrow(uint32_t max_depth, uint32_t listed_count) {
   const gpu::Buffer<uint32_t> moved = rebuild(table_.size() * 4, max_depth, 0);
   if (listed_count > 0)
     follow_(work_.range(listed_count), Stage::sequences,
-            kernels::sequences::follow{.nodes = nodes_, .node_count = listed_count, .moved = moved});
+            calls::sequences::follow{.nodes = nodes_, .node_count = listed_count, .moved = moved});
 }
 
 void Sequences::forget(uint32_t frames, uint32_t max_depth) {
@@ -88,13 +88,13 @@ void Sequences::forget(uint32_t frames, uint32_t max_depth) {
 void Sequences::keep(const SolvedList& solved) {
   if (!keep_ages_ || solved.count == 0) return;
   keep_(work_.range(solved.count), Stage::sequences,
-        kernels::sequences::keep{.table = table_,
-                                 .solved = solved.headers,
-                                 .solved_count = solved.count,
-                                 .solved_counter = solved.counter,
-                                 .counters = counters_.buffer(),
-                                 .ages = ages_,
-                                 .now = now()});
+        calls::sequences::keep{.table = table_,
+                               .solved = solved.headers,
+                               .solved_count = solved.count,
+                               .solved_counter = solved.counter,
+                               .counters = counters_.buffer(),
+                               .ages = ages_,
+                               .now = now()});
 }
 
 uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
@@ -102,17 +102,17 @@ uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t no
   const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(node_count);
   for (bool grew = false;; grew = true) {
     commute_(work_.range(size_t{node_count} * lanes), Stage::sequences,
-             kernels::sequences::commute{.table = table_,
-                                         .mask = static_cast<uint32_t>(table_.size() - 1),
-                                         .nodes = nodes_,
-                                         .node_count = node_count,
-                                         .capacity = static_cast<uint32_t>(nodes_.size()),
-                                         .surfaces = surfaces,
-                                         .quarters = quarters_,
-                                         .counters = counters_.buffer(),
-                                         .ages = ages(),
-                                         .now = now(),
-                                         .lanes = lanes});
+             calls::sequences::commute{.table = table_,
+                                       .mask = static_cast<uint32_t>(table_.size() - 1),
+                                       .nodes = nodes_,
+                                       .node_count = node_count,
+                                       .capacity = static_cast<uint32_t>(nodes_.size()),
+                                       .surfaces = surfaces,
+                                       .quarters = quarters_,
+                                       .counters = counters_.buffer(),
+                                       .ages = ages(),
+                                       .now = now(),
+                                       .lanes = lanes});
     const uint32_t added = counters_.length(&wt_counters::exchanged, room, Stage::sequences);
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
@@ -145,11 +145,11 @@ uint32_t Sequences::collect(uint32_t transmitter_count) {
         write_roots(transmitter_count);
         counters_.restart_nodes(transmitter_count, Stage::sequences);
         collect_(slots_work_.range(table_.size()), Stage::sequences,
-                 kernels::sequences::collect{.table = table_,
-                                             .slots = static_cast<uint32_t>(table_.size()),
-                                             .nodes = nodes_,
-                                             .capacity = static_cast<uint32_t>(nodes_.size()),
-                                             .counters = counters_.buffer()});
+                 calls::sequences::collect{.table = table_,
+                                           .slots = static_cast<uint32_t>(table_.size()),
+                                           .nodes = nodes_,
+                                           .capacity = static_cast<uint32_t>(nodes_.size()),
+                                           .counters = counters_.buffer()});
       },
       [&] { return counters_.length(&wt_counters::nodes, nodes_.size(), Stage::sequences); },
       [&] { return nodes_.size(); }, reserve);

@@ -61,12 +61,12 @@ class Sequences {
   gpu::Context& context_;
   bool keep_ages_;
   Work slots_work_, work_;
-  gpu::KernelOf<kernels::sequences::clear> clear_;
-  gpu::KernelOf<kernels::sequences::collect> collect_;
-  gpu::KernelOf<kernels::sequences::commute> commute_;
-  gpu::KernelOf<kernels::sequences::regrow> regrow_;
-  gpu::KernelOf<kernels::sequences::follow> follow_;
-  gpu::KernelOf<kernels::sequences::keep> keep_;
+  gpu::KernelOf<calls::sequences::clear> clear_;
+  gpu::KernelOf<calls::sequences::collect> collect_;
+  gpu::KernelOf<calls::sequences::commute> commute_;
+  gpu::KernelOf<calls::sequences::regrow> regrow_;
+  gpu::KernelOf<calls::sequences::follow> follow_;
+  gpu::KernelOf<calls::sequences::keep> keep_;
   gpu::Buffer<uint64_t> table_;
   gpu::Buffer<uint32_t> quarters_, ages_;
   uint32_t frame_ = 1;

@@ -26,24 +26,24 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                               uint32_t candidate_count, Counters& counters, const Blockers* blockers) {
   if (remembers_ && !blockers) throw std::logic_error("solve: there is no table of what hid paths");
   const auto run = [&] {
-    kernels::solve::solve call{.table = trie,
-                               .quarters = quarters,
-                               .transmitters = ends.transmitters,
-                               .receivers = ends.receivers,
-                               .surfaces = scene.exact_surfaces,
-                               .triangles = scene.exact_triangles,
-                               .instances = scene.exact_instances,
-                               .candidates = candidates,
-                               .solved = solved_.headers,
-                               .vertices = solved_.vertices,
-                               .sequences = solved_.sequences,
-                               .counters = counters.buffer(),
-                               .args = wt_solve_arguments{.candidate_count = candidate_count,
-                                                          .max_depth = solved_.max_depth,
-                                                          .capacity = static_cast<uint32_t>(solved_.headers.size()),
-                                                          .triangle_slots = scene.triangle_slots,
-                                                          .blocker_mask = Blockers::mask,
-                                                          .wavelength_m = 0}};
+    calls::solve::solve call{.table = trie,
+                             .quarters = quarters,
+                             .transmitters = ends.transmitters,
+                             .receivers = ends.receivers,
+                             .surfaces = scene.exact_surfaces,
+                             .triangles = scene.exact_triangles,
+                             .instances = scene.exact_instances,
+                             .candidates = candidates,
+                             .solved = solved_.headers,
+                             .vertices = solved_.vertices,
+                             .sequences = solved_.sequences,
+                             .counters = counters.buffer(),
+                             .args = wt_solve_arguments{.candidate_count = candidate_count,
+                                                        .max_depth = solved_.max_depth,
+                                                        .capacity = static_cast<uint32_t>(solved_.headers.size()),
+                                                        .triangle_slots = scene.triangle_slots,
+                                                        .blocker_mask = Blockers::mask,
+                                                        .wavelength_m = 0}};
     if (remembers_) {
       call.leaves = scene.leg_leaves();
       call.blockers = blockers->places;

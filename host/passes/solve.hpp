@@ -24,7 +24,7 @@ class Solve {
   gpu::Context& context_;
   Work work_;
   bool remembers_;
-  gpu::KernelOf<kernels::solve::solve> kernel_;
+  gpu::KernelOf<calls::solve::solve> kernel_;
   SolvedList solved_;
 };
 

@@ -29,34 +29,33 @@ TopLevelTree::TopLevelTree(gpu::Context& context, const std::vector<wt_body>& bo
 
 InstanceOrder& TopLevelTree::keys(const DeviceScene& scene) {
   instance_keys_({instances_.count, local_}, Stage::place,
-                 kernels::top_level::instance_keys{.instances = scene.exact_instances,
-                                                   .bodies = bodies_,
-                                                   .instance_count = instances_.count,
-                                                   .extent_m = scene.extent_m,
-                                                   .boxes = boxes_,
-                                                   .keys = instances_.keys});
+                 calls::top_level::instance_keys{.instances = scene.exact_instances,
+                                                 .bodies = bodies_,
+                                                 .instance_count = instances_.count,
+                                                 .extent_m = scene.extent_m,
+                                                 .boxes = boxes_,
+                                                 .keys = instances_.keys});
   return instances_;
 }
 
 void TopLevelTree::operator()(DeviceScene& scene, uint32_t present) {
   const uint32_t leaf_count = std::max(present, 2u);
   leaves_({leaf_count, local_}, Stage::place,
-          kernels::top_level::leaves{.order = instances_.order,
-                                     .instances = scene.exact_instances,
-                                     .bodies = bodies_,
-                                     .boxes = boxes_,
-                                     .present = present,
-                                     .leaf_count = leaf_count,
-                                     .tree = tree_,
-                                     .moving = scene.moving});
-  inner_boxes_({group_, group_}, Stage::place,
-               kernels::top_level::inner_boxes{.leaf_count = leaf_count, .tree = tree_});
+          calls::top_level::leaves{.order = instances_.order,
+                                   .instances = scene.exact_instances,
+                                   .bodies = bodies_,
+                                   .boxes = boxes_,
+                                   .present = present,
+                                   .leaf_count = leaf_count,
+                                   .tree = tree_,
+                                   .moving = scene.moving});
+  inner_boxes_({group_, group_}, Stage::place, calls::top_level::inner_boxes{.leaf_count = leaf_count, .tree = tree_});
   top_nodes_({leaf_count - 1, local_}, Stage::place,
-             kernels::top_level::top_nodes{.tree = tree_,
-                                           .present = present,
-                                           .leaf_count = leaf_count,
-                                           .extent_m = scene.extent_m,
-                                           .moving = scene.moving});
+             calls::top_level::top_nodes{.tree = tree_,
+                                         .present = present,
+                                         .leaf_count = leaf_count,
+                                         .extent_m = scene.extent_m,
+                                         .moving = scene.moving});
 }
 
 }  // namespace wavetracer

@@ -30,10 +30,10 @@ class TopLevelTree {
 
  private:
   uint32_t local_, group_;
-  gpu::KernelOf<kernels::top_level::instance_keys> instance_keys_;
-  gpu::KernelOf<kernels::top_level::leaves> leaves_;
-  gpu::KernelOf<kernels::top_level::inner_boxes> inner_boxes_;
-  gpu::KernelOf<kernels::top_level::top_nodes> top_nodes_;
+  gpu::KernelOf<calls::top_level::instance_keys> instance_keys_;
+  gpu::KernelOf<calls::top_level::leaves> leaves_;
+  gpu::KernelOf<calls::top_level::inner_boxes> inner_boxes_;
+  gpu::KernelOf<calls::top_level::top_nodes> top_nodes_;
   gpu::Buffer<wt_body> bodies_;
   InstanceOrder instances_;
   gpu::Buffer<float> boxes_, tree_;  // those of instances; those of nodes and leaves; eight floats each

@@ -30,43 +30,43 @@ void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& 
   switch (shape_) {
     case TraceShape::bvh2:
       bvh2_(launch_.range(rays.count, block_), Stage::trace,
-            kernels::trace_bvh2::trace{.nodes = scene.nodes2,
-                                       .triangles = scene.triangles2,
-                                       .triangle_slots = scene.triangle_slots,
-                                       .moving = scene.moving,
-                                       .extent_m = scene.extent_m,
-                                       .rays = rays.planes,
-                                       .capacity = rays.capacity,
-                                       .ray_count = rays.count,
-                                       .hits = hits.planes,
-                                       .block_hits = hits.block_hits});
+            calls::trace_bvh2::trace{.nodes = scene.nodes2,
+                                     .triangles = scene.triangles2,
+                                     .triangle_slots = scene.triangle_slots,
+                                     .moving = scene.moving,
+                                     .extent_m = scene.extent_m,
+                                     .rays = rays.planes,
+                                     .capacity = rays.capacity,
+                                     .ray_count = rays.count,
+                                     .hits = hits.planes,
+                                     .block_hits = hits.block_hits});
       break;
     case TraceShape::bvh8:
       bvh8_(launch_.range(blocks, blocks_group_), Stage::trace,
-            kernels::trace_bvh8::trace{.nodes = scene.nodes8,
-                                       .blocks = scene.blocks8,
-                                       .moving = scene.moving,
-                                       .extent_m = scene.extent_m,
-                                       .rays = rays.planes,
-                                       .capacity = rays.capacity,
-                                       .ray_count = rays.count,
-                                       .hits = hits.planes,
-                                       .block_hits = hits.block_hits});
+            calls::trace_bvh8::trace{.nodes = scene.nodes8,
+                                     .blocks = scene.blocks8,
+                                     .moving = scene.moving,
+                                     .extent_m = scene.extent_m,
+                                     .rays = rays.planes,
+                                     .capacity = rays.capacity,
+                                     .ray_count = rays.count,
+                                     .hits = hits.planes,
+                                     .block_hits = hits.block_hits});
       break;
     case TraceShape::packet16:
       packet16_(launch_.range(blocks, blocks_group_), Stage::trace,
-                kernels::trace_packet16::trace{.nodes = scene.packet_nodes2,
-                                               .triangles = scene.triangles2,
-                                               .triangle_slots = scene.triangle_slots,
-                                               .nodes8 = scene.nodes8,
-                                               .blocks = scene.blocks8,
-                                               .moving = scene.moving,
-                                               .extent_m = scene.extent_m,
-                                               .rays = rays.planes,
-                                               .capacity = rays.capacity,
-                                               .ray_count = rays.count,
-                                               .hits = hits.planes,
-                                               .block_hits = hits.block_hits});
+                calls::trace_packet16::trace{.nodes = scene.packet_nodes2,
+                                             .triangles = scene.triangles2,
+                                             .triangle_slots = scene.triangle_slots,
+                                             .nodes8 = scene.nodes8,
+                                             .blocks = scene.blocks8,
+                                             .moving = scene.moving,
+                                             .extent_m = scene.extent_m,
+                                             .rays = rays.planes,
+                                             .capacity = rays.capacity,
+                                             .ray_count = rays.count,
+                                             .hits = hits.planes,
+                                             .block_hits = hits.block_hits});
       break;
   }
 }

@@ -23,9 +23,9 @@ class Trace {
   void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
 
  private:
-  gpu::KernelOf<kernels::trace_bvh2::trace> bvh2_;  // one of the three, by the shape
-  gpu::KernelOf<kernels::trace_bvh8::trace> bvh8_;
-  gpu::KernelOf<kernels::trace_packet16::trace> packet16_;
+  gpu::KernelOf<calls::trace_bvh2::trace> bvh2_;  // one of the three, by the shape
+  gpu::KernelOf<calls::trace_bvh8::trace> bvh8_;
+  gpu::KernelOf<calls::trace_packet16::trace> packet16_;
   TraceShape shape_;
   LaunchShape launch_;
   uint32_t block_, blocks_group_;

@@ -14,12 +14,12 @@ TraceMoving::TraceMoving(gpu::Context& context, const DeviceScene& scene)
 
 void TraceMoving::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits) {
   kernel_(work_.range(rays.count), Stage::trace_moving,
-          kernels::trace_moving::trace_moving{.moving = scene.moving,
-                                              .extent_m = scene.extent_m,
-                                              .rays = rays.planes,
-                                              .capacity = rays.capacity,
-                                              .ray_count = rays.count,
-                                              .hits = hits.planes});
+          calls::trace_moving::trace_moving{.moving = scene.moving,
+                                            .extent_m = scene.extent_m,
+                                            .rays = rays.planes,
+                                            .capacity = rays.capacity,
+                                            .ray_count = rays.count,
+                                            .hits = hits.planes});
 }
 
 }  // namespace wavetracer

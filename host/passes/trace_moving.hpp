@@ -16,7 +16,7 @@ class TraceMoving {
 
  private:
   Work work_;
-  gpu::KernelOf<kernels::trace_moving::trace_moving> kernel_;
+  gpu::KernelOf<calls::trace_moving::trace_moving> kernel_;
 };
 
 }  // namespace wavetracer

@@ -23,7 +23,7 @@ class Transmissions {
  private:
   uint32_t most_, deepest_;
   Work work_;
-  gpu::KernelOf<kernels::transmissions::transmissions> kernel_;
+  gpu::KernelOf<calls::transmissions::transmissions> kernel_;
 };
 
 }  // namespace wavetracer

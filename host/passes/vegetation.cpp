@@ -66,20 +66,20 @@ const gpu::Buffer<double>& Vegetation::operator()(const RadioEnds& ends, const S
     lengths_ = context_.buffer<double>(lengths + lengths / 4, {"lengths in vegetation", advice::links});
   if (lengths > 0)
     kernel_(work_.range(visible.count), Stage::vegetation,
-            kernels::vegetation::vegetation{.nodes = nodes_,
-                                            .volumes = volumes_,
-                                            .triangles = triangles_,
-                                            .earlier = earlier_,
-                                            .transmitters = ends.transmitters,
-                                            .receivers = ends.receivers,
-                                            .visible = visible.headers,
-                                            .vertices = visible.vertices,
-                                            .counters = counters.buffer(),
-                                            .lengths = lengths_,
-                                            .args = wt_vegetation_arguments{.visible_count = visible.count,
-                                                                            .visible_counter = visible.counter,
-                                                                            .max_depth = visible.max_depth,
-                                                                            .kinds = kinds_}});
+            calls::vegetation::vegetation{.nodes = nodes_,
+                                          .volumes = volumes_,
+                                          .triangles = triangles_,
+                                          .earlier = earlier_,
+                                          .transmitters = ends.transmitters,
+                                          .receivers = ends.receivers,
+                                          .visible = visible.headers,
+                                          .vertices = visible.vertices,
+                                          .counters = counters.buffer(),
+                                          .lengths = lengths_,
+                                          .args = wt_vegetation_arguments{.visible_count = visible.count,
+                                                                          .visible_counter = visible.counter,
+                                                                          .max_depth = visible.max_depth,
+                                                                          .kinds = kinds_}});
   return lengths_;
 }
 

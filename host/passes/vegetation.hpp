@@ -20,7 +20,7 @@ class Vegetation {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::vegetation::vegetation> kernel_;
+  gpu::KernelOf<calls::vegetation::vegetation> kernel_;
   Work work_;
   uint32_t kinds_;
   gpu::Buffer<wt_bvh2_node> nodes_;

@@ -22,17 +22,17 @@ void Visible::operator()(const SolvedList& solved, Counters& counters) {
       counters, &wt_counters::visible, Stage::visible, [&] { return visible_.headers.size(); },
       [&] {
         kernel_({solved.count, local_}, Stage::visible,
-                kernels::visible::visible{.solved = solved.headers,
-                                          .vertices = solved.vertices,
-                                          .sequences = solved.sequences,
-                                          .solved_count = solved.count,
-                                          .solved_counter = solved.counter,
-                                          .max_depth = solved.max_depth,
-                                          .out = visible_.headers,
-                                          .out_vertices = visible_.vertices,
-                                          .out_sequences = visible_.sequences,
-                                          .capacity = static_cast<uint32_t>(visible_.headers.size()),
-                                          .counters = counters.buffer()});
+                calls::visible::visible{.solved = solved.headers,
+                                        .vertices = solved.vertices,
+                                        .sequences = solved.sequences,
+                                        .solved_count = solved.count,
+                                        .solved_counter = solved.counter,
+                                        .max_depth = solved.max_depth,
+                                        .out = visible_.headers,
+                                        .out_vertices = visible_.vertices,
+                                        .out_sequences = visible_.sequences,
+                                        .capacity = static_cast<uint32_t>(visible_.headers.size()),
+                                        .counters = counters.buffer()});
       },
       [&](size_t rows) {
         SolvedList larger;

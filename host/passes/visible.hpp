@@ -20,7 +20,7 @@ class Visible {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::visible::visible> kernel_;
+  gpu::KernelOf<calls::visible::visible> kernel_;
   uint32_t local_;
   SolvedList visible_;
 };

@@ -26,15 +26,15 @@ void Waypoints::begin_batch(uint32_t first_sample, uint32_t count) {
 void Waypoints::operator()(const RayQueue& rays, const HitList& hits, uint32_t depth,
                            const gpu::Buffer<float>* traced) {
   kernel_({rays.count, local_}, Stage::waypoints,
-          kernels::waypoints::waypoints{.rays = rays.planes,
-                                        .hits = hits.planes,
-                                        .traced = traced,
-                                        .capacity = rays.capacity,
-                                        .ray_count = rays.count,
-                                        .first_sample = first_sample_,
-                                        .depth = depth,
-                                        .stride = stride_,
-                                        .out = list_});
+          calls::waypoints::waypoints{.rays = rays.planes,
+                                      .hits = hits.planes,
+                                      .traced = traced,
+                                      .capacity = rays.capacity,
+                                      .ray_count = rays.count,
+                                      .first_sample = first_sample_,
+                                      .depth = depth,
+                                      .stride = stride_,
+                                      .out = list_});
 }
 
 std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
@@ -49,11 +49,11 @@ std::vector<wt_waypoint> Waypoints::rows(const std::vector<uint32_t>& samples) {
   samples_.write(slots);
   const size_t count = samples.size() * stride_;
   gather_({count, local_}, Stage::waypoints,
-          kernels::waypoints::gather_waypoints{.rows = list_,
-                                               .list = samples_,
-                                               .count = static_cast<uint32_t>(samples.size()),
-                                               .stride = stride_,
-                                               .out = rows_});
+          calls::waypoints::gather_waypoints{.rows = list_,
+                                             .list = samples_,
+                                             .count = static_cast<uint32_t>(samples.size()),
+                                             .stride = stride_,
+                                             .out = rows_});
   return rows_.read(0, count, Stage::waypoints);
 }
 

@@ -29,8 +29,8 @@ class Waypoints {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::waypoints::waypoints> kernel_;
-  gpu::KernelOf<kernels::waypoints::gather_waypoints> gather_;
+  gpu::KernelOf<calls::waypoints::waypoints> kernel_;
+  gpu::KernelOf<calls::waypoints::gather_waypoints> gather_;
   uint32_t stride_, local_, first_sample_ = 0;
   gpu::Buffer<wt_waypoint> list_, rows_;
   gpu::Buffer<uint32_t> samples_;

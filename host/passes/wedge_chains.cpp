@@ -30,7 +30,7 @@ SolvedList& WedgeChains::operator()(const DeviceScene& scene, const WedgeList& w
                                     Counters& counters) {
   const auto run = [&] {
     roofs_(work_.range(size_t{WT_STRINGS} * ends.transmitter_count * ends.receiver_capacity), Stage::wedge_chains,
-           kernels::wedge_chains::roof_chains{
+           calls::wedge_chains::roof_chains{
                .wedges = wedges.wedges,
                .first = first_,
                .listed = listed_,

@@ -27,7 +27,7 @@ class WedgeChains {
  private:
   gpu::Context& context_;
   Work work_;
-  gpu::KernelOf<kernels::wedge_chains::roof_chains> roofs_;
+  gpu::KernelOf<calls::wedge_chains::roof_chains> roofs_;
   uint32_t most_edges_;
   double wavelength_m_;
   wt_edge_map_arguments map_;

@@ -61,15 +61,15 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .capacity = static_cast<uint32_t>(list_.size()),
                                             .end_detour_m = end_detour_m_};
     kernel_({items, group_}, Stage::wedge_join,
-            kernels::wedge_join::wedge_join{.keys = prefixes.keys,
-                                            .prefixes = prefixes.sorted,
-                                            .receiver_of_origin = receiver_of_origin_,
-                                            .links = ends.links,
-                                            .wedges = wedges.wedges,
-                                            .surfaces = scene.surfaces,
-                                            .out = list_,
-                                            .counters = counters.buffer(),
-                                            .args = arguments});
+            calls::wedge_join::wedge_join{.keys = prefixes.keys,
+                                          .prefixes = prefixes.sorted,
+                                          .receiver_of_origin = receiver_of_origin_,
+                                          .links = ends.links,
+                                          .wedges = wedges.wedges,
+                                          .surfaces = scene.surfaces,
+                                          .out = list_,
+                                          .counters = counters.buffer(),
+                                          .args = arguments});
     if (pairs && max_depth_ >= 2)
       (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
   };

@@ -36,7 +36,7 @@ class WedgeJoin {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::wedge_join::wedge_join> kernel_;
+  gpu::KernelOf<calls::wedge_join::wedge_join> kernel_;
   uint32_t max_depth_, lanes_, group_, most_;
   float end_detour_m_;
   gpu::Buffer<uint32_t> receiver_of_origin_;

@@ -44,10 +44,10 @@ void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefi
   run_count_ = 0;
   if (prefixes.count == 0) return;
   mark_(mark_work_.range(prefixes.count), Stage::wedge_pairs,
-        kernels::wedge_pairs::mark_runs{.keys = prefixes.keys,
-                                        .wedges = wedges.wedges,
-                                        .heads = gpu::Global<uint32_t>::bits_of(heads_),
-                                        .count = prefixes.count});
+        calls::wedge_pairs::mark_runs{.keys = prefixes.keys,
+                                      .wedges = wedges.wedges,
+                                      .heads = gpu::Global<uint32_t>::bits_of(heads_),
+                                      .count = prefixes.count});
   compact_.count_blocks(heads_, 0, prefixes.count, blocks_);
   run_count_ = scan_(blocks_, compact_.blocks(prefixes.count), Stage::wedge_pairs);
   compact_(heads_, 0, prefixes.count, blocks_, runs_);
@@ -60,24 +60,24 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
   wt_wedge_join_arguments own = join;
   own.lanes = lanes_;
   kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs,
-          kernels::wedge_pairs::wedge_pairs{.nodes = scene.leg_nodes(),
-                                            .triangles = scene.leg_leaves(),
-                                            .surfaces = scene.exact_surfaces,
-                                            .first_sides = sight.first_sides(),
-                                            .sides = sight.sides(),
-                                            .kept = kept_,
-                                            .keys = prefixes.keys,
-                                            .runs = runs_,
-                                            .prefixes = prefixes.sorted,
-                                            .receiver_of_origin = receiver_of_origin,
-                                            .links = ends.links,
-                                            .wedges = wedges.wedges,
-                                            .boxes = scene.surfaces,
-                                            .out = list,
-                                            .counters = counters.buffer(),
-                                            .args = own,
-                                            .sight_args = sight.arguments(scene, join.count, kept_wedges_),
-                                            .run_count = run_count_});
+          calls::wedge_pairs::wedge_pairs{.nodes = scene.leg_nodes(),
+                                          .triangles = scene.leg_leaves(),
+                                          .surfaces = scene.exact_surfaces,
+                                          .first_sides = sight.first_sides(),
+                                          .sides = sight.sides(),
+                                          .kept = kept_,
+                                          .keys = prefixes.keys,
+                                          .runs = runs_,
+                                          .prefixes = prefixes.sorted,
+                                          .receiver_of_origin = receiver_of_origin,
+                                          .links = ends.links,
+                                          .wedges = wedges.wedges,
+                                          .boxes = scene.surfaces,
+                                          .out = list,
+                                          .counters = counters.buffer(),
+                                          .args = own,
+                                          .sight_args = sight.arguments(scene, join.count, kept_wedges_),
+                                          .run_count = run_count_});
 }
 
 }  // namespace wavetracer

@@ -32,8 +32,8 @@ class WedgePairs {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<kernels::wedge_pairs::wedge_pairs> kernel_;
-  gpu::KernelOf<kernels::wedge_pairs::mark_runs> mark_;
+  gpu::KernelOf<calls::wedge_pairs::wedge_pairs> kernel_;
+  gpu::KernelOf<calls::wedge_pairs::mark_runs> mark_;
   Work mark_work_;
   Compact compact_;
   Scan scan_;

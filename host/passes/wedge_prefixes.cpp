@@ -29,7 +29,7 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
         kernel_(work_.range(node_count), Stage::wedge_prefixes,
-                kernels::wedge_prefixes::wedge_prefixes{
+                calls::wedge_prefixes::wedge_prefixes{
                     .table = trie,
                     .quarters = quarters,
                     .nodes = nodes,
@@ -57,11 +57,11 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
 void WedgePrefixes::place(WedgePrefixList& list) {
   if (list.count > 0)
     place_(work_.range(list.count), Stage::wedge_prefixes,
-           kernels::wedge_prefixes::place_prefixes{.keys = list.keys,
-                                                   .order = list.order,
-                                                   .prefixes = list.prefixes,
-                                                   .sorted = list.sorted,
-                                                   .count = list.count});
+           calls::wedge_prefixes::place_prefixes{.keys = list.keys,
+                                                 .order = list.order,
+                                                 .prefixes = list.prefixes,
+                                                 .sorted = list.sorted,
+                                                 .count = list.count});
 }
 
 }  // namespace wavetracer

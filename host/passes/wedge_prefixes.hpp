@@ -27,8 +27,8 @@ class WedgePrefixes {
 
   gpu::Context& context_;
   Work work_;
-  gpu::KernelOf<kernels::wedge_prefixes::wedge_prefixes> kernel_;
-  gpu::KernelOf<kernels::wedge_prefixes::place_prefixes> place_;
+  gpu::KernelOf<calls::wedge_prefixes::wedge_prefixes> kernel_;
+  gpu::KernelOf<calls::wedge_prefixes::place_prefixes> place_;
   WedgePrefixList list_;
 };
 

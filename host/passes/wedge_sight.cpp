@@ -36,15 +36,15 @@ wt_sight_arguments WedgeSight::arguments(const DeviceScene& scene, uint32_t coun
 void WedgeSight::operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes) {
   if (prefixes.count == 0) return;
   kernel_(work_.range(prefixes.count), Stage::wedge_sight,
-          kernels::wedge_sight::wedge_sight{.nodes = scene.leg_nodes(),
-                                            .triangles = scene.leg_leaves(),
-                                            .surfaces = scene.exact_surfaces,
-                                            .first_sides = first_sides_,
-                                            .sides = sides_,
-                                            .wedges = wedges.wedges,
-                                            .keys = prefixes.keys,
-                                            .prefixes = prefixes.prefixes,
-                                            .args = arguments(scene, prefixes.count, 0)});
+          calls::wedge_sight::wedge_sight{.nodes = scene.leg_nodes(),
+                                          .triangles = scene.leg_leaves(),
+                                          .surfaces = scene.exact_surfaces,
+                                          .first_sides = first_sides_,
+                                          .sides = sides_,
+                                          .wedges = wedges.wedges,
+                                          .keys = prefixes.keys,
+                                          .prefixes = prefixes.prefixes,
+                                          .args = arguments(scene, prefixes.count, 0)});
 }
 
 }  // namespace wavetracer

@@ -25,7 +25,7 @@ class WedgeSight {
   wt_sight_arguments arguments(const DeviceScene& scene, uint32_t count, uint32_t kept_wedges) const;
 
  private:
-  gpu::KernelOf<kernels::wedge_sight::wedge_sight> kernel_;
+  gpu::KernelOf<calls::wedge_sight::wedge_sight> kernel_;
   Work work_;
   bool transmission_;
   gpu::Buffer<uint32_t> first_sides_;  // see ConvexFaces

@@ -23,7 +23,7 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                    uint32_t candidate_count, Counters& counters) {
   const auto run = [&] {
     kernel_(work_.range(candidate_count), Stage::wedge_solve,
-            kernels::wedge_solve::wedge_solve{
+            calls::wedge_solve::wedge_solve{
                 .table = trie,
                 .origins = ends.transmitters,
                 .receivers = ends.receivers,

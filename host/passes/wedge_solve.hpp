@@ -24,7 +24,7 @@ class WedgeSolve {
  private:
   gpu::Context& context_;
   Work work_;
-  gpu::KernelOf<kernels::wedge_solve::wedge_solve> kernel_;
+  gpu::KernelOf<calls::wedge_solve::wedge_solve> kernel_;
   SolvedList solved_;
   float wavelength_m_;
 };

@@ -83,11 +83,11 @@ unsigned Wedges::key_bits() const {
 void Wedges::operator()(const DeviceScene& scene) {
   if (moving_count_ > 0)
     kernel_({moving_count_, local_}, Stage::wedges,
-            kernels::wedges::wedges{.instances = scene.exact_instances,
-                                    .models = models_,
-                                    .first = static_count_,
-                                    .count = moving_count_,
-                                    .out = list_.wedges});
+            calls::wedges::wedges{.instances = scene.exact_instances,
+                                  .models = models_,
+                                  .first = static_count_,
+                                  .count = moving_count_,
+                                  .out = list_.wedges});
 }
 
 }  // namespace wavetracer

@@ -26,7 +26,7 @@ class Wedges {
   const WedgeList& list() const { return list_; }
 
  private:
-  gpu::KernelOf<kernels::wedges::wedges> kernel_;
+  gpu::KernelOf<calls::wedges::wedges> kernel_;
   uint32_t local_, static_count_ = 0, moving_count_ = 0, diffracting_ = 0;
   gpu::Buffer<wt_wedge> models_;
   WedgeList list_;

@@ -96,11 +96,11 @@ kernel void k(global uint* a, MORE uint n) {}""")
 
 LAUNCH = """#include "kernel_calls/visible.hpp"
 namespace wavetracer {
-void launch(gpu::KernelOf<kernels::visible::visible>& kernel, const gpu::Buffer<wt_solved>& solved,
+void launch(gpu::KernelOf<calls::visible::visible>& kernel, const gpu::Buffer<wt_solved>& solved,
             const gpu::Buffer<double>& vertices, const gpu::Buffer<uint32_t>& sequences, uint32_t count, size_t size,
             const gpu::Buffer<wt_counters>* counters) {
   kernel({1, 1}, Stage::visible,
-         kernels::visible::visible{
+         calls::visible::visible{
              .solved = solved,
              .vertices = vertices,
              .sequences = sequences,
