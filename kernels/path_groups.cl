@@ -21,7 +21,7 @@ kernel void path_groups(const global wt_solved* solved, const global double* ver
   const wt_path path = wt_path_of(&list, rows[place]);
   wt_waves waves;
   const uint bends = wt_waves_of(&path, wedges, planes_of, args.wavelength_m, place, &waves);
-  wt_path_wave own = {waves.keys[0], WT_ONE_WAVE, bends};
+  wt_path_wave own = {waves.keys[0], WT_ONE_WAVE, bends, path.transmitter, path.receiver};
   if (waves.count > 1 || waves.weights[0] != 1.0) {
     own.shared = atomic_inc(shared_count);
     wt_write_waves(&waves, bends, shared + own.shared);

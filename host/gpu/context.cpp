@@ -93,6 +93,21 @@ void Context::finish() {
   }
 }
 
+Marker Context::mark() {
+  cl_event event = nullptr;
+  const cl_int code = clEnqueueMarkerWithWaitList(state_->queue(), 0, nullptr, &event);
+  if (code != CL_SUCCESS) state_->fail(code, "marking a place in the queue");
+  Marker out;
+  out.event_ = std::shared_ptr<void>(event, [](void* done) { clReleaseEvent(static_cast<cl_event>(done)); });
+  return out;
+}
+
+void Context::wait(const Marker& marker) {
+  const auto event = static_cast<cl_event>(marker.event_.get());
+  const cl_int code = clWaitForEvents(1, &event);
+  if (code != CL_SUCCESS) state_->fail(code, "waiting for the device");
+}
+
 void Context::flush() {
   try {
     state_->queue.flush();

@@ -99,6 +99,13 @@ class HostMemory {
   size_t bytes_ = 0;
 };
 
+// A place in the queue: Context::wait() returns once all commands before it are done.
+class Marker {
+ private:
+  friend class Context;
+  std::shared_ptr<void> event_;  // a cl_event
+};
+
 // Untyped device memory. Copies share the handle.
 class Memory {
  public:
@@ -240,6 +247,9 @@ class Context {
   void keep(const std::string& subject, const std::string& text);
 
   void finish();
+  // Marks this place in the queue.
+  Marker mark();
+  void wait(const Marker& marker);
   // Hands enqueued commands to the device, without waiting for them.
   void flush();
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "passes/read_room.hpp"
-#include "radio/group_numbers.hpp"
 
 namespace wavetracer {
 
@@ -20,6 +19,7 @@ PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& plane
       arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
       planes_of_(context.buffer(planes_of, "planes of surfaces")) {
   make_room(context_, shared_count_, host_shared_count_, 1, "number of paths of several waves");
+  host_counters_ = context_.host_memory(sizeof(wt_counters), "counters beside paths");
   make_rows(1 << 12);
 }
 
@@ -53,26 +53,42 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
                                           .args = arguments_});
 }
 
-void PathGroups::begin_read(uint32_t expected) {
+void PathGroups::begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& counters) {
   read_ = std::min<size_t>(expected, waves_.size());
   shared_read_ = std::min(last_shared_ + last_shared_ / 16 + 16, shared_.size());
   waves_.begin_read(0, read_, host_waves_, Stage::path_groups);
   shared_.begin_read(0, shared_read_, host_shared_, Stage::path_groups);
   shared_count_.begin_read(0, 1, host_shared_count_, Stage::path_groups);
+  counters.begin_read(0, 1, host_counters_, Stage::path_groups);
+  being_read_ = context_.mark();
   context_.flush();
-  group_room_.resize(read_);
-  weight_room_.resize(read_);
+  room_.group.resize(read_);
+  room_.weight.resize(read_);
+}
+
+void PathGroups::number() {
+  context_.wait(being_read_);
+  const size_t count = static_cast<const wt_counters*>(host_counters_.data())->rows;
+  numbered_ = count <= read_ ? numbered(count) : GroupColumns{};
 }
 
 void PathGroups::set(Paths& paths) {
   const size_t count = paths.size();
-  if (count > read_) waves_.read(0, count, host_waves_, Stage::path_groups);
+  if (numbered_.group.size() != count) {
+    if (count > read_) waves_.read(0, count, host_waves_, Stage::path_groups);
+    numbered_ = numbered(count);
+  }
+  paths.group = std::exchange(numbered_.group, {});
+  paths.group_weight = std::exchange(numbered_.weight, {});
+}
+
+// The groups of the first rows, which have been read.
+GroupColumns PathGroups::numbered(size_t count) {
   last_shared_ = count > 0 ? *static_cast<const uint32_t*>(host_shared_count_.data()) : 0;
   if (last_shared_ > shared_read_) shared_.read(0, last_shared_, host_shared_, Stage::path_groups);
-  paths.group = std::exchange(group_room_, {});
-  paths.group_weight = std::exchange(weight_room_, {});
-  number_groups(paths, {static_cast<const device::wt_path_wave*>(host_waves_.data()), count},
-                {static_cast<const device::wt_path_waves*>(host_shared_.data()), last_shared_});
+  return number_groups({static_cast<const device::wt_path_wave*>(host_waves_.data()), count},
+                       {static_cast<const device::wt_path_waves*>(host_shared_.data()), last_shared_},
+                       std::exchange(room_, {}));
 }
 
 }  // namespace wavetracer

@@ -5,6 +5,7 @@
 #include "kernel_calls/path_groups.hpp"
 #include "passes/distinct.hpp"
 #include "passes/tuning.hpp"
+#include "radio/group_numbers.hpp"
 #include "wavetracer/paths.hpp"
 
 namespace wavetracer {
@@ -18,13 +19,18 @@ class PathGroups {
   // diffracts. most: the most rows that there may be.
   void operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
                   const Distinct& distinct, const RowList& rows, uint32_t most);
-  // Begins to read the first `expected` rows, and makes room for the columns while the device works.
-  void begin_read(uint32_t expected);
+  // Begins to read the first `expected` rows, and makes room for the columns while the device works. counters: the
+  // frame's, which have the number of rows by now.
+  void begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& counters);
+  // Numbers the groups as soon as the rows have been read, while the device goes on with what came after begin_read().
+  // If there are more rows than expected, set() does it.
+  void number();
   // Sets the columns of groups in `paths`, which are the paths of the rows. The device must have finished.
   void set(Paths& paths);
 
  private:
   void make_rows(size_t most);
+  GroupColumns numbered(size_t count);
 
   gpu::Context& context_;
   gpu::KernelOf<calls::path_groups::path_groups> kernel_;
@@ -34,11 +40,11 @@ class PathGroups {
   gpu::Buffer<device::wt_path_wave> waves_;
   gpu::Buffer<device::wt_path_waves> shared_;  // the waves of paths that belong to several
   gpu::Buffer<uint32_t> shared_count_;
-  gpu::HostMemory host_waves_, host_shared_, host_shared_count_;
+  gpu::HostMemory host_waves_, host_shared_, host_shared_count_, host_counters_;
+  gpu::Marker being_read_;
   size_t read_ = 0, shared_read_ = 0;  // rows and records that were read already
   size_t last_shared_ = 0;             // records of the last frame
-  std::vector<GroupNumbers> group_room_;
-  std::vector<GroupWeights> weight_room_;
+  GroupColumns room_, numbered_;       // of the next rows, and of those that number() has numbered
 };
 
 }  // namespace wavetracer

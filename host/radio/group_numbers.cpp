@@ -8,7 +8,6 @@
 #include <bit>
 #include <vector>
 
-#include "radio/path_power.hpp"
 #include "wavetracer/device/path_groups.h"
 
 namespace wavetracer {
@@ -45,8 +44,14 @@ class KeyNumbers {
 using Waves = std::span<const device::wt_path_wave>;
 using SharedWaves = std::span<const device::wt_path_waves>;
 
+size_t end_of_link(Waves waves, size_t first) {
+  size_t row = first + 1;
+  while (row < waves.size() && waves[row].tx == waves[first].tx && waves[row].rx == waves[first].rx) ++row;
+  return row;
+}
+
 // Numbers rows first to end - 1, which are of one link. numbers, straight: memory to work in.
-void number_link(Paths& paths, size_t first, size_t end, Waves waves, SharedWaves shared, KeyNumbers& numbers,
+void number_link(GroupColumns& out, size_t first, size_t end, Waves waves, SharedWaves shared, KeyNumbers& numbers,
                  KeyNumbers& straight) {
   size_t named = 0;
   for (size_t row = first; row < end; ++row)
@@ -57,39 +62,40 @@ void number_link(Paths& paths, size_t first, size_t end, Waves waves, SharedWave
     const device::wt_path_wave& own = waves[row];
     const bool is_twin = !own.bends && !straight[own.key].second;
     const auto number = [&](uint64_t key) { return numbers[is_twin ? device::wt_mixed(key, row) : key].first; };
-    paths.group[row] = only_group(no_group);
-    paths.group_weight[row] = GroupWeights{};
+    out.group[row] = only_group(no_group);
+    out.weight[row] = GroupWeights{};
     if (own.shared == WT_ONE_WAVE) {
-      paths.group[row][0] = number(own.key);
-      paths.group_weight[row][0] = 1;
+      out.group[row][0] = number(own.key);
+      out.weight[row][0] = 1;
       continue;
     }
     const device::wt_path_waves& all = shared[own.shared];
     for (size_t i = 0; i < all.count; ++i) {
-      paths.group[row][i] = number(all.keys[i]);
-      paths.group_weight[row][i] = all.weights[i];
+      out.group[row][i] = number(all.keys[i]);
+      out.weight[row][i] = all.weights[i];
     }
   }
 }
 
 }  // namespace
 
-void number_groups(Paths& paths, Waves waves, SharedWaves shared) {
+GroupColumns number_groups(Waves waves, SharedWaves shared, GroupColumns out) {
   static_assert(most_groups == WT_MOST_GROUPS);
-  paths.group.resize(paths.size());
-  paths.group_weight.resize(paths.size());
+  out.group.resize(waves.size());
+  out.weight.resize(waves.size());
   std::vector<size_t> parts{0};  // each is whole links
-  for (size_t row = 0; row < paths.size();) {
-    row = end_of_link(paths, row);
-    if (row - parts.back() >= rows_at_once || row == paths.size()) parts.push_back(row);
+  for (size_t row = 0; row < waves.size();) {
+    row = end_of_link(waves, row);
+    if (row - parts.back() >= rows_at_once || row == waves.size()) parts.push_back(row);
   }
   tbb::parallel_for(size_t{0}, parts.size() - 1, [&](size_t part) {
     thread_local KeyNumbers numbers, straight;  // their memory is kept from frame to frame
     for (size_t row = parts[part], end = row; row < parts[part + 1]; row = end) {
-      end = end_of_link(paths, row);
-      number_link(paths, row, end, waves, shared, numbers, straight);
+      end = end_of_link(waves, row);
+      number_link(out, row, end, waves, shared, numbers, straight);
     }
   });
+  return out;
 }
 
 }  // namespace wavetracer

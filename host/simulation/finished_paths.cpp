@@ -55,12 +55,13 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     scan_.prefix(distinct_.rows().counts, 2 * places, Stage::distinct);                                    // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
+    if (groups_) groups_->begin_read(expected.rows, counters.buffer());
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
       fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
   }
-  if (groups_) groups_->begin_read(expected.rows);
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
   fields_[0].begin_read(frame, expected);
+  if (groups_ && most.rows > 0) groups_->number();
 }
 
 Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers) {

@@ -112,6 +112,7 @@ typedef struct {
   wt_ulong key;    // key of that wave, or of the one with the largest weight
   wt_uint shared;  // number of the record of all its waves, where there are several; else WT_ONE_WAVE
   wt_uint bends;   // not 0: the path is diffracted
+  wt_uint tx, rx;  // its link
 } wt_path_wave;
 
 typedef struct {
