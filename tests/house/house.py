@@ -142,12 +142,12 @@ def types_twice(root):
 def unmeasured(root):
     rows = (root / "bench" / "kernel_costs.cpp").read_text()
     faults = []
-    for path in sorted((root / "kernels").glob("*.cl")):
+    for path in sorted((root / "kernels").glob("*/*.cl")):
         if path.stem.startswith(("radix_sort", "bitonic_sort")):
             continue
         for kernel in sorted(set(re.findall(r"\bkernel void (\w+)\(", path.read_text()))):
             if f'{{"{path.stem}/{kernel}",' not in rows:
-                faults.append(f"kernels/{path.name}: {kernel} has no row in bench/kernel_costs.cpp")
+                faults.append(f"{path.relative_to(root)}: {kernel} has no row in bench/kernel_costs.cpp")
     for path in sorted((root / "host").glob("*/*.[ch]pp")):
         if path.parent.name != "gpu" and re.search(r"\bgpu::Kernel\b|\.kernel\(", path.read_text()):
             faults.append(f"{path.relative_to(root)}: a kernel without its declaration; use gpu::KernelOf")
