@@ -13,7 +13,7 @@ constexpr uint32_t nothing = 0xffffffffu;
 // each block of words (128 on GPUs, 16 on CPUs).
 class Compact {
  public:
-  struct State;  // of the suite alone
+  struct State;  // the suite alone knows it
   explicit Compact(const Context& context);
   ~Compact();
   Compact(Compact&&) noexcept;

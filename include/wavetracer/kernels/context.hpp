@@ -38,7 +38,7 @@ struct Call {
 // Untyped device memory. Copies share it.
 class Memory {
  public:
-  struct State;  // of the suite alone
+  struct State;  // the suite alone knows it
   Memory();
   ~Memory();
   Memory(const Memory&);
@@ -91,7 +91,7 @@ class Buffer : public Memory {
 
 class Context {
  public:
-  struct State;  // of the suite alone
+  struct State;  // the suite alone knows it
   // Uses the caller's context, device and queue. They are retained, so the caller may release them before this object.
   // The queue must be in order, because passes of many launches rely on it, and must belong to the context and to the
   // device. Nothing else is asked of the device: a pass that needs double precision or 64-bit atomics says so and

@@ -10,7 +10,7 @@ namespace wavetracer::kernels {
 // The object keeps 4 KiB of device memory.
 class Scan {
  public:
-  struct State;  // of the suite alone
+  struct State;  // the suite alone knows it
   explicit Scan(const Context& context);
   ~Scan();
   Scan(Scan&&) noexcept;

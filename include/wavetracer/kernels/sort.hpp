@@ -37,7 +37,7 @@ struct BitRange {
 // each. Temporary memory: see temporary_words().
 class Sort {
  public:
-  struct State;  // of the suite alone
+  struct State;  // the suite alone knows it
   // Throws Error if the options are none, or if the kernels do not build.
   Sort(const Context& context, const SortOptions& options);
   ~Sort();
