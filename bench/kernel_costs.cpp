@@ -122,6 +122,10 @@ constexpr KernelCost costs[] = {
     {"order_keys/queue_keys", "ordered", "segments", later_segments, always<16>, always<30>},
     {"gather_rays/gather_rays", "ordered", "segments", later_segments, always<68>, nothing},
 
+    {"curves/point_keys", "", "points", items_of<"curves/point_keys">, always<20>, always<30>},
+    {"curves/encode", "", "cells", items_of<"curves/encode">, always<20>, always<20>},
+    {"curves/decode", "", "codes", items_of<"curves/decode">, always<20>, always<20>},
+
     {"generate_rays/generate_samples", "refined", "rays", rays, always<40>, always<20>},
     {"refine/count_ends", "refined", "rays", items_of<"refine/count_ends">, always<8>, nothing},
     {"refine/mark", "refined", "rays", items_of<"refine/mark">, always<12>, nothing},
