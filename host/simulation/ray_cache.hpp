@@ -84,7 +84,7 @@ class RayCache final : public HitFinder {
   uint32_t static_surfaces_, frame_ = 0;
   CacheAnswers answers_;
   bool touch_ = false;
-  CachePositions positions_;              // of the transmitters
+  CachePositions positions_;              // one for each transmitter
   std::vector<Placement> placements_;     // places of instances when they last counted as moved
   std::vector<uint32_t> instance_since_;  // frame of that movement
   std::vector<uint32_t> used_;            // entries of each region at the end of the last frame
