@@ -13,8 +13,8 @@
 #include <random>
 
 #include "json_line.hpp"
-#include "kernels/curves.hpp"
 #include "passes/compact.hpp"
+#include "passes/curves.hpp"
 #include "passes/gather_rays.hpp"
 #include "passes/generate_rays.hpp"
 #include "passes/order_keys.hpp"

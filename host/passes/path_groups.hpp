@@ -44,7 +44,8 @@ class PathGroups {
   gpu::Marker being_read_;
   size_t read_ = 0, shared_read_ = 0;  // rows and records that were read already
   size_t last_shared_ = 0;             // records of the last frame
-  GroupColumns room_, numbered_;       // of the next rows, and of those that number() has numbered
+  GroupColumns room_;                  // memory for the columns of the next rows
+  GroupColumns numbered_;              // the columns that number() has made
 };
 
 }  // namespace wavetracer
