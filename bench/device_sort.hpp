@@ -9,6 +9,7 @@
 
 #include "gpu/gpu.hpp"
 #include "passes/payload.hpp"
+#include "passes/radix_sort.hpp"
 
 namespace wavetracer::bench {
 
@@ -29,9 +30,11 @@ class DeviceKeys {
     double model_bytes;
     std::function<void()> launch;
   };
-  Sort radix(Payload payload);
+  Sort radix(Payload payload, SortForm form = SortForm::device);
   Sort bitonic(Payload payload);
 
+  // Brings the given keys and words back, as they are before each run.
+  void restore();
   SortSeconds run(const Sort& sort);
   // Counts, for the last run, keys and values that differ from those of std::stable_sort. Above 2^22 keys it counts
   // keys out of order, values that do not belong to their keys or are not stable, and one more if the sum of the keys
