@@ -44,7 +44,16 @@ DeviceKeys<Key>::DeviceKeys(gpu::Context& context, std::vector<Key> keys, unsign
 
 template <class Key>
 typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, SortForm form) {
-  const auto sort = std::make_shared<RadixSort<Key>>(context_, payload, form);
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, form));
+}
+
+template <class Key>
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, const RadixTuning& groups) {
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, groups));
+}
+
+template <class Key>
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort) {
   auto temporary = context_.buffer<uint32_t>(sort->temporary_words(count()), "temporary");
   return {"radix", payload, radix_bytes<Key>(payload, bits_), [this, sort, temporary, payload]() mutable {
             if (payload == Payload::none)

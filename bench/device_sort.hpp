@@ -4,6 +4,8 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,15 @@ struct SortSeconds {
   double device = 0;  // the kernels alone, by the device's clock, in a separate run
 };
 
+// Random keys of which only the lowest `bits` bits differ, the same in every run and on every machine.
+template <class Key>
+std::vector<Key> keys_of_bits(uint32_t n, unsigned bits) {
+  std::mt19937_64 generator(1);
+  std::vector<Key> keys(n);
+  for (Key& key : keys) key = static_cast<Key>(generator() >> (64 - bits));
+  return keys;
+}
+
 template <class Key>
 class DeviceKeys {
  public:
@@ -31,6 +42,8 @@ class DeviceKeys {
     std::function<void()> launch;
   };
   Sort radix(Payload payload, SortForm form = SortForm::device);
+  // The form for groups with another tuning than the device's.
+  Sort radix(Payload payload, const RadixTuning& groups);
   Sort bitonic(Payload payload);
 
   // Brings the given keys and words back, as they are before each run.
@@ -50,6 +63,7 @@ class DeviceKeys {
   gpu::Buffer<Key> given_, sorted_;
   gpu::Buffer<uint32_t> given_values_, values_;
 
+  Sort radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort);
   uint32_t count() const { return static_cast<uint32_t>(keys_.size()); }
   size_t wrong_by_stable_sort(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;
   size_t wrong_by_rules(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;

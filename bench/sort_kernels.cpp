@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <random>
 #include <vector>
 
 #include "device_sort.hpp"
@@ -17,14 +16,6 @@ namespace {
 
 constexpr uint32_t most_of_other_form = 1u << 22, most_of_bitonic = 1u << 20;
 constexpr double comparator_operations = 3;  // a comparison and two selections
-
-template <class Key>
-std::vector<Key> keys_of_bits(uint32_t n, unsigned bits) {
-  std::mt19937_64 generator(1);
-  std::vector<Key> keys(n);
-  for (Key& key : keys) key = static_cast<Key>(generator() >> (64 - bits));
-  return keys;
-}
 
 bool wanted(const KernelRows& rows, std::string_view program) {
   return std::ranges::any_of(sort_kernels(), [&](const std::string& kernel) {
@@ -38,7 +29,7 @@ void measure_radix(KernelRows& rows, gpu::Context& context, SortForm form, uint3
   const bool groups = form == SortForm::groups;
   const std::string program = groups ? "radix_sort" : "radix_sort_cpu";
   if (!wanted(rows, program)) return;
-  const RadixTuning tuning = groups ? radix_groups(context.info()) : radix_chunks(context.info());
+  const RadixTuning tuning = groups ? radix_groups(context.info(), sizeof(Key), 4) : radix_chunks(context.info());
   const auto parts = [](uint32_t whole, uint32_t part) { return (whole + part - 1) / part; };
   const uint32_t chunk = tuning.tile * std::max(1u, parts(parts(n, tuning.tile), tuning.most_chunks));
   const double passes = bits / 8, digits = 1u << tuning.digit_bits, counts = digits * parts(n, chunk);
