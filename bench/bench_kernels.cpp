@@ -52,13 +52,13 @@ std::set<std::string, std::less<>> wanted_kernels(const std::vector<std::string>
   return wanted;
 }
 
-// One part of the rows; a device that cannot run it misses its rows only.
+// Measures one part of the rows; a part that fails, on this device or by a wrong result, loses its further rows only.
 template <class Measure>
 bool part(const char* name, const Measure& measure) {
   try {
     measure();
     return true;
-  } catch (const DeviceError& error) {
+  } catch (const Error& error) {
     fmt::print(stderr, "bench_kernels: {}: {}\n", name, error.what());
     return false;
   }

@@ -33,13 +33,7 @@ class FrameKernels {
     }
   }
 
-  std::vector<std::string> without_costs() const {
-    std::vector<std::string> names;
-    for (const std::string& kernel : ran_)
-      if (!rows_.has(kernel) && std::ranges::count(kernel_costs(), kernel, &KernelCost::kernel) == 0)
-        names.push_back(kernel);
-    return names;
-  }
+  const std::set<std::string>& ran() const { return ran_; }
 
  private:
   KernelRows& rows_;
@@ -96,10 +90,10 @@ class FrameKernels {
 
 }  // namespace
 
-std::vector<std::string> measure_frame_kernels(KernelRows& rows, const FrameOptions& options) {
+std::set<std::string> measure_frame_kernels(KernelRows& rows, const FrameOptions& options) {
   FrameKernels frames(rows, options);
   frames.run();
-  return frames.without_costs();
+  return frames.ran();
 }
 
 }  // namespace wavetracer::bench

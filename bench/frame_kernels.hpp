@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels in the frames that need them (frame_worlds.hpp), with the work of those frames (kernel_costs.hpp).
 #pragma once
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct FrameOptions {
 };
 
 // Runs the worlds that rows still need: a kernel gets its row in its own world, or in a later one if that does not
-// launch it on this device. Returns the names of kernels that ran and have neither costs nor a row.
-std::vector<std::string> measure_frame_kernels(KernelRows& rows, const FrameOptions& options);
+// launch it on this device. Returns the names of all kernels that ran.
+std::set<std::string> measure_frame_kernels(KernelRows& rows, const FrameOptions& options);
 
 }  // namespace wavetracer::bench

@@ -29,7 +29,7 @@ namespace wavetracer::bench {
 namespace {
 
 constexpr uint32_t packet = 16, packets_group = 16, interactions = 3;
-constexpr uint64_t slots = 1 << 18;
+constexpr uint64_t least_slots = 1 << 18;
 constexpr double trace_bytes = 6.0 * sizeof(float) + WT_HIT_PLANES * sizeof(float);
 
 constexpr std::array shape_kernels{"trace_bvh2/trace", "trace_bvh8/trace", "trace_packet16/trace"};
@@ -213,11 +213,16 @@ class SceneKernels {
   // All segments of rays in one launch, which only GPUs do in frames; then the set of their sequences grows.
   void whole_ways() {
     Bounces bounces(context_, still_, false, false);
-    Sequences set(context_, slots);
     const auto enter = [&](Sequences& into) { bounces(still_, rays_, interactions, into.trie(), nullptr); };
-    enter(set);
-    const wt_counters counters = set.counters().read(Stage::trace);
-    if (counters.trie_overflow != 0) throw RuntimeError("the set of sequences is too small for these rays");
+    uint64_t slots = least_slots;
+    std::optional<Sequences> set;
+    for (bool enough = false; !enough; slots *= 4) {
+      set.emplace(context_, slots);
+      enter(*set);
+      enough = !set->overflowed();
+    }
+    slots = set->table().size();
+    const wt_counters counters = set->counters().read(Stage::trace);
     double segments = 0, alive = rays_.count, hits = 0;
     for (uint32_t k = 0; k < interactions; k++) {
       segments += alive;
@@ -232,13 +237,13 @@ class SceneKernels {
                                           {"segments",
                                            segments,
                                            {.bytes = bytes, .operations = tree_operations(scene_.triangles.size())}}}},
-                             .run = [&] { enter(set); },
+                             .run = [&] { enter(*set); },
                              .wrong = [] { return 0; },
-                             .prepare = [&] { set.clear(); }});
-    grow(enter);
+                             .prepare = [&] { set->clear(); }});
+    grow(enter, slots);
   }
 
-  void grow(const std::function<void(Sequences&)>& enter) {
+  void grow(const std::function<void(Sequences&)>& enter, uint64_t slots) {
     std::optional<Sequences> set;
     uint32_t listed = 0;
     const auto prepare = [&] {
@@ -250,7 +255,7 @@ class SceneKernels {
     const double moved = static_cast<double>(slots) * interactions;
     rows_.measure(context_,
                   {.variant = fmt::format("a set of {} sequences grows", listed),
-                   .kernels = {{"sequences/clear", {"slots", 4.0 * slots, {.bytes = 12}}},
+                   .kernels = {{"sequences/clear", {"slots", 4.0 * static_cast<double>(slots), {.bytes = 12}}},
                                {"sequences/regrow", {"slots", moved, {.bytes = 8}}},
                                {"sequences/follow", {"sequences", double{1} * listed, {.bytes = 8, .gathers = 1}}}},
                    .run = [&] { set->regrow(interactions, listed); },
