@@ -26,17 +26,17 @@ struct Variant {
 };
 
 constexpr Variant keys_alone[] = {{256, 4608, 72, false, false}, {384, 4608, 72, false, false},
-                                  {512, 4608, 72, false, false}, {384, 4608, 36, false, false},
-                                  {256, 3072, 48, false, false}, {384, 3072, 48, false, false},
+                                  {384, 4608, 64, false, false}, {512, 4608, 72, false, false},
+                                  {384, 4608, 36, false, false}, {256, 3072, 48, false, false},
                                   {512, 6144, 64, false, false}, {384, 4608, 72, false, false, 2048}};
 constexpr Variant small_pairs[] = {
-    {256, 4608, 72, true, false}, {256, 4608, 72, true, true},       {384, 4608, 72, true, false},
-    {512, 4608, 72, true, false}, {384, 4608, 36, true, false},      {256, 3840, 60, true, true},
-    {384, 3840, 60, true, false}, {256, 3072, 48, true, false},      {256, 2304, 36, true, false},
+    {256, 4608, 72, true, false}, {256, 4608, 72, true, true},       {384, 4608, 64, true, true},
+    {384, 4608, 36, true, false}, {512, 4608, 64, true, false},      {256, 3840, 60, true, true},
+    {384, 3840, 60, true, false}, {256, 3072, 48, true, false},      {384, 2304, 36, true, false},
     {512, 5120, 64, true, false}, {384, 3840, 60, true, false, 2048}};
 constexpr Variant large_pairs[] = {
     {256, 4608, 72, false, false}, {384, 4608, 72, false, false},      {512, 4608, 72, false, false},
-    {512, 4608, 72, false, true},  {384, 3072, 48, false, false},      {256, 3072, 48, true, true},
+    {512, 4608, 64, false, false}, {512, 4608, 72, false, true},       {256, 3072, 48, true, true},
     {384, 3072, 48, true, false},  {512, 3072, 48, true, false},       {256, 2304, 36, true, false},
     {384, 2304, 36, true, false},  {512, 4608, 72, false, false, 2048}};
 
