@@ -97,20 +97,24 @@ class Variants {
 
   template <class Key>
   void measure(const SortShape& shape) {
-    std::vector<Variant> variants;
-    for (const Variant& v : shape.payload ? sizeof(Key) == 4 ? std::span<const Variant>(small_pairs) : large_pairs
-                                          : std::span<const Variant>(keys_alone))
-      if (local_bytes(v, sizeof(Key)) <= context_.info().local_memory && v.items <= context_.info().max_work_group)
-        variants.push_back(v);
     DeviceKeys<Key> keys(context_, keys_of_bits<Key>(shape.n, shape.bits), shape.bits);
+    std::vector<Variant> variants;
     std::vector<typename DeviceKeys<Key>::Sort> sorts;
-    for (const Variant& v : variants)
-      sorts.push_back(keys.radix(shape.payload ? Payload::words : Payload::none,
-                                 tuning_of_variant(context_.info(), v, sizeof(Key))));
     std::vector<size_t> wrong;
-    for (const auto& sort : sorts) {
-      keys.run(sort);  // warm-up
-      wrong.push_back(keys.wrong(sort));
+    for (const Variant& v : shape.payload ? sizeof(Key) == 4 ? std::span<const Variant>(small_pairs) : large_pairs
+                                          : std::span<const Variant>(keys_alone)) {
+      if (local_bytes(v, sizeof(Key)) > context_.info().local_memory || v.items > context_.info().max_work_group)
+        continue;
+      try {
+        const auto sort = keys.radix(shape.payload ? Payload::words : Payload::none,
+                                     tuning_of_variant(context_.info(), v, sizeof(Key)));
+        keys.run(sort);  // warm-up
+        wrong.push_back(keys.wrong(sort));
+        sorts.push_back(sort);
+        variants.push_back(v);
+      } catch (const DeviceError& error) {
+        fmt::print(stderr, "bench_sort: {}: {}\n", name_of(v), error.what());
+      }
     }
     std::vector<Times> times(sorts.size());
     for (size_t run = 0; run < options_.runs; run++)

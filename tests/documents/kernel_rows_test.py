@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every kernel of kernels/ is measured by bench_kernels, and has a stored row on a CPU and on a GPU.
 
-usage: kernel_rows_test.py SOURCE
+usage: kernel_rows_test.py [--write] SOURCE
 
 The list of kernels is that of the sources. kernels_without_row.txt, beside this file, names the kernels that no row is
-stored of yet; it may only become shorter. `bench_kernels >> bench/results/kernels.jsonl`, on the device, makes rows.
+stored of yet; it may only become shorter, and --write removes the lines of rows that are there. `bench_kernels`, on the
+device, prints the rows of bench/results/kernels.jsonl.
 """
 import json
 import pathlib
@@ -65,11 +66,16 @@ def try_the_checks():
 
 def main():
     try_the_checks()
-    root = pathlib.Path(sys.argv[1])
-    names = kernels(root)
-    awaited = set((pathlib.Path(__file__).parent / "kernels_without_row.txt").read_text(encoding="utf-8").splitlines())
+    root = pathlib.Path(sys.argv[-1])
+    names, rows = kernels(root), read_rows(root / "bench/results/kernels.jsonl")
+    path = pathlib.Path(__file__).parent / "kernels_without_row.txt"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    if "--write" in sys.argv:
+        stored = {f"{row['device_kind']} {row['kernel']}" for row in rows if "kernel" in row}
+        lines = [line for line in lines if line not in stored]
+        path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
     faults = unmeasured(names, measured(root))
-    faults += without_row(names, read_rows(root / "bench/results/kernels.jsonl"), {a for a in awaited if a and a[0] != "#"})
+    faults += without_row(names, rows, {line for line in lines if line and line[0] != "#"})
     print("\n".join(faults))
     sys.exit(f"{len(faults)} faults" if faults else 0)
 
