@@ -94,7 +94,7 @@ void Context::finish() {
   }
 }
 
-Marker Context::mark() {
+Marker Context::marker() {
   cl_event event = nullptr;
   const cl_int code = clEnqueueMarkerWithWaitList(state_->queue(), 0, nullptr, &event);
   if (code != CL_SUCCESS) state_->fail(code, "marking a place in the queue");

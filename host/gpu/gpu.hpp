@@ -261,7 +261,7 @@ class Context {
 
   void finish();
   // Marks this place in the queue.
-  Marker mark();
+  Marker marker();
   void wait(const Marker& marker);
   // Hands enqueued commands to the device, without waiting for them.
   void flush();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/curves.cl.
+// Host side of kernels/primitives/curves.cl.
 // The curves and their shapes are named here once; curves.cl has functions for each name.
 #include "passes/curves.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/pack_rays.cl.
+// Host side of kernels/rays/pack_rays.cl.
 #include "passes/pack_rays.hpp"
 
 #include <fmt/format.h>

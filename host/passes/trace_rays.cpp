@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/trace_rays.cl.
+// Host side of kernels/trace/trace_rays.cl.
 // A work-item takes a run of rays on CPUs, one ray elsewhere.
 #include "passes/trace_rays.hpp"
 
