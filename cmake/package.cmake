@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, gnuplot-nox")
 if(WAVETRACER_GDAL_NAME MATCHES "^libgdal\\.so\\.([0-9]+)$")
   string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libgdal${CMAKE_MATCH_1}")
 endif()
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, pkgconf, python3-h5py, python3-numpy, sumo")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, ocl-icd-opencl-dev, pkgconf, python3-h5py, python3-numpy, sumo")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Traces every propagation path between antennas on vehicles and at the
 roadside through a city: reflected, diffracted, transmitted and scattered,
@@ -31,7 +31,8 @@ with exact geometry, delay, complex gain, angles and Doppler shift. Vehicles
 come from SUMO, CSV or built-in traffic; results go to HDF5 and CSV.
 
 Runs on any OpenCL device, also on the CPU with PoCL. This package holds the
-program, the shared library with its headers for C and C++, and a Python
+program, the shared library with its headers for C and C++, the kernel suite
+as a library for programs with a context and queue of their own, and a Python
 package.")
 # CPack 3.25 calls ldconfig in its own scripts; Debian requires the trigger.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/triggers)

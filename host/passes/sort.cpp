@@ -36,7 +36,7 @@ void KeySort<Key>::check_bits(unsigned first_bit, unsigned end_bit) const {
 template <class Key>
 bool KeySort<Key>::by_network(uint32_t n, unsigned first_bit, unsigned end_bit) const {
   check_bits(first_bit, end_bit);
-  return !radix_ || (first_bit == 0 && end_bit == key_bits && n <= block());
+  return !radix_ || (bitonic_ && first_bit == 0 && end_bit == key_bits && n <= block());
 }
 
 template <class Key>

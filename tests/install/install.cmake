@@ -2,20 +2,7 @@
 # Installs, builds the examples of docs/examples against the installed files, runs them, and checks their output. It
 # expects BUILD, SOURCE, WORK and VERSION; it stops at the first step that fails.
 
-# step(COMMAND...): runs a command and leaves its output in `said`.
-function(step)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "failed (${result}): ${ARGV}\n${output}")
-  endif()
-  set(said "${output}" PARENT_SCOPE)
-endfunction()
-
-function(expect pattern)
-  if(NOT said MATCHES "${pattern}")
-    message(FATAL_ERROR "expected ${pattern} in:\n${said}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
@@ -64,6 +51,15 @@ foreach(file sumo/scene/city.xml sumo/town.sumocfg sumo/live.toml scenes/room/ro
     message(FATAL_ERROR "configs/${file} was not installed")
   endif()
 endforeach()
+
+# The kernel suite is a part of the package, with its kernels.
+file(WRITE ${WORK}/suite/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(suite CXX)\nfind_package(wavetracer REQUIRED)\n"
+  "if(NOT TARGET wavetracer::kernels)\n  message(FATAL_ERROR \"no wavetracer::kernels\")\nendif()\n")
+step(${CMAKE_COMMAND} -S ${WORK}/suite -B ${WORK}/suite/build -DCMAKE_PREFIX_PATH=${prefix})
+file(GLOB_RECURSE kernels ${prefix}/share/wavetracer/kernels/*.cl)
+if(kernels STREQUAL "")
+  message(FATAL_ERROR "no kernels were installed")
+endif()
 
 # Python uses the installed package and library, and no others.
 if(PYTHON)

@@ -2,6 +2,9 @@
 // A user of OpenCL's C interface, with his own handles, who has never heard of wavetracer's classes.
 // Failures are exceptions that name the code.
 #pragma once
+#ifndef CL_TARGET_OPENCL_VERSION
+#define CL_TARGET_OPENCL_VERSION 300
+#endif
 #include <CL/cl.h>
 
 #include <cstdint>

@@ -40,8 +40,10 @@ with zipfile.ZipFile(wheel) as archive:
     carried = {re.sub(r"-[0-9a-f]{8}.*", "", pathlib.Path(name).name) for name in names if ".libs/" in name}
     assert carried >= {"libhdf5_serial", "libassimp", "libproj", "libOpenCL", "libtbb"}, carried
     assert not carried & {"libc", "libstdc++", "libgcc_s"}, carried
-    for name in ("wavetracer/py.typed", "wavetracer/share/configs/demo.toml", "wavetracer/share/proj/proj.db"):
+    for name in ("wavetracer/py.typed", "wavetracer/share/configs/demo.toml", "wavetracer/share/proj/proj.db",
+                 "wavetracer/lib/libwavetracer_kernels.so", "wavetracer/share/include/wavetracer/kernels/sort.hpp"):
         assert name in names, name
+    assert any(name.startswith("wavetracer/share/kernels/") and name.endswith("radix_sort.cl") for name in names)
     texts = [name for name in names if "/licenses/libraries/" in name and name.endswith(".txt")]
     assert len(texts) >= len(carried) - 5, texts  # some packages have several libraries
     mode = archive.getinfo("wavetracer/bin/wavetracer").external_attr >> 16
@@ -64,7 +66,7 @@ assert Simulation is wavetracer.Simulation and callable(view) and not hasattr(wa
 """)
 # Libraries that the loader takes from outside of the wheel must be part of every Linux.
 own = next(environment.glob("lib/python3*/site-packages"))
-for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetracer.so"):
+for file in (own / "wavetracer/bin/wavetracer", own / "wavetracer/lib/libwavetracer.so", own / "wavetracer/lib/libwavetracer_kernels.so"):
     for name, found in re.findall(r"(\S+) => (/\S+)", run("ldd", file)):
         assert found.startswith(str(own)) or re.match(r"(libc|libm|libstdc\+\+|libgcc_s|libresolv|libz|libexpat)\.so", name), found
 # The program says what is wrong with the exit code of its own, and reads its own files.
