@@ -25,7 +25,7 @@ namespace wavetracer::kernels {
 enum class RayOrder { z, hz, h3dh, h3dh2dh, h3dh3dh, direction_origin };
 
 struct OrderOptions {
-  uint32_t bins = 16;  // the bins of a histogram for each component of a direction: 1 to 1024
+  uint32_t bins = 16;  // a histogram has so many for each component of a direction, 1 to 1024
   float extent = 1;  // the largest absolute coordinate of origins, for direction_origin; others go to cells at the rim
 };
 
