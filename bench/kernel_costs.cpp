@@ -100,6 +100,8 @@ constexpr KernelCost costs[] = {
     {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
     {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
     {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
+    {"trace_rays/nearest_hits", "", "rays", items_of<"trace_rays/nearest_hits">, always<48>, scene_operations},
+    {"trace_rays/any_hits", "", "rays", items_of<"trace_rays/any_hits">, always<36>, always<12>},
     {"bounces/bounces", "reflections", "segments", segments, bounces_bytes, scene_operations},
     {"scan/scan", "reflections", "blocks", blocks_of_rays, always<8>, always<1>},
     {"scan/scan_sums", "reflections", "blocks", blocks_of_rays, always<4>, always<1>},
@@ -123,6 +125,15 @@ constexpr KernelCost costs[] = {
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},
     {"order_keys/queue_keys", "ordered", "segments", later_segments, always<16>, always<30>},
     {"gather_rays/gather_rays", "ordered", "segments", later_segments, always<68>, nothing},
+
+    {"curves/point_keys", "", "points", items_of<"curves/point_keys">, always<20>, always<30>},
+    {"curves/encode", "", "cells", items_of<"curves/encode">, always<20>, always<20>},
+    {"curves/decode", "", "codes", items_of<"curves/decode">, always<20>, always<20>},
+
+    {"pack_rays/rays_to_planes", "", "rays", items_of<"pack_rays/rays_to_planes">, always<64>, nothing},
+    {"pack_rays/planes_to_rays", "", "rays", items_of<"pack_rays/planes_to_rays">, always<56>, nothing},
+    {"pack_rays/hits_to_planes", "", "hits", items_of<"pack_rays/hits_to_planes">, always<28>, nothing},
+    {"pack_rays/planes_to_hits", "", "hits", items_of<"pack_rays/planes_to_hits">, always<28>, nothing},
 
     {"generate_rays/generate_samples", "refined", "rays", rays, always<40>, always<20>},
     {"refine/count_ends", "refined", "rays", items_of<"refine/count_ends">, always<8>, nothing},

@@ -11,8 +11,8 @@
 #include <numeric>
 #include <random>
 
-#include "kernels/curves.hpp"
 #include "passes/compact.hpp"
+#include "passes/curves.hpp"
 #include "passes/gather_rays.hpp"
 #include "passes/generate_rays.hpp"
 #include "passes/order_keys.hpp"

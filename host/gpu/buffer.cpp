@@ -37,9 +37,13 @@ void require(bool allocated, const char* action) {
 
 }  // namespace
 
-void Allocations::add(void* handle, std::string name, size_t bytes) { live_[handle] = {std::move(name), bytes}; }
+void Allocations::add(void* handle, std::string name, size_t bytes) {
+  live_.emplace(handle, Entry{std::move(name), bytes});
+}
 
-void Allocations::remove(void* handle) { live_.erase(handle); }
+void Allocations::remove(void* handle) {
+  if (const auto entry = live_.find(handle); entry != live_.end()) live_.erase(entry);
+}
 
 std::string Allocations::name(void* handle) const {
   const auto entry = live_.find(handle);
@@ -64,22 +68,26 @@ std::string Allocations::summary() const {
 Memory Context::allocate(size_t bytes, const BufferName& name) {
   State& s = *state_;
   if (bytes > s.info.max_buffer) {
-    throw BufferError(
-        fmt::format("{}: buffer \"{}\" needs {} bytes, more than the {} bytes that the device allows a buffer. {}",
-                    s.info.name, name.name, bytes, s.info.max_buffer, name.advice));
+    throw BufferError(fmt::format(
+        "{}: buffer \"{}\" needs {} bytes, more than the {} bytes that the device allows a buffer. {}", s.info.name,
+        name.name, bytes, s.info.max_buffer, s.memory_advice.empty() ? name.advice : s.memory_advice.c_str()));
   }
   cl_int code = CL_SUCCESS;
   const cl_mem handle = clCreateBuffer(s.context(), CL_MEM_READ_WRITE, std::max(bytes, least_bytes), nullptr, &code);
   if (code != CL_SUCCESS) s.fail(code, fmt::format("allocating {} bytes for buffer \"{}\"", bytes, name.name));
-  s.allocations->add(handle, name.name, bytes);
-  Memory memory;
-  memory.context_ = this;
-  memory.bytes_ = bytes;
-  memory.handle_ = std::shared_ptr<void>(handle, [allocations = s.allocations](void* released) {
+  return adopt(handle, bytes, name.name);
+}
+
+Memory Context::adopt(void* memory, size_t bytes, const char* name) {
+  state_->allocations->add(memory, name, bytes);
+  Memory out;
+  out.context_ = this;
+  out.bytes_ = bytes;
+  out.handle_ = std::shared_ptr<void>(memory, [allocations = state_->allocations](void* released) {
     allocations->remove(released);
     clReleaseMemObject(static_cast<cl_mem>(released));
   });
-  return memory;
+  return out;
 }
 
 HostMemory Context::host_memory(size_t bytes, const char* name) {

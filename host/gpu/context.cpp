@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Context: a device opened with one in-order profiling queue.
+// Context: a device opened with one in-order profiling queue; foreign.cpp makes one of other handles.
 // By default it requires double precision and 64-bit atomics, without which paths cannot be solved or sequences kept;
 // Needs can drop these requirements.
 #include <fmt/format.h>
@@ -59,13 +59,14 @@ Context::Context(std::string_view device_text, const Needs& needs) : state_(std:
 }
 
 Context::~Context() {
-  if (state_->locked) {
-    OpenContexts::of_process().forget(state_->device);
+  const State& s = *state_;
+  if (s.locked) {
+    if (!s.foreign) OpenContexts::of_process().forget(s.device);
     static_cast<void>(state_.release());
     return;
   }
   try {
-    if (state_->queue()) state_->queue.finish();
+    if (s.queue() && (!s.foreign || s.staged.any())) s.queue.finish();
   } catch (const cl::Error&) {
     // A failed command was reported, or does not matter any more.
   }
@@ -116,6 +117,8 @@ KernelTimes Context::kernel_times() const { return state_->profile.kernels(); }
 
 void Context::set_profiling(bool on) {
   if (on == state_->profile.on) return;
+  if (on && !state_->timed())
+    throw CallError("the queue was made without CL_QUEUE_PROFILING_ENABLE: make one with it to measure times");
   profile();  // pending events belong to the other queue
   try {
     if (!on && !state_->plain()) state_->plain = cl::CommandQueue(state_->context, state_->device, 0);
@@ -128,21 +131,24 @@ void Context::set_profiling(bool on) {
 
 void Context::reset_profile() { state_->profile.reset(); }
 
-void Context::State::fail(cl_int code, const std::string& action) const {
+Handles Context::handles() const { return {state_->context(), state_->device(), state_->queue()}; }
+
+void Context::set_memory_advice(const std::string& advice) { state_->memory_advice = advice; }
+
+void Context::State::fail(cl_int code, const std::string& action, const std::string& kernel) const {
   std::string message = fmt::format("{}: {} failed: {}", info.name, action, error_name(code));
   if (is_out_of_memory(code)) {
-    message += fmt::format(
-        ". The device has {} MiB, {} MiB at most a buffer; this run holds {}. Lower trace.batch_rays, "
-        "or trace.rays where it is not set, or choose a device with more memory",
-        info.global_memory >> 20, info.max_buffer >> 20, allocations->summary());
+    message += fmt::format(". The device has {} MiB, {} MiB at most a buffer; this run holds {}. {}",
+                           info.global_memory >> 20, info.max_buffer >> 20, allocations->summary(),
+                           memory_advice.empty() ? BufferName("").advice : memory_advice.c_str());
   }
   // NVIDIA returns this for every call after a kernel has crashed.
   if (code == CL_INVALID_COMMAND_QUEUE) {
-    OpenContexts::of_process().forget(device);
+    if (!foreign) OpenContexts::of_process().forget(device);
     message += ". An earlier command broke the queue: a kernel out of its buffers' bounds?";
   }
-  if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE) throw BufferError(message);
-  throw DeviceError(message);
+  if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE) throw BufferError(message, code, kernel);
+  throw CallError(message, code, kernel);
 }
 
 }  // namespace wavetracer::gpu

@@ -38,32 +38,6 @@ int opencl_version(const cl::Device& device) {
   return text.size() < 10 ? 10 : (text[7] - '0') * 10 + (text[9] - '0');
 }
 
-DeviceInfo describe(size_t index, const cl::Device& device) {
-  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
-  const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
-  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
-  DeviceInfo info;
-  info.index = index;
-  info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
-  info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
-  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
-  info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
-  info.opencl_c = trimmed(device.getInfo<CL_DEVICE_OPENCL_C_VERSION>());
-  info.gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
-  info.cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
-  info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
-  info.max_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  info.local_memory = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
-  info.max_work_group = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
-  info.fp64 = has_word(extensions, "cl_khr_fp64");
-  info.int64_atomics = has_word(extensions, "cl_khr_int64_base_atomics");
-  info.correctly_rounded_divide =
-      (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-  info.vector_width_float = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
-  return info;
-}
-
 // OpenCL C 3.0 made acquire-release order and device scope optional: NVIDIA compiles CL3.0 without them, PoCL with
 // them.
 bool has_c11_atomics_in_cl3(const cl::Device& device) {
@@ -92,6 +66,32 @@ std::string device_lines(const std::vector<DeviceInfo>& devices) {
 int rank(const DeviceInfo& device) { return device.gpu ? 0 : device.cpu ? 1 : 2; }
 
 }  // namespace
+
+DeviceInfo describe(size_t index, const cl::Device& device) {
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
+  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+  DeviceInfo info;
+  info.index = index;
+  info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+  info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
+  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+  info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+  info.opencl_c = trimmed(device.getInfo<CL_DEVICE_OPENCL_C_VERSION>());
+  info.gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+  info.cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+  info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  info.global_memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.max_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.local_memory = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+  info.max_work_group = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  info.fp64 = has_word(extensions, "cl_khr_fp64");
+  info.int64_atomics = has_word(extensions, "cl_khr_int64_base_atomics");
+  info.correctly_rounded_divide =
+      (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+  info.vector_width_float = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
+  return info;
+}
 
 std::vector<cl::Device> all_devices() {
   give_pocl_a_cache();

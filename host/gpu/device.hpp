@@ -11,6 +11,9 @@ namespace wavetracer::gpu {
 
 std::vector<cl::Device> all_devices();
 
+// Returns the properties of a device. index: its place in all_devices().
+DeviceInfo describe(size_t index, const cl::Device& device);
+
 // Returns the options of every program: OpenCL C standard, memory-order back-end, WT_CPU or WT_GPU, and exact
 // arithmetic.
 std::string device_options(const cl::Device& device, const DeviceInfo& info);

@@ -16,42 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/device_info.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/kernel_time.hpp"
 #include "wavetracer/stages.hpp"
 
 namespace wavetracer::gpu {
-
-struct DeviceInfo {
-  size_t index = 0;  // index in list_devices()
-  std::string platform, name, driver, opencl_c, platform_version;
-  bool gpu = false, cpu = false;
-  uint32_t compute_units = 0;
-  uint64_t global_memory = 0, max_buffer = 0, local_memory = 0;
-  size_t max_work_group = 0;
-  bool fp64 = false, int64_atomics = false, correctly_rounded_divide = false;
-  uint32_t vector_width_float = 1;
-
-  // Work-group size for kernels in which each item does little and works alone. GPUs start groups one by one: groups of
-  // 64 limit an H200 to 105 G items/s, which is less than its memory allows.
-  uint32_t simple_local_size() const { return cpu || max_work_group < 256 ? 64 : 256; }
-};
-
-// Returns all devices of all platforms, in the ICD's order. Without an ICD the list is empty.
-std::vector<DeviceInfo> list_devices();
-// text: empty takes the first GPU, else the first CPU; a number is an index; any other text must be part of exactly one
-// device's platform or name (case-insensitive). Throws DeviceError with the list of devices and what to install.
-size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view text);
-
-// A context refuses a device that lacks these. The program needs both; some kernels, such as the sorts, need neither,
-// and their tests ask for neither.
-struct Needs {
-  bool fp64 = true;           // double precision, for solving paths
-  bool int64_atomics = true;  // for keeping sequences and caches
-};
-
-// Returns the needs that the device does not meet, with the names of the extensions; empty if it meets all.
-std::string lacks(const DeviceInfo& device, const Needs& needs = {});
 
 // Numbers of work-items and the fixed work-group size, as one number or one per dimension; global is padded up to a
 // multiple of local (PoCL has no non-uniform work-groups), so kernels must check their range.
@@ -80,10 +50,30 @@ struct BufferName {
   const char* advice;
 };
 
-// A buffer is larger than the device allows, or than its free memory.
-class BufferError : public DeviceError {
+// A call of OpenCL failed, or a handle that was given is refused.
+class CallError : public DeviceError {
  public:
-  using DeviceError::DeviceError;
+  explicit CallError(const std::string& message, int opencl_code = 0, const std::string& kernel = {})
+      : DeviceError(message), opencl_code_(opencl_code), kernel_(kernel) {}
+  // The code that OpenCL returned; 0 if none of its calls failed.
+  int opencl_code() const noexcept { return opencl_code_; }
+  // "program/kernel" if a kernel was being built or launched; else empty.
+  const std::string& failed_kernel() const noexcept { return kernel_; }
+
+ private:
+  int opencl_code_;
+  std::string kernel_;
+};
+
+// A buffer is larger than the device allows, or than its free memory.
+class BufferError : public CallError {
+ public:
+  using CallError::CallError;
+};
+
+// OpenCL's handles: a cl_context, a cl_device_id of it, and a cl_command_queue of both.
+struct Handles {
+  void *context = nullptr, *device = nullptr, *queue = nullptr;
 };
 
 // Host memory that the device copies to at full speed (pinned), for data that are read in every frame.
@@ -104,6 +94,7 @@ class Memory {
  public:
   Memory() = default;
   size_t bytes() const { return bytes_; }
+  void* handle() const { return handle_.get(); }  // a cl_mem, or null
   explicit operator bool() const { return handle_ != nullptr; }
 
  protected:
@@ -125,6 +116,8 @@ class Buffer : public Memory {
 
  public:
   Buffer() = default;
+  // Takes the memory for elements of T.
+  explicit Buffer(Memory m) : Memory(std::move(m)) {}
   size_t size() const { return bytes_ / sizeof(T); }
   void write(std::span<const T> data, size_t first = 0, Stage stage = Stage::transfer) {
     write_bytes(data.data(), first * sizeof(T), data.size_bytes(), stage);
@@ -135,6 +128,9 @@ class Buffer : public Memory {
     return out;
   }
   std::vector<T> read() const { return read(0, size()); }
+  void read_into(std::span<T> out, size_t first = 0, Stage stage = Stage::transfer) const {
+    read_bytes(out.data(), first * sizeof(T), out.size_bytes(), stage);
+  }
   // Reads into pinned memory, which must be large enough. The elements are valid until the memory is used again.
   std::span<const T> read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
     read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
@@ -149,10 +145,6 @@ class Buffer : public Memory {
     read_bytes(&out, i * sizeof(T), sizeof(T), stage);
     return out;
   }
-
- private:
-  friend class Context;
-  explicit Buffer(Memory m) : Memory(std::move(m)) {}
 };
 
 // A named kernel. Calling it sets every argument (count and sizes are checked against the kernel) and enqueues it;
@@ -202,11 +194,32 @@ class Context {
  public:
   // Throws DeviceError if choose_device() does, or if the device lacks one of the needs.
   explicit Context(std::string_view device_text = "", const Needs& needs = Needs());
+  // Uses the handles of somebody else, and retains them. Profiling is off, and can be on only if the queue has
+  // CL_QUEUE_PROFILING_ENABLE. Throws CallError if a handle is null, if the queue is not one of this context and device
+  // or is out of order, or if the device lacks one of the needs.
+  Context(const Handles& handles, const Needs& needs);
+  // Waits for the queue; one of somebody else only while it may still read copies that this context keeps.
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
   const DeviceInfo& info() const;
+  // The handles in use, which the context owns or retains.
+  Handles handles() const;
+  // Replaces the advice of all messages about too little memory, which else names keys of the configuration.
+  void set_memory_advice(const std::string& advice);
+
+  // Returns the cl_mem of somebody else as memory, and retains it. Throws CallError if it is null, no buffer, or one of
+  // another context.
+  Memory wrap(void* memory, const BufferName& name);
+  // The same for a part of it, a sub-buffer. Throws CallError also if the part leaves the buffer or has no bytes, or if
+  // its offset is not aligned as the device demands.
+  Memory wrap(void* memory, size_t offset, size_t bytes, const BufferName& name);
+
+  // The commands that are enqueued from now on start after these cl_event.
+  void wait_for(std::span<void* const> events);
+  // Returns a cl_event, which the caller owns, that completes with all commands enqueued so far; flushes the queue.
+  void* mark();
 
   // Throws BufferError that names the buffer, its size, the device's limit and what to lower.
   template <class T>
@@ -248,8 +261,8 @@ class Context {
   // Returns the same sums by kernel, without copies; call it after profile().
   KernelTimes kernel_times() const;
   void reset_profile();
-  // Profiling is on at first. If it is off, profile() adds nothing, and launches in quick succession cost less (on an
-  // H200 about half). Finishes the queue.
+  // Profiling is on at first, but for a queue of somebody else. If it is off, profile() adds nothing, and launches in
+  // quick succession cost less (on an H200 about half). Finishes the queue. Throws CallError if it cannot be on.
   void set_profiling(bool on);
   // Returns the seconds spent building programs so far (from source or from the disk cache), and how many were built
   // from source.
@@ -264,6 +277,7 @@ class Context {
   struct State;
   std::unique_ptr<State> state_;
   Memory allocate(size_t bytes, const BufferName& name);
+  Memory adopt(void* memory, size_t bytes, const char* name);
 };
 
 // Returns the source of a program after expansion of its #include lines, with #line kept; for tests and for `bench`.

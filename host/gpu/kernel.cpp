@@ -85,8 +85,10 @@ void Kernel::enqueue(Range range, Stage stage) {
   s.context->locked = false;
   if (code != CL_SUCCESS) {
     s.context->fail(
-        code, fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})", s.name,
-                          fmt::join(padded, " x "), fmt::join(range.local, " x "), s.context->info.max_work_group));
+        code,
+        fmt::format("launching kernel {} over {} items in groups of {} (the device allows {})", s.name,
+                    fmt::join(padded, " x "), fmt::join(range.local, " x "), s.context->info.max_work_group),
+        s.profile_name);
   }
   if (!s.context->profile.on) return;
   KernelTime& time = s.context->profile.kernel(s.profile_name);

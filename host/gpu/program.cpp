@@ -107,15 +107,16 @@ std::string first_binary(const cl::Program& program) {
 
 }  // namespace
 
-cl::Program Context::State::build_from_source(const std::string& name, const std::string& options,
-                                              const std::string& source) {
+cl::Program Context::State::build_from_source(const std::string& name, const std::string& kernel,
+                                              const std::string& options, const std::string& source) {
   cl::Program built(context, source);
   try {
     compiling(built, locked, [&] { return built.build({device}, options.c_str()); });
   } catch (const cl::Error& error) {
-    throw DeviceError(fmt::format("{}: kernel program \"{}\" does not build ({}) with options {}\n{}", info.name, name,
-                                  error_name(error.err()), options,
-                                  with_places(built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device), source)));
+    throw CallError(fmt::format("{}: kernel program \"{}\" does not build ({}) with options {}\n{}", info.name, name,
+                                error_name(error.err()), options,
+                                with_places(built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device), source)),
+                    error.err(), name + "/" + kernel);
   }
   ++builds_from_source;
   return built;
@@ -136,7 +137,7 @@ const cl::Program& Context::State::program(const std::string& name, const std::s
   std::optional<cl::Program> built;
   if (const auto compiled = cache.load(key)) built = build_from_binary(context, device, options, *compiled, locked);
   if (!built) {
-    built = build_from_source(name, options, key.source);
+    built = build_from_source(name, kernel, options, key.source);
     const std::string compiled = compiling(*built, locked, [&] { return first_binary(*built); });
     if (const std::string note = cache.store(key, compiled); !note.empty()) cache_note = note;
   }
@@ -175,7 +176,8 @@ void Kernel::State::make() {
     arguments = arguments_of(made, static_cast<cl_uint>(argument_count));
     kernel = made;
   } catch (const cl::Error& error) {
-    context->fail(error.err(), fmt::format("making kernel \"{}\" of program \"{}\" ({})", name, program, error.what()));
+    context->fail(error.err(), fmt::format("making kernel \"{}\" of program \"{}\" ({})", name, program, error.what()),
+                  profile_name);
   }
 }
 

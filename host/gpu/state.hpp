@@ -28,7 +28,7 @@ class Allocations {
     std::string name;
     size_t bytes;
   };
-  std::map<void*, Entry> live_;
+  std::multimap<void*, Entry> live_;  // a cl_mem of somebody else may have been wrapped twice
 };
 
 // The host's copies of small writes, which therefore need not wait for the device. A copy must stay until the queue has
@@ -45,6 +45,7 @@ class StagedWrites {
     return to;
   }
   void done() { used_ = 0; }
+  bool any() const { return used_ != 0; }
 
  private:
   std::vector<unsigned char> ring_ = std::vector<unsigned char>(size_t{1} << 20);  // a multiple of 16
@@ -57,6 +58,8 @@ struct Context::State {
   cl::Context context;
   cl::CommandQueue queue;         // the queue in use: one of the next two, which are both in order
   cl::CommandQueue timed, plain;  // with and without profiling events; plain is opened at its first use
+  bool foreign = false;           // handles are somebody else's; timed is missing if the queue has no profiling
+  std::string memory_advice;      // replaces the advice of buffers, unless it is empty
   std::string device_options;
   ProgramCache cache = ProgramCache::from_environment();
   std::string cache_note;  // message for the user about programs that could not be kept
@@ -73,11 +76,13 @@ struct Context::State {
 
   // Returns a program, on CPUs with this kernel alone, built at its first use: from the disk cache, else from source.
   const cl::Program& program(const std::string& name, const std::string& kernel, const std::string& options);
-  cl::Program build_from_source(const std::string& name, const std::string& options, const std::string& source);
+  cl::Program build_from_source(const std::string& name, const std::string& kernel, const std::string& options,
+                                const std::string& source);
   // Enqueues a copy between two cl_mem; the ranges must not overlap.
   void copy(void* from, size_t from_offset, void* to, size_t to_offset, size_t bytes, Stage stage);
-  // Throws DeviceError (BufferError if memory ran out): what was tried, the error's name and what to lower.
-  [[noreturn]] void fail(cl_int code, const std::string& action) const;
+  // Throws CallError (BufferError if memory ran out): what was tried, the error's name and what to lower. kernel: the
+  // "program/kernel" that was being launched.
+  [[noreturn]] void fail(cl_int code, const std::string& action, const std::string& kernel = {}) const;
 };
 
 // One argument of a kernel, as far as the runtime describes it.

@@ -16,11 +16,14 @@ CacheLookup::CacheLookup(gpu::Context& context, const CacheTable& table) : work_
   kernel_ = {context, definitions};
 }
 
-void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
+void CacheLookup::operator()(const CacheSurfaces& world, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                              CacheTable& table, const CacheMovement& movement, uint32_t static_surfaces, uint32_t now,
                              bool touch, gpu::Buffer<uint32_t>* receptions) {
   if (table.config.holds_all() && !receptions)
     throw std::invalid_argument("cache_lookup: cache.scope = \"all\" without receptions");
+  const CacheConfig& config = table.config;
+  if ((config.own_points() && !config.exact() && !world.surfaces) || (config.holds_all() && !world.exact))
+    throw std::invalid_argument("cache_lookup: no surfaces for cache.hit_point = \"own\" or cache.scope = \"all\"");
   kernel_(work_.range(rays.count), Stage::cache_lookup,
           calls::cache_lookup::cache_lookup{.rays = rays.planes,
                                             .hits = hits.planes,
@@ -30,8 +33,8 @@ void CacheLookup::operator()(const DeviceScene& scene, RayQueue& rays, HitList& 
                                             .used = table.used,
                                             .regions = table.device_regions,
                                             .counters = table.counters,
-                                            .surfaces = scene.surfaces,
-                                            .exact_surfaces = scene.exact_surfaces,
+                                            .surfaces = world.surfaces,
+                                            .exact_surfaces = world.exact,
                                             .receivers = movement.receivers,
                                             .instance_since = movement.instance_since,
                                             .receptions = receptions,

@@ -10,6 +10,16 @@
 
 namespace wavetracer {
 
+// The surfaces by which a look-up judges an entry: the planes and bounds of hit_point = "own" (float), and the
+// instances of scope = "all" (exact). They may be null where the table asks for neither.
+struct CacheSurfaces {
+  CacheSurfaces(const gpu::Buffer<wt_surface>* in_float, const gpu::Buffer<wt_exact_surface>* in_double)
+      : surfaces(in_float), exact(in_double) {}
+  CacheSurfaces(const DeviceScene& scene) : CacheSurfaces(&scene.surfaces, &scene.exact_surfaces) {}
+  const gpu::Buffer<wt_surface>* surfaces;
+  const gpu::Buffer<wt_exact_surface>* exact;
+};
+
 class CacheLookup {
  public:
   CacheLookup(gpu::Context& context, const CacheTable& table);
@@ -19,8 +29,8 @@ class CacheLookup {
   // cached one. static_surfaces: rays that left a surface from this number on do not ask the cache with a quantised key
   // and scope = "static", since these surfaces move. touch: sets table.uses of entries that answer to `now`, for
   // eviction. receptions: needed with scope = "all"; [i] becomes the receiver that an answered segment passes, or
-  // WT_NONE.
-  void operator()(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
+  // WT_NONE. Throws std::invalid_argument where the table asks for something that is null.
+  void operator()(const CacheSurfaces& world, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                   CacheTable& table, const CacheMovement& movement, uint32_t static_surfaces, uint32_t now, bool touch,
                   gpu::Buffer<uint32_t>* receptions = nullptr);
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upload of the static scene: trees by host/accel, surfaces as the records of wavetracer/device/records.h.
-// Stack sizes follow from the trees, in steps, so that scenes of similar size share compiled kernels.
+// Upload of the static scene: trees by device_trees, surfaces as the records of wavetracer/device/records.h.
 #include "passes/device_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "accel/layout.hpp"
 #include "passes/advice.hpp"
 
 namespace wavetracer {
@@ -48,48 +45,19 @@ std::vector<double> surface_corners(const Scene& scene) {
   return corners;
 }
 
-void DeviceScene::require_stack(const std::string& name, uint32_t entries) {
-  const uint32_t step = name == "WT_BVH8_STACK" ? 64 : 32;
-  std::string& size = definitions[name];
-  size = std::to_string(
-      std::max((entries + step) / step * step, size.empty() ? 0u : static_cast<uint32_t>(std::stoul(size))));
-}
-
 DeviceScene make_device_scene(gpu::Context& context, const Scene& scene, bool spatial_splits, double reach_m,
                               const std::vector<bool>& opaque) {
-  DeviceScene out;
-  out.extent_m = static_cast<float>(reach_m);
+  auto extent_m = static_cast<float>(reach_m);
   for (int axis = 0; axis < 3; ++axis)
-    out.extent_m =
-        std::max(out.extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
-  if (out.extent_m > largest_scene_of_float32_m) out.definitions["WT_NEAR_MISSES"] = "1";
-  out.cpu = context.info().cpu;
-  const std::vector<AccelTriangle> triangles = accel_triangles(scene);
-
-  BuildOptions options = BuildOptions::for_bvh2();
-  options.spatial_splits = spatial_splits;
-  const Bvh2 two = make_bvh2(build_binary(triangles, options), triangles);
-  out.triangle_slots = two.triangle_slots;
-  out.nodes2 = context.buffer(centred_nodes(two.nodes, out.extent_m), {"BVH2 nodes", advice::scene});
-  out.triangles2 = context.buffer(two.triangles, {"BVH2 triangles", advice::scene});
-  out.require_stack("WT_BVH2_STACK", two.max_depth);
-  out.require_stack("WT_PACKET_STACK", two.max_depth);
-  if (out.cpu) {
-    out.packet_nodes2 = context.buffer(two.nodes, {"BVH2 packet nodes", advice::scene});
-    options = BuildOptions::for_bvh8();
-    options.spatial_splits = spatial_splits;
-    const Bvh8 eight = make_bvh8(build_binary(triangles, options), triangles);
-    out.nodes8 = context.buffer(eight.nodes, {"BVH8 nodes", advice::scene});
-    out.blocks8 = context.buffer(eight.blocks, {"BVH8 blocks", advice::scene});
-    out.require_stack("WT_BVH8_STACK", 7 * eight.max_depth + 1);
-  }
+    extent_m =
+        std::max(extent_m, static_cast<float>(std::max(std::abs(scene.lower[axis]), std::abs(scene.upper[axis]))));
+  DeviceScene out;
+  static_cast<DeviceTrees&>(out) = make_device_trees(context, accel_triangles(scene), spatial_splits, extent_m);
   const SurfaceRecords records = device_surfaces(scene, 0, opaque);
   out.surfaces = context.buffer(records.surfaces, {"surfaces", advice::scene});
   out.exact_surfaces = context.buffer(records.exact, {"exact surfaces", advice::scene});
   out.exact_triangles = context.buffer(surface_corners(scene), {"surface triangles", advice::scene});
   out.exact_instances = context.buffer<wt_exact_instance>(1, "instances");
-  out.moving = context.buffer<wt_float4>(1, "moving");
-  out.primitive_count = static_cast<uint32_t>(scene.triangles.size());
   return out;
 }
 

@@ -9,7 +9,7 @@
 
 namespace wavetracer {
 
-Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
+Trace::Trace(gpu::Context& context, const DeviceTrees& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
     : shape_(shape),
       launch_(launch),
       block_(tuning_of(context.info()).block),
@@ -25,7 +25,7 @@ Trace::Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, 
   if (shape == TraceShape::packet16) packet16_ = {context, definitions};
 }
 
-void Trace::operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits) {
+void Trace::operator()(const DeviceTrees& scene, const RayQueue& rays, HitList& hits) {
   const uint32_t blocks = (rays.count + block_ - 1) / block_;
   switch (shape_) {
     case TraceShape::bvh2:

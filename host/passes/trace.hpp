@@ -5,7 +5,7 @@
 #include "kernel_calls/trace_bvh2.hpp"
 #include "kernel_calls/trace_bvh8.hpp"
 #include "kernel_calls/trace_packet16.hpp"
-#include "passes/device_scene.hpp"
+#include "passes/device_trees.hpp"
 #include "passes/launch_shape.hpp"
 #include "passes/ray_queue.hpp"
 
@@ -16,11 +16,11 @@ class Trace {
   // The traced part: everything, or only the static scene (see trace_moving).
   enum class Scope { all, fixed };
 
-  Trace(gpu::Context& context, const DeviceScene& scene, TraceShape shape, const LaunchShape& launch = {},
+  Trace(gpu::Context& context, const DeviceTrees& scene, TraceShape shape, const LaunchShape& launch = {},
         Scope scope = Scope::all);
   // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does it.
   bool counts_blocks() const { return counts_blocks_; }
-  void operator()(const DeviceScene& scene, const RayQueue& rays, HitList& hits);
+  void operator()(const DeviceTrees& scene, const RayQueue& rays, HitList& hits);
 
  private:
   gpu::KernelOf<calls::trace_bvh2::trace> bvh2_;  // one of the three, by the shape

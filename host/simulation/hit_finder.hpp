@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "passes/compact.hpp"
+#include "passes/device_scene.hpp"
 #include "passes/trace.hpp"
 #include "simulation/ray_follower.hpp"
 #include "simulation/ray_order.hpp"

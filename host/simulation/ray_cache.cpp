@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <ranges>
 #include <stdexcept>
 
@@ -20,14 +19,6 @@ namespace {
 // Shares of a region's entries: above the first, look-ups record the use of entries; above the second, unused entries
 // are removed.
 constexpr double filling = 0.7, full = 0.8;
-
-// The quantised position of a transmitter (section 4.2.3), 21 bits for each component, compared as a whole.
-uint64_t position_key(const glm::dvec3& position_m, double step_m) {
-  const auto cell = [step_m](double x) {
-    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / step_m))) & 0x1FFFFF;
-  };
-  return cell(position_m.x) | cell(position_m.y) << 21 | cell(position_m.z) << 42;
-}
 
 bool moved(const Placement& a, const Placement& b, double step_m) {
   constexpr double turn = 1e-3;  // in a matrix element: a millimetre at a metre
@@ -73,7 +64,7 @@ RayCache::RayCache(gpu::Context& context, const DeviceScene& scene, const CacheC
       compact_(context),
       traced_(context, scene, shape, launch),
       static_surfaces_(world.static_surfaces),
-      keys_(world.transmitters),
+      positions_(world.transmitters),
       instance_since_(world.instances),
       used_(world.transmitters) {
   if (world.instances > 0 && !config.holds_all()) trace_moving_.emplace(context, scene);
@@ -127,16 +118,12 @@ void RayCache::note_positions(const std::vector<EndState>& transmitters) {
   const CacheConfig& config = table_.config;
   if (!config.by_position()) return;
   bool changed = false;
-  for (size_t r = 0; r < keys_.size(); ++r) {
-    const uint64_t key = position_key(transmitters[r].position_m, config.position_step_m);
-    if (key == keys_[r] && frame_ > 1) continue;
-    keys_[r] = key;
-    table_.regions[r].since = frame_;
-    table_.regions[r].stamp = device::wt_cache_tag(key, 0);
+  for (uint32_t r = 0; r < used_.size(); ++r) {
+    if (!positions_.note(table_, r, transmitters[r].position_m, frame_)) continue;
     changed = true;
-    if (!table_.config.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
+    if (!config.evicts() || used_[r] == 0) continue;  // an open table writes over stale entries
     frame_summary_.evicted += used_[r];
-    table_.clear(context_, static_cast<uint32_t>(r));
+    table_.clear(context_, r);
   }
   if (changed) table_.device_regions.write(table_.regions, 0, Stage::cache_purge);
 }

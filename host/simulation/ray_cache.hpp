@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "passes/cache_lookup.hpp"
+#include "passes/cache_positions.hpp"
 #include "passes/cache_purge.hpp"
 #include "passes/trace_moving.hpp"
 #include "simulation/cache_misses.hpp"
@@ -83,7 +84,7 @@ class RayCache final : public HitFinder {
   uint32_t static_surfaces_, frame_ = 0;
   CacheAnswers answers_;
   bool touch_ = false;
-  std::vector<uint64_t> keys_;            // position key per transmitter
+  CachePositions positions_;              // one for each transmitter
   std::vector<Placement> placements_;     // places of instances when they last counted as moved
   std::vector<uint32_t> instance_since_;  // frame of that movement
   std::vector<uint32_t> used_;            // entries of each region at the end of the last frame

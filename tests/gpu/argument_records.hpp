@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 #include "wavetracer/device/arguments.h"
+#include "wavetracer/device/curves.h"
 
 namespace wavetracer::test {
 
@@ -21,6 +22,10 @@ struct Record {
   { #field, offsetof(record, field) }
 
 inline const std::vector<Record> argument_records{
+    {"wt_curve_box",
+     sizeof(device::wt_curve_box),
+     {FIELD(device::wt_curve_box, lower), FIELD(device::wt_curve_box, scale), FIELD(device::wt_curve_box, cells),
+      FIELD(device::wt_curve_box, last)}},
     {"wt_map_arguments",
      sizeof(wt_map_arguments),
      {FIELD(wt_map_arguments, parameter), FIELD(wt_map_arguments, level), FIELD(wt_map_arguments, faces)}},

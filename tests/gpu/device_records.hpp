@@ -8,6 +8,7 @@
 #include "wavetracer/device/cache.h"
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/moving.h"
+#include "wavetracer/device/packed_rays.h"
 #include "wavetracer/device/records.h"
 #include "wavetracer/device/waypoints.h"
 
@@ -19,6 +20,13 @@ using namespace device;
   { #field, offsetof(record, field) }
 
 inline const std::vector<Record> other_records{
+    {"wt_packed_ray",
+     sizeof(wt_packed_ray),
+     {FIELD(wt_packed_ray, origin), FIELD(wt_packed_ray, t_min), FIELD(wt_packed_ray, direction),
+      FIELD(wt_packed_ray, t_max)}},
+    {"wt_packed_hit",
+     sizeof(wt_packed_hit),
+     {FIELD(wt_packed_hit, t), FIELD(wt_packed_hit, primitive), FIELD(wt_packed_hit, u), FIELD(wt_packed_hit, v)}},
     {"wt_planes_xy", sizeof(wt_planes_xy), {FIELD(wt_planes_xy, x), FIELD(wt_planes_xy, y)}},
     {"wt_bvh2_node",
      sizeof(wt_bvh2_node),

@@ -265,6 +265,24 @@ inline WT_U32 wt_hilbert3_encode32(WT_U32 x, WT_U32 y, WT_U32 z, unsigned level)
   return wt_morton3_encode32(z, y, x);
 }
 
+// The cells of a box of up to five dimensions: cell 0 begins at `lower`, and `scale` cells are one unit long. `cells`
+// is their number in each dimension, as a float, and `last` the last one.
+typedef struct {
+  float lower[5];
+  float scale[5];
+  float cells;
+  unsigned last;
+} wt_curve_box;
+
+// The cell of a component in its dimension of a box. The upper face belongs to the last cell; values outside go to the
+// nearest cell, NaN to the first.
+inline WT_U32 wt_box_cell(WT_F32 component, float lower, float scale, float cells, unsigned last) {
+  const WT_F32 place = (component - lower) * scale;
+  const WT_F32 above = place > 0.0f ? place : (WT_F32)(0.0f);
+  const WT_U32 cell = WT_TO_U32(above < cells ? above : (WT_F32)(0.0f));
+  return above < cells ? cell : (WT_U32)(last);
+}
+
 #ifndef __OPENCL_VERSION__
 }  // namespace wavetracer::device
 #endif
