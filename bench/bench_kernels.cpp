@@ -10,6 +10,7 @@
 
 #include "frame_kernels.hpp"
 #include "kernel_costs.hpp"
+#include "packed_kernels.hpp"
 #include "scene_kernels.hpp"
 #include "small_kernels.hpp"
 #include "sort_kernels.hpp"
@@ -30,7 +31,7 @@ struct Options {
 
 // The names of all kernels that this program measures.
 std::vector<std::string> kernel_names() {
-  std::vector<std::string> names{"curves/encode", "curves/decode"};
+  std::vector<std::string> names;
   for (const KernelCost& cost : kernel_costs()) names.emplace_back(cost.kernel);
   names.insert(names.end(), sort_kernels().begin(), sort_kernels().end());
   std::ranges::sort(names);
@@ -86,6 +87,10 @@ bool run(const Options& options, const std::string& command) {
     complete &= part("sorts", [&] {
       gpu::Context context(options.device);
       measure_sort_kernels(rows, context, n);
+    });
+    complete &= part("packed rays and points", [&] {
+      gpu::Context context(options.device);
+      measure_packed_kernels(rows, context, options.shared, n, static_cast<uint32_t>(4 * rays));
     });
     complete &= part("kernels of a scene", [&] {
       gpu::Context context(options.device);
