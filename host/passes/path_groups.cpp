@@ -61,12 +61,12 @@ void PathGroups::begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& c
   shared_count_.begin_read(0, 1, host_shared_count_, Stage::path_groups);
   counters.begin_read(0, 1, host_counters_, Stage::path_groups);
   being_read_ = context_.marker();
-  context_.flush();
-  room_.group.resize(read_);
-  room_.weight.resize(read_);
 }
 
 void PathGroups::number() {
+  context_.flush();
+  room_.group.resize(read_);
+  room_.weight.resize(read_);
   context_.wait(being_read_);
   const size_t count = static_cast<const wt_counters*>(host_counters_.data())->rows;
   numbered_ = count <= read_ ? numbered(count) : GroupColumns{};
