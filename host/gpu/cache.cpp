@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <fstream>
+#include <functional>
+#include <thread>
 #include "base/environment.hpp"
 #include "base/hash.hpp"
 #include "base/output_place.hpp"
@@ -83,7 +85,8 @@ std::string ProgramCache::store(const ProgramKey& key, std::string_view compiled
   std::filesystem::create_directories(directory_, error);
   const std::filesystem::path target = path(key);
   std::filesystem::path temporary = target;
-  temporary += fmt::format(".tmp.{}", ::getpid());
+  // Two threads may keep the same program at the same time, each for a context of its own.
+  temporary += fmt::format(".tmp.{}.{:x}", ::getpid(), std::hash<std::thread::id>()(std::this_thread::get_id()));
   std::string head = header(key);
   append_number(head, compiled.size());
   append_number(head, mix64(compiled));
