@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every user of OpenCL has already: a device by its index over all platforms, a context, an in-order queue.
+// A user of OpenCL has this already: a device by its index over all platforms, a context, an in-order queue.
 #pragma once
 #include <CL/cl.h>
 
