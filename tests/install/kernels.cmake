@@ -35,7 +35,7 @@ execute_process(COMMAND ${WORK}/cpp/sort_a_buffer 0 70000 RESULT_VARIABLE result
 expect("radix_sort[a-z_]*.cl is not in ")
 unset(ENV{WAVETRACER_KERNEL_DIR})
 
-# A project that asks for the whole package is told that it is not there.
+# The whole package is not there, and the message says so.
 file(WRITE ${WORK}/whole/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(whole CXX)\nfind_package(wavetracer REQUIRED)\n")
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/whole -B ${WORK}/whole/build -DCMAKE_PREFIX_PATH=${prefix}
                 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
