@@ -4,11 +4,11 @@ import pathlib
 import re
 
 LINK = re.compile(r"(!?)\[[^\]]*\]\(([^)\s]+)\)")
-TOP = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md")
+TOP = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "kernels/README.md")
 
 
 def pages(root):
-    """Every page that the site shows, as paths below `root`: those at the top, in docs/ and in bench/."""
+    """Every page that the site shows, as paths below `root`: those at the top, in docs/, kernels/ and bench/."""
     found = [root / name for name in TOP if (root / name).exists()]
     found += sorted((root / "docs").rglob("*.md"))
     found += [root / "bench" / "RESULTS.md", *sorted((root / "bench" / "results").glob("*.md"))]

@@ -87,7 +87,8 @@ std::string program_manual(const CommandText& program, const std::string& versio
                 "If it is not set and PoCL cannot write to its default folder, "
                 "a folder within the folder for temporary files is used."},
                {"WAVETRACER_NO_CACHE", "1: kernels are compiled anew at every start."},
-               {"WAVETRACER_KERNEL_DIR", "Folder of kernel sources to use instead of the built-in ones."},
+               {"WAVETRACER_KERNEL_DIR",
+                "Folder of kernel sources, laid out like kernels/, to use instead of the built-in ones."},
                {"XDG_CACHE_HOME", "Folder of caches, instead of ~/.cache."}});
   return out + ".SH SEE ALSO\n.BR wavetracer.toml (5)\n";
 }

@@ -242,7 +242,7 @@ class Context {
   }
   void copy(const Memory& from, Memory& to, size_t bytes, Stage stage = Stage::transfer);
 
-  // Returns kernel `kernel` of kernels/`program`.cl built with these definitions; it is compiled once per process and
+  // Returns kernel `kernel` of the file `program`.cl built with these definitions; it is compiled once per process and
   // cached on disk. CPUs take seconds to compile, so there it is built at its first launch, which throws its errors
   // (DeviceError); on other devices it is built here.
   Kernel kernel(const std::string& program, const std::string& kernel, const Definitions& definitions = {});

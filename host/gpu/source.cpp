@@ -41,6 +41,12 @@ std::optional<File> find_among(std::span<const EmbeddedFile> files, std::initial
   return std::nullopt;
 }
 
+// Tells whether a path below a folder of kernels is that of a program, in whichever folder there.
+bool is_program(std::string_view path, const std::string& program) {
+  const std::string file = "/" + program + ".cl";
+  return path.ends_with(file) || path == std::string_view(file).substr(1);
+}
+
 // The source of files: the embedded table, or a kernels folder on disk with include/ beside it.
 class Source {
  public:
@@ -62,6 +68,20 @@ class Source {
     }
     for (const auto& files : added_files())
       if (auto file = find_among(files, {"tests/kernels/"}, name)) return file;
+    return std::nullopt;
+  }
+
+  // program is a file's name without its folder and its end: "radix_sort" is primitives/radix_sort.cl.
+  std::optional<File> find_program(const std::string& program) const {
+    if (!folder_.empty()) {
+      for (const std::filesystem::path& path : files_in(folder_))
+        if (is_program(path.lexically_relative(folder_).generic_string(), program))
+          return find(path.lexically_relative(folder_).generic_string());
+    } else if (auto file = find_program_among(embedded_files(), program)) {
+      return file;
+    }
+    for (const auto& files : added_files())
+      if (auto file = find_program_among(files, program)) return file;
     return std::nullopt;
   }
 
@@ -87,13 +107,25 @@ class Source {
   }
 
  private:
-  std::vector<std::filesystem::path> files_on_disk() const {
+  static std::optional<File> find_program_among(std::span<const EmbeddedFile> files, const std::string& program) {
+    for (const EmbeddedFile& file : files)
+      if (is_program(file.path, program)) return File{std::string(file.path), std::string(file.text)};
+    return std::nullopt;
+  }
+
+  static std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> out;
-    for (const std::filesystem::path& folder : {folder_, folder_ / ".." / "include" / "wavetracer" / "device"}) {
-      std::error_code error;  // a missing folder has no files
-      for (std::filesystem::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error))
-        if (at->is_regular_file(error)) out.push_back(at->path());
-    }
+    std::error_code error;  // a missing folder has no files
+    for (std::filesystem::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error))
+      if (at->is_regular_file(error)) out.push_back(at->path());
+    std::ranges::sort(out);
+    return out;
+  }
+
+  std::vector<std::filesystem::path> files_on_disk() const {
+    std::vector<std::filesystem::path> out = files_in(folder_);
+    for (std::filesystem::path& path : files_in(folder_ / ".." / "include" / "wavetracer" / "device"))
+      out.push_back(std::move(path));
     std::ranges::sort(out);
     return out;
   }
@@ -202,9 +234,10 @@ void add_files(std::span<const EmbeddedFile> files) { added_files().push_back(fi
 
 std::string program_source(const std::string& program) {
   const Source source;
-  const std::optional<File> file = source.find(program + ".cl");
+  const std::optional<File> file = source.find_program(program);
   if (!file)
-    throw DeviceError(fmt::format("kernel program \"{}\": {}.cl is not in {}", program, program, source.place()));
+    throw DeviceError(
+        fmt::format("kernel program \"{}\": {}.cl is in no folder of {}", program, program, source.place()));
   Expansion expansion(source);
   if (const std::optional<File> prelude = source.find("lib/prelude.clh")) expansion.append(*prelude);
   expansion.append(*file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernel sources: the table embedded in the library, and the original places of lines after the expansion of includes.
-// Paths are those of the source tree: "kernels/visible.cl", "include/wavetracer/device/bvh.h".
+// Paths are those of the source tree: "kernels/paths/visible.cl", "include/wavetracer/device/bvh.h".
 #pragma once
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/bitonic_sort.cl.
+// Host side of kernels/primitives/bitonic_sort.cl.
 // Strides of a block and more have launches of their own; the rest of each merge is one launch.
 #include "passes/bitonic_sort.hpp"
 

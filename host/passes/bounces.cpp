@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/bounces.cl.
+// Host side of kernels/discovery/bounces.cl.
 // A work-item takes one ray.
 #include "passes/bounces.hpp"
 

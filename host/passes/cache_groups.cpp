@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/cache_groups.cl.
+// Host side of kernels/cache/cache_groups.cl.
 // The table of ray numbers grows with the missed rays, and is emptied for each queue.
 #include "passes/cache_groups.hpp"
 #include "wavetracer/device/arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/cache_lookup.cl.
+// Host side of kernels/cache/cache_lookup.cl.
 // A work-item takes a run of rays.
 #include "passes/cache_lookup.hpp"
 #include "wavetracer/device/arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/cache_purge.cl.
+// Host side of kernels/cache/cache_purge.cl.
 // A work-item takes a run of entries; regions are the second dimension.
 #include "passes/cache_purge.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/cache_store.cl.
+// Host side of kernels/cache/cache_store.cl.
 // A work-item takes a run of missed rays.
 #include "passes/cache_store.hpp"
 #include "wavetracer/device/arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/candidates.cl.
+// Host side of kernels/paths/candidates.cl.
 // A work-item takes one sequence (CPUs), or a work-group several together.
 #include "passes/candidates.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/compact.cl.
+// Host side of kernels/primitives/compact.cl.
 // It checks its arguments, since callers name ranges of planes.
 #include "passes/compact.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/crowns.cl.
+// Host side of kernels/paths/crowns.cl.
 // The host knows the number of rows, so nothing is read back.
 #include "passes/crowns.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/distinct.cl.
+// Host side of kernels/paths/distinct.cl.
 // One row per work-item; two rows per visible path where links have one the other way.
 #include "passes/distinct.hpp"
 

@@ -18,7 +18,7 @@
 
 namespace wavetracer {
 
-// Rows at their places, see kernels/distinct.cl. Buffers may be longer than `places`, the number of places.
+// Rows at their places, see kernels/paths/distinct.cl. Buffers may be longer than `places`, the number of places.
 struct RowList {
   uint32_t places = 0;
   gpu::Buffer<uint32_t> rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/fields.cl.
+// Host side of kernels/fields/fields.cl.
 // One row per work-item; rows are read as records, once per frame.
 #include "passes/fields.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/gather_rays.cl.
+// Host side of kernels/rays/gather_rays.cl.
 // A work-item copies its part of one plane after the other.
 #include "passes/gather_rays.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/generate_rays.cl.
+// Host side of kernels/rays/generate_rays.cl.
 // The queue must have room: the frame loop sizes its batches.
 #include "passes/generate_rays.hpp"
 

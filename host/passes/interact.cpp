@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/interact.cl.
+// Host side of kernels/discovery/interact.cl.
 // A work-item takes a run of blocks (CPUs), or a ray, and then a group takes a block.
 #include "passes/interact.hpp"
 

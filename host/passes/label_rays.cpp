@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/label_rays.cl.
+// Host side of kernels/rays/label_rays.cl.
 // There are three kernels, for different knowledge of the samples.
 #include "passes/label_rays.hpp"
 

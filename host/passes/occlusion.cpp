@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/occlusion.cl.
+// Host side of kernels/paths/occlusion.cl.
 // First legs are tested first, then all others.
 #include "passes/occlusion.hpp"
 #include <algorithm>

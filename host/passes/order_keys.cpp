@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/order_keys.cl.
+// Host side of kernels/rays/order_keys.cl.
 // The stage of all its launches is "order".
 #include "passes/order_keys.hpp"
 

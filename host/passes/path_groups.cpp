@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/path_groups.cl.
+// Host side of kernels/fields/path_groups.cl.
 // One row per work-item; records are read once per frame.
 #include "passes/path_groups.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/place.cl, and the top-level tree where the host builds it, which is faster than a device up to
-// some hundred vehicles (bench_drive). Data of instances that does not depend on the frame is uploaded once.
+// Host side of kernels/vehicles/place.cl, and the top-level tree where the host builds it, which is faster than a
+// device up to some hundred vehicles (bench_drive). Data of instances that does not depend on the frame is uploaded
+// once.
 #include "passes/place.hpp"
 
 #include <algorithm>

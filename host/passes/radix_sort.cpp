@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/radix_sort.cl (groups) and kernels/radix_sort_cpu.cl (chunks), which have the same kernels.
+// Host side of kernels/primitives/radix_sort.cl (groups) and radix_sort_cpu.cl (chunks), which have the same kernels.
 // Temporary memory has the layout of kernels/lib/radix.clh.
 #include "passes/radix_sort.hpp"
 

@@ -12,8 +12,8 @@
 
 namespace wavetracer {
 
-// The kernels that sort. groups (kernels/radix_sort.cl): work-groups that rank tiles in local memory. chunks
-// (kernels/radix_sort_cpu.cl): single work-items, each for a long run of keys. lines: chunks that always collect keys
+// The kernels that sort. groups (kernels/primitives/radix_sort.cl): work-groups that rank tiles in local memory. chunks
+// (radix_sort_cpu.cl beside it): single work-items, each for a long run of keys. lines: chunks that always collect keys
 // in lines before they write them (chunks does so only for large n). device: chunks on CPUs, groups elsewhere. The
 // result is the same.
 enum class SortForm { device, groups, chunks, lines };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/receive.cl.
+// Host side of kernels/discovery/receive.cl.
 // A work-item takes one ray. If a list is too short, it is made longer, and the same rays run again.
 #include "passes/receive.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/refine.cl.
+// Host side of kernels/discovery/refine.cl.
 // A work-item takes one sample or slot.
 #include "passes/refine.hpp"
 

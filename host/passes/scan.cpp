@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/scan.cl.
+// Host side of kernels/primitives/scan.cl.
 // The host waits for the total: it is the only number that the frame loop reads at each depth.
 #include "passes/scan.hpp"
 

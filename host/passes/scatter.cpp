@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/scatter.cl.
+// Host side of kernels/paths/scatter.cl.
 // All tiles of a surface may serve the same receivers, so the rows are counted before any is written.
 #include "passes/scatter.hpp"
 

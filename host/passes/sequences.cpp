@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/sequences.cl.
+// Host side of kernels/discovery/sequences.cl.
 // The table starts small: a million rays in a city leave a few thousand sequences.
 #include "passes/sequences.hpp"
 

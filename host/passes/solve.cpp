@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/solve.cl.
+// Host side of kernels/paths/solve.cl.
 // One candidate per work-item.
 #include "passes/solve.hpp"
 

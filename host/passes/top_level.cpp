@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/top_level.cl.
+// Host side of kernels/vehicles/top_level.cl.
 // It makes four launches beside those of the sort, for any number of instances.
 #include "passes/top_level.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/trace_bvh2.cl, trace_bvh8.cl and trace_packet16.cl.
+// Host side of kernels/trace/trace_bvh2.cl, trace_bvh8.cl and trace_packet16.cl.
 // On CPUs a work-item is a block of 16 rays, on GPUs a ray.
 #include "passes/trace.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/trace_moving.cl.
+// Host side of kernels/trace/trace_moving.cl.
 // A work-item takes a run of rays.
 #include "passes/trace_moving.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/transmissions.cl.
+// Host side of kernels/paths/transmissions.cl.
 // One path per work-item.
 #include "passes/transmissions.hpp"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/vegetation.cl.
+// Host side of kernels/fields/vegetation.cl.
 // A work-item takes one path; the tree is over the boxes of volumes, which never move.
 #include "passes/vegetation.hpp"
 

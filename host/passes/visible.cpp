@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/visible.cl.
+// Host side of kernels/paths/visible.cl.
 // A work-item takes one solved path.
 #include "passes/visible.hpp"
 

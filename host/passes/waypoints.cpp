@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/waypoints.cl.
+// Host side of kernels/discovery/waypoints.cl.
 // One ray per work-item.
 #include "passes/waypoints.hpp"
 

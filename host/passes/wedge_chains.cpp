@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_chains.cl.
+// Host side of kernels/edges/wedge_chains.cl.
 // WT_STRINGS work-items take a pair of a transmitter and a receiver, also if it is no link.
 #include "passes/wedge_chains.hpp"
 

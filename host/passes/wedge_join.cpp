@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_join.cl.
+// Host side of kernels/edges/wedge_join.cl.
 // A prefix has one work-item or a group of them: few prefixes or thousands may see a wedge.
 #include "passes/wedge_join.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_pairs.cl.
+// Host side of kernels/edges/wedge_pairs.cl.
 #include "passes/wedge_pairs.hpp"
 
 #include <algorithm>

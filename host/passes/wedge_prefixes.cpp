@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_prefixes.cl.
+// Host side of kernels/edges/wedge_prefixes.cl.
 // A work-item takes one node of the trie, then one prefix.
 #include "passes/wedge_prefixes.hpp"
 

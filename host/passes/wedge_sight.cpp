@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_sight.cl.
+// Host side of kernels/edges/wedge_sight.cl.
 // One prefix per work-item.
 #include "passes/wedge_sight.hpp"
 

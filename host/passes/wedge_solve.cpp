@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedge_solve.cl.
+// Host side of kernels/edges/wedge_solve.cl.
 // One candidate per work-item.
 #include "passes/wedge_solve.hpp"
 

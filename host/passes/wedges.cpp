@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/wedges.cl.
+// Host side of kernels/vehicles/wedges.cl.
 // A work-item takes one wedge of an instance; the lists of surfaces do not change with frames.
 #include "passes/wedges.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arithmetic is that of kernels/place.cl and wedges.cl, which gives the same bits.
+// The arithmetic is that of kernels/vehicles/place.cl and wedges.cl, which gives the same bits.
 #include "radio/world_records.hpp"
 
 #include <cmath>

@@ -13,7 +13,7 @@ struct KernelTime {
   uint64_t items = 0;  // work-items that were asked for, without those that fill the last work-group
 };
 
-// By "program/kernel", as in "refine/mark"; the program is the file's name in kernels/.
+// By "program/kernel", as in "refine/mark"; the program is a file's name in a folder of kernels/.
 using KernelTimes = std::map<std::string, KernelTime>;
 
 }  // namespace wavetracer

@@ -153,11 +153,28 @@ TEST_CASE("every kernel of ours is found by that") {
   for (const gpu::EmbeddedFile& file : gpu::embedded_files()) {
     if (!file.path.starts_with("kernels/") || !file.path.ends_with(".cl")) continue;
     CAPTURE(file.path);
-    const std::string name(file.path.substr(8, file.path.size() - 11)), whole = gpu::program_source(name);
+    const std::string name = std::filesystem::path(file.path).stem().string(), whole = gpu::program_source(name);
     const std::string none = gpu::with_one_kernel(whole, "");
     CHECK(contains(whole, "kernel void "));
     CHECK_FALSE(contains(none, "kernel void "));
   }
+}
+
+TEST_CASE("a program is known by the name of its file, in whichever folder that is") {
+  {
+    const Environment built_in("WAVETRACER_KERNEL_DIR", nullptr);
+    CHECK(contains(gpu::program_source("radix_sort"), "#line 1 \"kernels/primitives/radix_sort.cl\""));
+    CHECK(contains(gpu::program_source("radix_sort_cpu"), "#line 1 \"kernels/primitives/radix_sort_cpu.cl\""));
+    CHECK_FALSE(message_of<DeviceError>([] { gpu::program_source("sort"); }).empty());
+  }
+  const TemporaryKernels kernels;
+  kernels.add("primitives/radix_sort.cl", "of the folder\n#include \"lib/a.clh\"\n");
+  kernels.add("lib/a.clh", "of lib\n");
+  kernels.add("flat.cl", "beside the folders\n");
+  CHECK(contains(gpu::program_source("radix_sort"), "of the folder\n"));
+  CHECK(contains(gpu::program_source("radix_sort"), "of lib\n"));
+  CHECK(contains(gpu::program_source("flat"), "beside the folders\n"));
+  CHECK_FALSE(message_of<DeviceError>([] { gpu::program_source("sort"); }).empty());
 }
 
 TEST_CASE("device headers are found beside the kernels folder on disk") {

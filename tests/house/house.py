@@ -9,7 +9,8 @@ names   tests are called NAME_test.cpp, in a folder with the name of the folder 
 sizes   files above 300 lines (kernels: 200) and functions above 60 are those that large.txt lists, and no others
 types   no two types of one namespace have the same name: the linker would merge their functions and keep either
 kernels every kernel has a row in bench/kernel_costs.cpp, which gives its minimal work; sorts have bench_sort; passes
-        launch kernels by the names of their arguments (host/gpu/kernel_of.hpp)
+        launch kernels by the names of their arguments (host/gpu/kernel_of.hpp); kernel, pass, test and benchmark have
+        one name, and kernels/README.md lists them (kernel_table.py)
 english no comment or docstring begins with a bare "Of", "What", "Who", "Whether" and the like: it has a subject and a verb
 project all files name one version; warnings are errors in the presets alone; the hosted checks are those of .ci/run
 licence every source file begins with the line of its licence, after an interpreter's line or a document type
@@ -21,6 +22,9 @@ import re
 import shutil
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True
+import kernel_table
 
 SKIPPED = 77
 FOLDERS = ("bench", "host", "include", "kernels", "tests")
@@ -141,13 +145,14 @@ def types_twice(root):
 
 def unmeasured(root):
     rows = (root / "bench" / "kernel_costs.cpp").read_text()
-    faults = []
-    for path in sorted((root / "kernels").glob("*.cl")):
+    kernel_table.try_the_checks()
+    faults = kernel_table.faults(root)
+    for path in sorted((root / "kernels").glob("*/*.cl")):
         if path.stem.startswith(("radix_sort", "bitonic_sort")):
             continue
         for kernel in sorted(set(re.findall(r"\bkernel void (\w+)\(", path.read_text()))):
             if f'{{"{path.stem}/{kernel}",' not in rows:
-                faults.append(f"kernels/{path.name}: {kernel} has no row in bench/kernel_costs.cpp")
+                faults.append(f"{path.relative_to(root)}: {kernel} has no row in bench/kernel_costs.cpp")
     for path in sorted((root / "host").glob("*/*.[ch]pp")):
         if path.parent.name != "gpu" and re.search(r"\bgpu::Kernel\b|\.kernel\(", path.read_text()):
             faults.append(f"{path.relative_to(root)}: a kernel without its declaration; use gpu::KernelOf")

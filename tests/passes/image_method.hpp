@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The image method again, on parallelograms, without triangles and tolerances, for sequences that a test names. It
-// shares no code with kernels/solve.cl; legs are not tested.
+// shares no code with kernels/paths/solve.cl; legs are not tested.
 #pragma once
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -77,8 +77,10 @@ TEST_CASE("a traversal that passes over triangles behind others fails the check 
 }
 
 TEST_CASE("a sort with a wrong comparison fails the check of sorts") {
-  const BrokenLine vectors("kernels/bitonic_sort.cl", "stride < n; stride *= 2", "stride < n / 4; stride *= 2");
-  const BrokenLine groups("kernels/bitonic_sort.cl", "stride = 16; stride < n;", "stride = 16; stride < n / 4;");
+  const BrokenLine vectors("kernels/primitives/bitonic_sort.cl", "stride < n; stride *= 2",
+                           "stride < n / 4; stride *= 2");
+  const BrokenLine groups("kernels/primitives/bitonic_sort.cl", "stride = 16; stride < n;",
+                          "stride = 16; stride < n / 4;");
   fails_first("sorts");
 }
 
@@ -125,7 +127,7 @@ TEST_CASE("what has passed is not checked again, until kernels or features are o
   CHECK(!proof_computes());
   CHECK(proof_computes({.transmission = true}));
   CHECK(!proof_computes({.transmission = true}));
-  const BrokenLine changed("kernels/crowns.cl", "// ", "//  ");
+  const BrokenLine changed("kernels/paths/crowns.cl", "// ", "//  ");
   CHECK(proof_computes());
   CHECK(!proof_computes());
 }

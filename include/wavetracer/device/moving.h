@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout of what moves, one definition for C++ (host/passes/place.cpp) and OpenCL C (kernels/top_level.cl,
+// The layout of what moves, one definition for C++ (host/passes/place.cpp) and OpenCL C (kernels/vehicles/top_level.cl,
 // kernels/lib/moving*.clh): one buffer of float4 with a head, the top-level tree of the frame, its instances, and the
 // trees of all models. Traversal has two levels: the top level in scene coordinates, then the ray in the coordinates of
 // a model.

@@ -36,7 +36,7 @@ typedef struct {
   wt_uint scatters;                        // not 0: mirrored waves lose the power that is scattered
   wt_uint foliage_count;                   // kinds of vegetation
   const WT_GLOBAL wt_foliage* foliages;    // one record for each kind
-  const WT_GLOBAL double* lengths_inside;  // for solved paths, kind by kind (kernels/vegetation.cl)
+  const WT_GLOBAL double* lengths_inside;  // for solved paths, kind by kind (kernels/fields/vegetation.cl)
   wt_air air;
 } wt_field_world;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
-// compaction). This form is for CPUs and ordered rays: one block of 16 rays per work-item, found by wt_launch_index,
-// through a BVH2. With WT_INSTANCES, `moving` is traced too.
+// trace: the nearest hit of every ray of a queue, through a BVH2, 16 rays at once; the form for CPUs and ordered rays.
+// It also counts the hits of every block of 16 rays (for compaction). A work-item takes one block, found by
+// wt_launch_index. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh8.clh"
 #include "lib/launch.clh"
 #include "lib/moving16.clh"

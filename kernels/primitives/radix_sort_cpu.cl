@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// radix_sort_cpu: a stable radix sort from the least significant digit, reduce then scan; the form for CPUs. One
+// radix_sort: a stable radix sort from the least significant digit, reduce then scan; the form for CPUs. One
 // work-item is a work-group and takes one chunk of consecutive keys. Build options besides those of lib/radix.clh:
 // WT_SCATTER_KEYS, the most keys that are written one by one; more keys do not fit into any cache and go through lines.
 #include "lib/radix.clh"

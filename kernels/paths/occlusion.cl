@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// occlusion: is a leg of a solved path obstructed? A work-item takes one leg; legs from args.first_leg on are ordered
-// by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs have a
-// launch of their own: paths over one tile follow each other and share their first leg, which is tested once, and later
-// legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges, surface_of_tile: see
-// lib/leg.clh. blockers: if given, the triangle that hides a path is stored there.
+// occlusion: finds solved paths with an obstructed leg. A work-item takes one leg; legs from args.first_leg on are
+// ordered by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs
+// have a launch of their own: paths over one tile follow each other and share their first leg, which is tested once,
+// and later legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges,
+// surface_of_tile: see lib/leg.clh. blockers: if given, the triangle that hides a path is stored there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cache_groups: the rays of one key that the ray cache did not answer are a group. The first of them in the queue is
-// traced; the others take its hit. Consumes a labelled queue and missed[i], which is i where ray i is to be traced.
+// cache_groups: of all rays of one key that the ray cache did not answer, one is traced and the others take its hit.
+// It is the first in the queue. Consumes a labelled queue and missed[i], which is i where ray i is to be traced.
 //   cache_keys    the key of each ray as words that lie together; places[i] says whether it has one
 //   cache_elect   each ray finds the place of its key in a table of ray numbers, which keeps the lowest
 //   cache_follow  missed[i] of all but the lowest becomes WT_NONE, and places[i] is the ray that they follow

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// trace: the nearest hit of every ray of a queue, and the number of hits of every block of WT_BLOCK rays (for
-// compaction). This is the form for GPUs: one ray per work-item through a BVH2, found by wt_launch_index. With
-// WT_COUNT_BLOCKS a work-group is a block and counts its hits. With WT_INSTANCES, `moving` is traced too.
+// trace: the nearest hit of every ray of a queue, through a BVH2, one ray per work-item; the form for GPUs. It also
+// counts the hits of every block of WT_BLOCK rays (for compaction) if a work-group is a block (WT_COUNT_BLOCKS). Rays
+// are found by wt_launch_index. With WT_INSTANCES, `moving` is traced too.
 #include "lib/bvh2.clh"
 #include "lib/launch.clh"
 #include "lib/moving.clh"

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// fields: a handful of paths against Friis, Fresnel's coefficients and reciprocity, and to the last bit against the
+// host's evaluation of the same functions; rows without a path, and paths the other way.
+#include "passes/fields.hpp"
+
+#include <doctest/doctest.h>
+
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "passes/solved_rows.hpp"
+#include "passes/wedges.hpp"
+#include "radio/fields.hpp"
+#include "reference/quads.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+constexpr double light_m_s = 299792458.0, frequency_hz = 5.9e9, carrier_wave_m = light_m_s / frequency_hz;
+constexpr uint32_t most_steps = 3;
+enum FieldSurface : uint32_t { ground, conducting_wall, screen };
+
+// A ground of concrete without end below, a perfect conductor at y = 8, and a screen of concrete at x = 10, 3 m high,
+// whose upper edge is wedge 2.
+Scene ground_wall_and_screen() {
+  const std::vector<reference::Quad> quads{{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}},
+                                           {{-100, 8, 0}, {200, 0, 0}, {0, 0, 50}},
+                                           {{10, -20, 0}, {0, 40, 0}, {0, 0, 3}}};
+  Scene scene = reference::scene_of_quads(quads);
+  const Material concrete{.name = "concrete", .a = 5.24, .c = 0.0462, .d = 0.7822};
+  scene.materials.assign(3, concrete);
+  scene.materials[ground].thickness_m = std::numeric_limits<double>::infinity();
+  scene.materials[conducting_wall] = {.name = "conductor", .a = 1, .c = 1e35};
+  for (uint32_t surface = 0; surface < 3; ++surface) scene.surfaces[surface].material = surface;
+  scene.wedges = reference::free_wedges(quads[screen], screen);
+  scene.origin_m = {1000, 2000, 300};
+  return scene;
+}
+
+PathRow field_row(const glm::dvec3& from, const glm::dvec3& to, const std::vector<uint32_t>& steps,
+                  const std::vector<glm::dvec3>& points) {
+  return {.from = from, .to = to, .steps = steps, .points = points};
+}
+
+// The world in which row i goes from transmitter i to receiver i. Velocities differ from end to end.
+struct FieldWorld {
+  Scene scene = ground_wall_and_screen();
+  std::vector<PathRow> rows;
+  Config config;
+  WorldState state;
+
+  FieldWorld(std::vector<PathRow> all, const std::string& antenna) : rows(std::move(all)) {
+    config.radio.frequency_hz = frequency_hz;
+    config.trace.max_depth = most_steps;
+    config.trace.transmission = true;
+    config.trace.diffraction = true;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const auto k = static_cast<double>(i);
+      const RadioEnd end{.name = "end", .antenna = antenna, .polarization = "VH"};
+      config.transmitters.push_back(end);
+      config.receivers.push_back(end);
+      state.transmitters.push_back({.position_m = rows[i].from, .velocity_m_s = {10 + k, -3, 0.5 * k}});
+      state.receivers.push_back({.position_m = rows[i].to, .velocity_m_s = {-20, k, 1}});
+    }
+  }
+
+  // The length of a row.
+  double length_m(size_t i) const {
+    double out = 0;
+    glm::dvec3 at = rows[i].from;
+    for (const glm::dvec3& point : rows[i].points) out += glm::distance(at, point), at = point;
+    return out + glm::distance(at, rows[i].to);
+  }
+};
+
+constexpr uint32_t no_path = WT_NO_ROW;
+
+// Computes rows at their places on the device. numbers: twice the number of a path, plus one for its way back, or
+// no_path. receiver_of, transmitter_of: ends in one place.
+Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, const std::vector<uint32_t>& receiver_of,
+                const std::vector<uint32_t>& transmitter_of) {
+  const auto places = static_cast<uint32_t>(numbers.size());
+  RowList list;
+  list.places = places;
+  std::vector<double> delays(places, 0);
+  std::vector<uint32_t> before(2 * places + 1);  // sums of ones, then of depths
+  RowCounts count;
+  for (uint32_t place = 0; place < places; ++place) {
+    before[place] = count.rows;
+    if (numbers[place] == no_path) continue;
+    delays[place] = world.length_m(numbers[place] / 2) / light_m_s;
+    ++count.rows;
+  }
+  for (uint32_t place = 0; place < places; ++place) {
+    before[places + place] = count.rows + count.vertices;
+    if (numbers[place] != no_path) count.vertices += static_cast<uint32_t>(world.rows[numbers[place] / 2].steps.size());
+  }
+  list.rows = context().buffer(numbers, "rows");
+  list.counts = context().buffer(before, "rows before");
+  list.delays = context().buffer(delays, "delays");
+  list.quarters = context().buffer(std::vector<uint8_t>(places, WT_ALL_QUARTERS), "quarters");
+
+  const DeviceScene scene = make_device_scene(context(), world.scene, false, 200);
+  const Wedges wedges(context(), world.scene, {}, {}, true);
+  const Distinct distinct(context(), receiver_of, transmitter_of);
+  const RadioEnds ends = make_radio_ends(context(), world.state.transmitters, world.state.receivers, {});
+  const SolvedList visible = upload_rows(world.rows, most_steps);
+  Fields fields(context(), make_field_tables(world.scene, world.config), 1, world.scene.origin_m);
+  fields(scene, &wedges.list().wedges, ends, world.state, visible, nullptr, distinct, list, count);
+  fields.begin_read(5, {count.rows / 2, count.vertices / 2});  // the rest is read once their number is known
+  context().finish();
+  return fields.columns(count);
+}
+
+Paths in_order(const FieldWorld& world) {
+  std::vector<uint32_t> numbers;
+  for (uint32_t i = 0; i < world.rows.size(); ++i) numbers.push_back(2 * i);
+  const std::vector<uint32_t> alone(numbers.size(), WT_NONE);
+  return fields_of(world, numbers, alone, alone);
+}
+
+doctest::Approx within(double value, double relative) { return doctest::Approx(value).epsilon(relative).scale(0); }
+
+// Fresnel's coefficients of the ground for a wave that meets it at this angle from its normal: TE, TM.
+std::array<std::complex<double>, 2> fresnel(double cosine) {
+  // ITU-R P.2040-3: the imaginary part is conductivity / (2 pi frequency epsilon_0), and decays with exp(j 2 pi f t).
+  const double conductivity = 0.0462 * std::pow(frequency_hz / 1e9, 0.7822);
+  const std::complex<double> e(5.24, -conductivity / (2 * std::numbers::pi * frequency_hz * 8.8541878128e-12));
+  const std::complex<double> root = std::sqrt(e - (1 - cosine * cosine));
+  return {(cosine - root) / (cosine + root), (e * cosine - root) / (e * cosine + root)};
+}
+
+// One path of each kind: in sight, reflected by the ground, by the wall and by both, through the screen, and over it.
+std::vector<PathRow> path_of_each_kind() {
+  return {field_row({-30, 0, 2}, {6, 0, 5}, {}, {}),
+          field_row({-30, 0, 2}, {-6, 0, 4}, {WT_STEP_REFLECTION | ground}, {{-22, 0, 0}}),
+          field_row({-30, 4, 2}, {-6, 2, 2}, {WT_STEP_REFLECTION | conducting_wall}, {{-20.4, 8, 2}}),
+          field_row({-30, 4, 2}, {-6, 2, 4}, {WT_STEP_REFLECTION | ground, WT_STEP_REFLECTION | conducting_wall},
+                    {{-22, 22.0 / 3, 0}, {-20.4, 8, 0.4}}),
+          field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_TRANSMISSION | screen}, {{10, 0, 2}}),
+          field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_DIFFRACTION | 2}, {{10, 0, 3}})};
+}
+
+}  // namespace
+
+TEST_CASE("fields: a path in sight has Friis' gain, its delay, its angles and the Doppler shift of its ends") {
+  const FieldWorld world({field_row({-30, 1, 2}, {6, 0, 5}, {}, {}), field_row({3, -4, 1}, {3, 2, 9}, {}, {})},
+                         "isotropic");
+  const Paths paths = in_order(world);
+  REQUIRE(paths.size() == 2);
+  CHECK(paths.frame == std::vector<uint32_t>{5, 5});
+  CHECK(paths.rx_ports == 2);
+  for (size_t i = 0; i < 2; ++i) {
+    const glm::dvec3 way = world.rows[i].to - world.rows[i].from;
+    const double length = glm::length(way), friis = carrier_wave_m / (4 * std::numbers::pi * length);
+    CHECK(paths.tx[i] == i);
+    CHECK(paths.rx[i] == i);
+    CHECK(paths.depth[i] == 0);
+    CHECK(paths.delay_s[i] == within(length / light_m_s, 1e-15));
+    CHECK(std::norm(paths.a[i][0]) + std::norm(paths.a[i][2]) == within(friis * friis, 1e-12));
+    CHECK(std::norm(paths.a[i][1]) + std::norm(paths.a[i][3]) == within(friis * friis, 1e-12));
+    CHECK(paths.gain_db[i] == within(20 * std::log10(friis) + 10 * std::log10(2.0), 1e-12));
+    CHECK(paths.aod_theta_rad[i] == within(std::acos(way.z / length), 1e-12));
+    CHECK(paths.aod_phi_rad[i] == within(std::atan2(way.y, way.x), 1e-12));
+    CHECK(paths.aoa_theta_rad[i] == within(std::acos(-way.z / length), 1e-12));
+    const glm::dvec3 apart = world.state.receivers[i].velocity_m_s - world.state.transmitters[i].velocity_m_s;
+    CHECK(paths.doppler_hz[i] == within(-glm::dot(apart, way) / length / carrier_wave_m, 1e-12));
+  }
+}
+
+TEST_CASE("fields: the ground reflects by Fresnel's coefficients, and a conductor everything") {
+  const FieldWorld world(path_of_each_kind(), "isotropic");
+  const Paths paths = in_order(world);
+  REQUIRE(paths.size() == world.rows.size());
+  const double length = world.length_m(1), friis = carrier_wave_m / (4 * std::numbers::pi * length);
+  const auto [te, tm] = fresnel(6 / length);  // 2 m and 4 m above the ground
+  CHECK(std::abs(paths.a[1][0]) == within(friis * std::abs(tm), 1e-9));
+  CHECK(std::abs(paths.a[1][3]) == within(friis * std::abs(te), 1e-9));
+  CHECK(std::abs(paths.a[1][1]) + std::abs(paths.a[1][2]) < 1e-15);
+  const double off_wall = carrier_wave_m / (4 * std::numbers::pi * world.length_m(2));
+  CHECK(paths.gain_db[2] == within(20 * std::log10(off_wall) + 10 * std::log10(2.0), 1e-12));
+  CHECK(paths.vertex_offset == std::vector<uint64_t>{0, 0, 1, 2, 4, 5, 6});
+  CHECK(paths.vertex_surface == std::vector<uint32_t>{ground, conducting_wall, ground, conducting_wall, screen, 2});
+  CHECK(paths.vertex_position_m[0] == world.rows[1].points[0] + world.scene.origin_m);
+  CHECK(paths.vertex_interaction ==
+        std::vector<uint8_t>{reflection, reflection, reflection, reflection, transmission, diffraction});
+}
+
+TEST_CASE("fields: every column is the host's to the last bit, for each kind of interaction and antenna") {
+  for (const std::string antenna : {"isotropic", "dipole", "tr38901"}) {
+    CAPTURE(antenna);
+    const FieldWorld world(path_of_each_kind(), antenna);
+    const Paths paths = in_order(world);
+    PathGeometry geometry;
+    for (uint32_t i = 0; i < world.rows.size(); ++i) {
+      const PathRow& row = world.rows[i];
+      geometry.tx.push_back(i);
+      geometry.rx.push_back(i);
+      geometry.quarters.push_back(WT_ALL_QUARTERS);
+      for (size_t k = 0; k < row.steps.size(); ++k) {
+        geometry.surface.push_back(row.steps[k] & ~WT_STEP_KIND);
+        geometry.interaction.push_back(static_cast<uint8_t>(WT_STEP_CODES >> 8 * (row.steps[k] >> WT_STEP_SHIFT)));
+        geometry.vertex.push_back(row.points[k]);
+      }
+      geometry.first.push_back(geometry.surface.size());
+    }
+    const Paths host = FieldModel(world.scene, world.config).compute(5, geometry, world.state);
+    REQUIRE(paths.size() == host.size());
+    CHECK(paths.tx == host.tx);
+    CHECK(paths.depth == host.depth);
+    CHECK(paths.delay_s == host.delay_s);
+    CHECK(paths.gain_db == host.gain_db);
+    CHECK(paths.a == host.a);
+    CHECK(paths.aod_theta_rad == host.aod_theta_rad);
+    CHECK(paths.aod_phi_rad == host.aod_phi_rad);
+    CHECK(paths.aoa_theta_rad == host.aoa_theta_rad);
+    CHECK(paths.aoa_phi_rad == host.aoa_phi_rad);
+    CHECK(paths.doppler_hz == host.doppler_hz);
+    CHECK(paths.quarters == host.quarters);
+    CHECK(paths.vertex_offset == host.vertex_offset);
+    CHECK(paths.vertex_position_m == host.vertex_position_m);
+    CHECK(paths.vertex_surface == host.vertex_surface);
+    CHECK(paths.vertex_interaction == host.vertex_interaction);
+    CHECK(paths.vertex_instance == host.vertex_instance);
+  }
+}
+
+TEST_CASE("fields: the way back of a path has its coefficients, transposed, and places without a path are left out") {
+  // Transmitter i + 3 is where receiver i is, and receiver i + 3 where transmitter i is. Nothing moves.
+  const std::vector<PathRow> kinds = path_of_each_kind();
+  std::vector<PathRow> rows;
+  for (const size_t i : {1, 3, 5}) rows.push_back(kinds[i]);
+  FieldWorld world(rows, "dipole");
+  std::vector<uint32_t> twin(6);
+  for (uint32_t i = 0; i < 6; ++i) twin[i] = (i + 3) % 6;
+  for (uint32_t i = 0; i < 3; ++i) {
+    for (auto* ends : {&world.config.transmitters, &world.config.receivers}) ends->push_back(ends->front());
+    world.state.transmitters[i].velocity_m_s = world.state.receivers[i].velocity_m_s = {0, 0, 0};
+  }
+  for (uint32_t i = 0; i < 3; ++i) {
+    world.state.transmitters.push_back(world.state.receivers[i]);
+    world.state.receivers.push_back(world.state.transmitters[i]);
+  }
+  const Paths paths = fields_of(world, {0, no_path, 2, 4, no_path, 1, 3, no_path, 5, no_path}, twin, twin);
+  REQUIRE(paths.size() == 6);
+  CHECK(paths.tx == std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  CHECK(paths.rx == std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  for (size_t there = 0; there < 3; ++there) {
+    CAPTURE(there);
+    const size_t back = there + 3;
+    CHECK(paths.depth[there] == rows[there].steps.size());
+    CHECK(paths.delay_s[back] == paths.delay_s[there]);
+    CHECK(paths.aod_theta_rad[back] == within(paths.aoa_theta_rad[there], 1e-12));
+    const double size = std::pow(10, paths.gain_db[there] / 20);
+    CHECK(size > 0);
+    for (const auto& [port, transposed] : {std::pair{0, 0}, {1, 2}, {2, 1}, {3, 3}})
+      CHECK(std::abs(paths.a[back][transposed] - paths.a[there][port]) < 1e-12 * size);
+    for (size_t k = 0; k < rows[there].steps.size(); ++k)
+      CHECK(paths.vertex_position_m[paths.vertex_offset[back] + k] ==
+            paths.vertex_position_m[paths.vertex_offset[there + 1] - 1 - k]);
+  }
+}
