@@ -16,6 +16,9 @@ endif()
 install(TARGETS wavetracer_kernels EXPORT wavetracer_kernels_targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT kernels)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/wavetracer/kernels ${CMAKE_SOURCE_DIR}/include/wavetracer/device
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wavetracer COMPONENT kernels)
+install(FILES ${CMAKE_SOURCE_DIR}/include/wavetracer/cache_config.hpp ${CMAKE_SOURCE_DIR}/include/wavetracer/choice.hpp
+  ${CMAKE_SOURCE_DIR}/include/wavetracer/error.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wavetracer COMPONENT kernels)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/kernels DESTINATION ${CMAKE_INSTALL_DATADIR}/wavetracer COMPONENT kernels)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/wavetracer/device
   DESTINATION ${CMAKE_INSTALL_DATADIR}/wavetracer/include/wavetracer COMPONENT kernels)
@@ -61,6 +64,9 @@ install(PROGRAMS $<TARGET_FILE:wavetracer_library> DESTINATION wavetracer/lib RE
 install(PROGRAMS $<TARGET_FILE:wavetracer_kernels> DESTINATION wavetracer/lib RENAME libwavetracer_kernels.so COMPONENT wheel EXCLUDE_FROM_ALL)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/kernels DESTINATION wavetracer/share COMPONENT wheel EXCLUDE_FROM_ALL)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/wavetracer/device ${CMAKE_SOURCE_DIR}/include/wavetracer/kernels
+  DESTINATION wavetracer/share/include/wavetracer COMPONENT wheel EXCLUDE_FROM_ALL)
+install(FILES ${CMAKE_SOURCE_DIR}/include/wavetracer/cache_config.hpp ${CMAKE_SOURCE_DIR}/include/wavetracer/choice.hpp
+  ${CMAKE_SOURCE_DIR}/include/wavetracer/error.hpp
   DESTINATION wavetracer/share/include/wavetracer COMPONENT wheel EXCLUDE_FROM_ALL)
 find_file(WAVETRACER_PROJ_DATA proj.db PATHS /usr/share/proj /usr/local/share/proj)
 if(WAVETRACER_PROJ_DATA)

@@ -19,13 +19,20 @@ step(${CMAKE_COMMAND} --build ${WORK}/cpp)
 step(${WORK}/cpp/sort_a_buffer)
 expect("^[^\n]+ sorted 1048576 keys as std::sort does, in [0-9.]+ ms\n$")
 
+step(${WORK}/cpp/morton_order)
+expect("^[^\n]+ put 262144 points into Morton order as std::stable_sort does\n$")
+step(${WORK}/cpp/trace_triangles)
+expect("^[^\n]+ traced 2000 rays, of which [0-9]+ meet one of 1152 triangles, as all triangles in turn say\n$")
+step(${WORK}/cpp/cache_rays)
+expect("^[^\n]+ traced [0-9]+ of 80000 rays and had the hits of all\n$")
+
 # The kernels that are installed are those that run where they are asked for.
 set(ENV{WAVETRACER_KERNEL_DIR} ${prefix}/share/wavetracer/kernels)
 step(${WORK}/cpp/sort_a_buffer 0 70000)
 expect("sorted 70000 keys")
-set(ENV{WAVETRACER_KERNEL_DIR} ${prefix}/share)
+set(ENV{WAVETRACER_KERNEL_DIR} ${prefix}/share/wavetracer/include)
 execute_process(COMMAND ${WORK}/cpp/sort_a_buffer 0 70000 RESULT_VARIABLE result ERROR_VARIABLE said)
-expect("radix_sort[a-z_]*.cl is not in ")
+expect("radix_sort[a-z_]*.cl is in no folder of ")
 unset(ENV{WAVETRACER_KERNEL_DIR})
 
 # The whole package is not there, and the message says so.
@@ -54,13 +61,13 @@ foreach(file include/wavetracer/device/types.h include/wavetracer/kernels/contex
   endif()
 endforeach()
 
-# The library needs none of the libraries that the program does, and exports nothing but the suite.
+# The library needs few of the libraries that the program does (TBB builds trees), and exports nothing but the suite.
 set(library ${library_folder}/libwavetracer_kernels.so)
 step(readelf -d ${library})
 string(REGEX MATCHALL "NEEDED[^\n]*" needed "${said}")
-list(FILTER needed EXCLUDE REGEX "\\[(libOpenCL|libfmt|libstdc\\+\\+|libm|libgcc_s|libc|ld-linux[^]]*)\\.so")
+list(FILTER needed EXCLUDE REGEX "\\[(libOpenCL|libfmt|libtbb|libstdc\\+\\+|libm|libgcc_s|libc|ld-linux[^]]*)\\.so")
 if(NOT needed STREQUAL "")
-  message(FATAL_ERROR "the library needs more than OpenCL and fmt: ${needed}")
+  message(FATAL_ERROR "the library needs more than OpenCL, fmt and TBB: ${needed}")
 endif()
 step(nm --dynamic --defined-only --demangle --format=posix ${library})
 string(REGEX REPLACE "(wavetracer_kernels_|wavetracer::kernels::|(typeinfo|typeinfo name|vtable) for wavetracer::kernels::)[^\n]*\n" "" others "${said}")
