@@ -79,7 +79,7 @@ const char* verdict_style() {
          ".refuted{background:#f4a6a0}.undecided{background:#cfd8dc}"
          ".not-measured-there,.not-judged{background:#eee;color:#555}"
          ".origin{font-size:11px;color:#666;white-space:nowrap}"
-         ".wide{overflow-x:auto}.problem{color:#b00}";
+         ".problem{color:#b00}";
 }
 
 std::string table_html(const NumberTable& table) {
