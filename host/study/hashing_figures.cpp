@@ -11,6 +11,9 @@
 namespace wavetracer::study {
 namespace {
 
+// The numbers of rays of figures 6.14, 6.15 and 6.18, and of figures 6.16 and 6.17.
+constexpr Range hash_range{1000, 49000}, ordered_range{1000, 61000};
+
 // The thesis' caches of by_hash().
 const std::vector<std::string> caches = {position_uniform,  position_morton,  position_mixed,
                                          precision_uniform, precision_morton, precision_mixed};
@@ -33,8 +36,7 @@ std::vector<Setting> by_hash() {
 
 Claims<OrderRow> moving_gains() {
   Claims<OrderRow> claims = h3dh_gains();
-  claims.push_back(
-      {"reordering takes less time at every number of rays", none_slower_than_ws({"hilbert3d-histogram"})});
+  claims.push_back({"reordering takes less time at every number of rays", all_faster_than_ws({"hilbert3d-histogram"})});
   claims.push_back({"the gain grows with the number of rays", gain_grows("hilbert3d-histogram")});
   return claims;
 }
@@ -72,25 +74,27 @@ const std::vector<Experiment> hashes = {
          CacheFigure{
              .study = hashing,
              .view = savings_by_rays,
-             .claims = {{"by precision, Morton codes take the most time of all",
-                         where(slowest_is(precision_morton, all_of_them))},
-                        {"the second worst is no cache: all others save time", where(all_save(others))},
-                        {"by position, the uniform hash takes less time than no cache",
-                         where(saves({position_uniform}))},
-                        {"by position, Morton codes take 15% less time than the uniform hash, from 20,000 rays on",
-                         where(less(warm_s, position_morton, position_uniform, 1 / 0.85))},
-                        {"by position, the mixed hash takes the time of the uniform one",
-                         on_average(warm_s, position_mixed, position_uniform, 0.95, 1.05)},
-                        {"by precision, Morton codes take more time than no cache",
-                         where(less(warm_s, none, precision_morton))},
-                        {"by precision, the mixed hash takes the time of the uniform one",
-                         on_average(warm_s, precision_mixed, precision_uniform, 0.95, 1.05)},
-                        {"by precision, the uniform hash takes the time of Morton codes by position",
-                         on_average(warm_s, precision_uniform, position_morton, 0.9, 1.1)},
-                        {"by precision, the mixed hash takes the time of Morton codes by position",
-                         on_average(warm_s, precision_mixed, position_morton, 0.9, 1.1)},
-                        {"Morton codes by position take less time than the uniform hash by precision, for many rays",
-                         where(less(warm_s, position_morton, precision_uniform))}}}},
+             .claims =
+                 {{"by precision, Morton codes take the most time of all",
+                   where(slowest_is(precision_morton, all_of_them))},
+                  {"the second worst is no cache: all others save time", where(all_save(others))},
+                  {"by position, the uniform hash takes less time than no cache", where(saves({position_uniform})),
+                   std::nullopt, Origin::repetition},
+                  {"by position, Morton codes take 15% less time than the uniform hash, from 20,000 rays on",
+                   where(less(warm_s, position_morton, position_uniform, 1 / 0.85)), Range{20000, 49000}},
+                  {"by position, the mixed hash takes the time of the uniform one",
+                   on_average(warm_s, position_mixed, position_uniform, 0.95, 1.05)},
+                  {"by precision, Morton codes take more time than no cache",
+                   where(less(warm_s, none, precision_morton))},
+                  {"by precision, the mixed hash takes the time of the uniform one",
+                   on_average(warm_s, precision_mixed, precision_uniform, 0.95, 1.05)},
+                  {"by precision, the uniform hash takes the time of Morton codes by position",
+                   on_average(warm_s, precision_uniform, position_morton, 0.9, 1.1)},
+                  {"by precision, the mixed hash takes the time of Morton codes by position",
+                   on_average(warm_s, precision_mixed, position_morton, 0.9, 1.1)},
+                  {"Morton codes by position take less time than the uniform hash by precision, for many rays (from 37,000 to 49,000)",
+                   where(less(warm_s, position_morton, precision_uniform)), Range{37000, 49000}}},
+             .range = hash_range}},
     {.name = "figure-6.15",
      .doc = "traffic: error by hash function",
      .title = "Errors in traffic by hash function",
@@ -116,15 +120,19 @@ const std::vector<Experiment> hashes = {
                   {"by precision, as far with the mixed hash as with the uniform one",
                    on_average(l2_m, precision_mixed, precision_uniform, 0.8, 1.25)},
                   {"by precision, the uniform and the mixed hash are off farthest of all",
-                   where(largest_are(l2_m, {precision_uniform, precision_mixed}, caches), l2_m)},
+                   where(largest_are(l2_m, {precision_uniform, precision_mixed}, caches))},
                   {"Morton codes are off less far by position than by precision",
-                   where(less(l2_m, position_morton, precision_morton), l2_m)},
+                   where(less(l2_m, position_morton, precision_morton))},
                   {"as printed: by position, on average twice as far off with Morton codes as with the uniform hash",
-                   on_average(l2_m, printed(position_morton), printed(position_uniform), 1.5, 2.5)},
+                   on_average(l2_m, printed(position_morton), printed(position_uniform), 1.5, 2.5), std::nullopt,
+                   Origin::repetition},
                   {"as printed: by position, as far with the mixed hash as with the uniform one",
-                   on_average(l2_m, printed(position_mixed), printed(position_uniform), 0.8, 1.25)},
+                   on_average(l2_m, printed(position_mixed), printed(position_uniform), 0.8, 1.25), std::nullopt,
+                   Origin::repetition},
                   {"as printed: by precision, less far with Morton codes than with the uniform hash",
-                   on_average(l2_m, printed(precision_morton), printed(precision_uniform), 0, 1)}}}},
+                   on_average(l2_m, printed(precision_morton), printed(precision_uniform), 0, 1), std::nullopt,
+                   Origin::repetition}},
+             .range = hash_range}},
     {.name = "figure-6.16",
      .doc = "traffic: time by hash function, rays in order",
      .title = "Frames in traffic by hash function, rays in order",
@@ -137,17 +145,18 @@ const std::vector<Experiment> hashes = {
              .study = hashing_ordered,
              .view = savings_by_rays,
              .claims = {{"without a cache, reordering gives 2.5 times the speed at 49,000 rays",
-                         where(less(warm_s, none, unsorted(none), 2.5))},
+                         where(less(warm_s, none, unsorted(none), 2.5)), at_rays(49000), Origin::repetition},
                         {"caches by position, and by precision with Morton codes, save no time",
                          where(saves_not({position_uniform, position_morton, position_mixed, precision_morton}))},
                         {"by precision, the uniform hash is faster than no cache, up to 37,000 rays",
-                         where(less(warm_s, precision_uniform, none))},
+                         where(less(warm_s, precision_uniform, none)), up_to(37000)},
                         {"by precision, the mixed hash is faster than no cache, up to 37,000 rays",
-                         where(less(warm_s, precision_mixed, none))},
+                         where(less(warm_s, precision_mixed, none)), up_to(37000)},
                         {"by precision, the uniform hash takes noticeably more time than no cache at 61,000 rays",
-                         where(less(warm_s, none, precision_uniform, 1.05))},
+                         where(less(warm_s, none, precision_uniform, 1.05)), at_rays(61000)},
                         {"by precision, the mixed hash takes noticeably more time than no cache at 61,000 rays",
-                         where(less(warm_s, none, precision_mixed, 1.05))}}}},
+                         where(less(warm_s, none, precision_mixed, 1.05)), at_rays(61000)}},
+             .range = ordered_range}},
     {.name = "figure-6.17",
      .doc = "traffic: error by hash function, rays in order",
      .title = "Errors in traffic by hash function, rays in order",
@@ -169,7 +178,8 @@ const std::vector<Experiment> hashes = {
                         {"sorting reduces the error by position",
                          on_average(l2_m, position_mixed, unsorted(position_mixed), 0, 1)},
                         {"sorting reduces the error by precision",
-                         on_average(l2_m, precision_mixed, unsorted(precision_mixed), 0, 1)}}}},
+                         on_average(l2_m, precision_mixed, unsorted(precision_mixed), 0, 1)}},
+             .range = ordered_range}},
     {.name = "figure-6.18",
      .doc = "traffic: average time of a frame while the transmitters move, reordered against not",
      .title = "Frames in traffic, with reordering and without",
@@ -181,7 +191,8 @@ const std::vector<Experiment> hashes = {
                   "in order need no sort.",
      .figure = OrderFigure{.series = {unordered(), ordered("hilbert3d-histogram"), born_ordered()},
                            .moves = true,
-                           .claims = moving_gains()}},
+                           .claims = moving_gains(),
+                           .range = hash_range}},
 };
 
 }  // namespace

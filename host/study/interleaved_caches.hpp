@@ -18,7 +18,7 @@ struct CacheSubject {
   Simulation simulation;
   std::vector<CacheTimes> cold, warm;
   std::vector<double> frame_s;
-  RunningMean loop_s, segments, lookups, hits, groups, shared, paths, sequences;
+  RunningMean segments, lookups, hits, groups, shared, paths, sequences;
   PathErrorMean error;
   RunningMean centroid_m;
   std::vector<CentroidError> centroids;

@@ -88,7 +88,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
   }
   CHECK(contains(report, "thesis figure-6.1 -c "));
   CHECK(contains(report, "- device: "));
-  CHECK(contains(squeezed(report), "2.5 times as fast as WS at 49,000 rays | not judged | not measured |"));
+  CHECK(contains(squeezed(report), "2.5 times as fast as WS at 49,000 rays | not measured there |"));
   // Standard output is the words and tables of the report, then the files.
   CHECK(contains(report, run.out.substr(0, run.out.find("\n\nwritten"))));
   if (contains(run.err, "gnuplot is not installed")) return;

@@ -212,7 +212,8 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
     const std::string columns =
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
         "gain_paid,launched";
-    CHECK(lines[0] == columns + (experiment.moves() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
+    CHECK(lines[0] == columns + (experiment.moves() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : "") +
+                          ",unpaid_error_s,paid_error_s");
     std::vector<std::string> base;
     for (size_t i = 1; i < lines.size(); ++i) {
       const std::vector<std::string> cells = split(lines[i], ',');
@@ -236,13 +237,15 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
   }
 }
 
-TEST_CASE("the script draws a line per series in each of two panels") {
+TEST_CASE("the script draws a line per series in each of two panels, and launch shapes beside their own in two more") {
   const Experiment& experiment = find_experiment("figure-6.1");
   const std::string script =
       order_figure("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series, Csv()).commands;
-  CHECK(occurrences(script, "with linespoints") == 2 * experiment.as<OrderFigure>()->series.size());
-  for (const Series& series : experiment.as<OrderFigure>()->series)
-    CHECK(occurrences(script, " title '" + label(series) + "'") == 2);
+  for (const Series& series : experiment.as<OrderFigure>()->series) {
+    const bool has_shapes = series == unordered() || series == ordered("hilbert3d-histogram");
+    CHECK(occurrences(script, " title '" + label(series) + "'") == (has_shapes ? 4 : 2));
+  }
+  CHECK(occurrences(script, "with linespoints") == 2 * (8 + 6));  // none has more lines than there are colours
   CHECK(occurrences(script, "'A device''s title'") == 1);
   CHECK(occurrences(script, "/") == occurrences(script, " / "));  // no folder in any name
 }
