@@ -21,8 +21,8 @@ class PathGroups {
                   const Distinct& distinct, const RowList& rows, uint32_t most);
   // Begins to read the first `expected` rows. counters: the frame's, which have the number of rows by now.
   void begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& counters);
-  // Makes room for the columns, and numbers the groups as soon as the rows have been read, while the device goes on with
-  // what was enqueued after begin_read(). If there are more rows than expected, set() does it.
+  // Makes room for the columns, and numbers the groups as soon as the rows have been read, while the device goes on
+  // with what was enqueued after begin_read(). If there are more rows than expected, set() does it.
   void number();
   // Sets the columns of groups in `paths`, which are the paths of the rows. The device must have finished.
   void set(Paths& paths);
