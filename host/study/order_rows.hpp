@@ -32,7 +32,7 @@ struct OrderRow {
   double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
 };
 
-// Columns from `rays` to `launched`; averages over frames also have `frames` and the reductions of time, in percent,
+// Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the reductions of time, in percent,
 // that the gains mean.
 const Columns<OrderRow>& order_columns(bool averages);
 
@@ -59,6 +59,13 @@ struct OrderFrames {
 
 // Measures `config` with each series applied to it, on the device.
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     const OrderFrames& of, const std::string& device);
+
+// The number of series that share a device besides the first, which is then measured again: their queues must fit into
+// its memory together.
+constexpr size_t series_at_once = 11;
+// Measures any number of series in groups. Each row is compared with the first series as its own group measured it.
+std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 
 // Returns null if the series was not measured at that number of rays.

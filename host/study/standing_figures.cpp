@@ -12,6 +12,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+// Numbers of bins beside the thesis'.
+constexpr uint32_t finer_bins[] = {32, 64, 128};
 constexpr uint64_t operation_rays = 50000;
 constexpr uint64_t large_buffer = 10 * thesis_chained_buffer;
 const Names chained_tables = {"chained uniform", "chained Morton", "chained mixed"},
@@ -126,11 +128,21 @@ OrderFigure all_orders() {
   claims.push_back({"H3DH2DH degrades sharply beyond 50,000,000 rays", degrades_beyond(to_2d, h3dh, 50000000)});
   claims.push_back({"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d, 0, 16777216)});
   claims.push_back({"launches in two or three dimensions gain nothing over the same order in one", shapes_gain()});
-  return {.series = {unordered(), ordered("morton"), ordered(h3dh), ordered(hz), ordered(to_2d), ordered(to_3d),
-                     direction_origin, born_ordered(), with_shape(unordered(), "2d"), with_shape(unordered(), "3d"),
-                     with_shape(ordered(h3dh), "2d"), with_shape(ordered(h3dh), "3d")},
-          .moves = false,
-          .claims = claims};
+  std::vector<Series> series = {unordered(),
+                                ordered("morton"),
+                                ordered(h3dh),
+                                ordered(hz),
+                                ordered(to_2d),
+                                ordered(to_3d),
+                                direction_origin,
+                                born_ordered(),
+                                with_shape(unordered(), "2d"),
+                                with_shape(unordered(), "3d"),
+                                with_shape(ordered(h3dh), "2d"),
+                                with_shape(ordered(h3dh), "3d")};
+  for (const uint32_t bins : finer_bins)
+    for (const std::string& method : {h3dh, hz, to_2d, to_3d}) series.push_back(with_bins(ordered(method), bins));
+  return {.series = series, .moves = false, .claims = claims};
 }
 
 const auto chained_operations =
