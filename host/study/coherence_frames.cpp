@@ -105,21 +105,49 @@ void check_way(const Drive& drive, const Scene& scene) {
   }
 }
 
+namespace {
+
+// Lists of different lengths are paired as far as the shorter one goes.
+double correlate_by_place(std::vector<glm::dvec3> a, std::vector<glm::dvec3> b) {
+  const size_t count = std::min(a.size(), b.size());
+  a.resize(count);
+  b.resize(count);
+  return correlate(a, b).total;
+}
+
+// Appends the depths of a frame one after the other, which makes them one depth of many rays.
+FrameHits joined(const FrameHits& hits) {
+  FrameHits out(1);
+  for (const std::vector<Hit>& depth : hits) out.front().insert(out.front().end(), depth.begin(), depth.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> whole_output(const FrameHits& hits) {
+  std::vector<glm::dvec3> out;
+  for (size_t ray = 0; !hits.empty() && ray < hits.front().size(); ++ray)
+    for (const std::vector<Hit>& depth : hits)
+      if (is_hit(depth[ray])) out.push_back(depth[ray].point_m);
+  return out;
+}
+
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against,
                                     uint32_t frame) {
   std::vector<FramePair> out;
   const std::vector<DepthCoherence> found = compare_frames(a, b);
-  for (uint32_t i = 0; i < found.size(); ++i) {
-    std::vector<glm::dvec3> points_a = hit_points(a[i]), points_b = hit_points(b[i]);
-    const size_t count = std::min(points_a.size(), points_b.size());
-    points_a.resize(count);
-    points_b.resize(count);
+  for (uint32_t i = 0; i < found.size(); ++i)
     out.push_back({.against = against,
                    .frame = frame,
                    .depth = i + 1,
                    .found = found[i],
-                   .by_place = correlate(points_a, points_b).total});
-  }
+                   .by_place = correlate_by_place(hit_points(a[i]), hit_points(b[i]))});
+  if (found.empty()) return out;
+  out.push_back({.against = against,
+                 .frame = frame,
+                 .depth = 0,
+                 .found = compare_frames(joined(a), joined(b)).front(),
+                 .by_place = correlate_by_place(whole_output(a), whole_output(b))});
   return out;
 }
 
@@ -148,7 +176,7 @@ Columns<FramePair> frame_columns(const Drive& drive) {
 Findings measure(const FrameFigure& figure, const Experiment& experiment, const Request& request, const Host& host) {
   TraceConfig trace = request.config.trace;
   trace.rays = experiment_rays;
-  trace.directions = "hilbert";
+  trace.directions = Directions::named(figure.directions);
   const uint32_t wanted = wanted_frames(figure, request);
   const Config config = frame_world(figure, request.config, wanted);
   TracedWorld traced(config, request.device);
@@ -193,7 +221,7 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
       "total is equation 6.4 divided by the root of the number of components (three, less those "
       "that are constant); "
       "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in "
-      "the lists of hits",
+      "the lists of hits; depth 0 is the whole output, whose list has all hits of a ray before those of the next one",
       "both is the share of rays that hit in both frames among those that hit in either; "
       "same_surface and same_sequence are shares of the rays that hit in both"};
   return found;

@@ -14,7 +14,8 @@
 
 namespace wavetracer::study {
 
-// A frame compared with an earlier one, at one depth.
+// A frame compared with an earlier one, at one depth, or whole (depth 0): all waypoints of its rays, one ray after the
+// other, as the waypoint buffer of the thesis holds them.
 struct FramePair {
   std::string against;  // "first": frame 0, "previous": the frame before
   uint32_t frame = 0;
@@ -45,7 +46,10 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
 // Throws ConfigError if the way passes through objects of the scene.
 void check_way(const Drive& drive, const Scene& scene);
 
-// Compares a frame with another, depth by depth.
+// Returns the points where rays were reflected, ray by ray, each in the order of its depths: the whole output.
+std::vector<glm::dvec3> whole_output(const FrameHits& hits);
+
+// Compares a frame with another, depth by depth, and then whole.
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against, uint32_t frame);
 
 Columns<FramePair> frame_columns(const Drive& drive);

@@ -32,8 +32,8 @@ struct OrderRow {
   double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
 };
 
-// Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the reductions of time, in percent,
-// that the gains mean.
+// Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the
+// reductions of time, in percent, that the gains mean.
 const Columns<OrderRow>& order_columns(bool averages);
 
 // Returns how much less time a gain means, in percent; negative for more time.
