@@ -46,6 +46,7 @@ using FrameValue = std::function<double(const FramePair&)>;
 
 double by_ray(const FramePair& row) { return row.found.points.total; }
 double by_place(const FramePair& row) { return row.by_place; }
+double unordered_by_place(const FramePair& row) { return row.by_place_unordered; }
 
 // Returns a list per depth: the defined values of all frames against their previous ones.
 std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& rows, const FrameValue& value) {
@@ -188,6 +189,7 @@ Words frame_words(const Experiment& experiment, const std::vector<FramePair>& ro
     line("of these, after the same surfaces", &DepthCoherence::same_sequence);
   }
   add_whole(table, "subsequent frames, whole outputs, points paired by place", whole_values(rows, by_place));
+  add_whole(table, "the same, rays launched in no order", whole_values(rows, unordered_by_place));
   add_whole(table, "subsequent frames, whole outputs, points paired by ray and bounce", whole_values(rows, by_ray));
   return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, fields), table};
 }

@@ -38,7 +38,6 @@ struct FrameFigure {
   Claims<FramePair> claims;
   uint32_t frames = 201;  // 2 s at 100 frames per second
   bool traffic = false;   // adds traffic to the built-in city, which has none otherwise
-  std::string directions = "hilbert";  // of its rays; their launch order is the order of the output
 };
 
 // Compares hits along the order of the launch, for each map of directions. Fields: {device}, {rays}, {fibonacci}: "0.98

@@ -115,7 +115,7 @@ const std::vector<Experiment> traffic = {
      .title = "Correlation between frames",
      .caption = frames_caption,
      .paragraph = frames_paragraph,
-     .figure = FrameFigure{.claims = frame_claims(), .frames = 100, .traffic = true, .directions = "random"}},
+     .figure = FrameFigure{.claims = frame_claims(), .frames = 100, .traffic = true}},
     {.name = "coherence-frames",
      .doc = "correlation of what rays hit between the frames of a drive, bounce by bounce",
      .title = "Coherence between frames",
