@@ -23,14 +23,21 @@ std::string_view colour(const std::vector<Series>& series, size_t index) {
   return colours[earlier.size() % colours.size()];
 }
 
+// Other numbers of bins are rows of the table and of the report, since their lines could not be told apart.
+std::vector<Series> drawn(std::vector<Series> series) {
+  std::erase_if(series, [](const Series& one) { return one.bins != thesis_bins; });
+  return series;
+}
+
 std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column) {
   const Series& s = series[index];
   const bool own_shape = label(s) == s.mnemonic;
   return fmt::format(
-      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' ? 1e9 * column({}) / column({}) : NaN) "
+      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' && (column({}) == 0 || column({}) == {}) ? 1e9 * column({}) / column({}) : NaN) "
       "with linespoints linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize 0.5 title '{}'",
       name, column_number("rays"), column_number("mnemonic"), s.mnemonic, column_number("shape"), s.shape,
-      column_number(column), column_number("launched"), colour(series, index),
+      column_number("bins"), column_number("bins"), s.bins, column_number(column), column_number("launched"),
+      colour(series, index),
       own_shape         ? "1"
       : s.shape == "2d" ? "'-'"
                         : "'.'",
@@ -60,8 +67,9 @@ std::vector<std::vector<Series>> series_blocks(const std::vector<Series>& series
 
 }  // namespace
 
-plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& series,
+plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& all,
                            const Csv& table) {
+  const std::vector<Series> series = drawn(all);
   std::string text = fmt::format(
       "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${2} / ${4}) skip 1 name 'unpaid' nooutput\n"

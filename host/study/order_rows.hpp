@@ -35,8 +35,8 @@ struct OrderRow {
   double noise_unpaid = undefined, noise_paid = undefined;
 };
 
-// Columns from `rays` to `launched`; averages over frames also have `frames` and the reductions of time, in percent,
-// that the gains mean. Last are the standard errors of unpaid_s and paid_s.
+// Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the
+// reductions of time, in percent, that the gains mean. Last are the standard errors of unpaid_s and paid_s.
 const Columns<OrderRow>& order_columns(bool averages);
 
 // Returns how much less time a gain means, in percent; negative for more time.
@@ -62,6 +62,13 @@ struct OrderFrames {
 
 // Measures `config` with each series applied to it, on the device.
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     const OrderFrames& of, const std::string& device);
+
+// The number of series that share a device besides the first, which is then measured again: their queues must fit into
+// its memory together.
+constexpr size_t series_at_once = 11;
+// Measures any number of series in groups. Each row is compared with the first series as its own group measured it.
+std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 
 // Returns null if the series was not measured at that number of rays.
