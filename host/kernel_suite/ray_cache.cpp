@@ -208,7 +208,7 @@ void RayCache::store(const Buffer<Hit>& traced, const Buffer<Hit>& hits, const C
   enqueue(s, call, [&] {
     if (count == 0) return;
     s.pack(from, count, s.missed_hits);
-    s.store(s.rays, s.missed, s.missed_hits, s.indices, s.hits, s.table, all_static, s.frame);
+    s.store({nullptr, nullptr}, s.rays, s.missed, s.missed_hits, s.indices, s.hits, s.table, all_static, s.frame);
     s.pack.unpack(s.hits, s.rays.count, to);
   });
   s.waiting = false;

@@ -3,22 +3,12 @@
 // needs a labelled queue, see label_rays.
 #pragma once
 #include "kernel_calls/cache_lookup.hpp"
+#include "passes/cache_surfaces.hpp"
 #include "passes/cache_table.hpp"
-#include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
-
-// The surfaces by which a look-up judges an entry: the planes and bounds of hit_point = "own" (float), and the
-// instances of scope = "all" (exact). They may be null where the table asks for neither.
-struct CacheSurfaces {
-  CacheSurfaces(const gpu::Buffer<wt_surface>* in_float, const gpu::Buffer<wt_exact_surface>* in_double)
-      : surfaces(in_float), exact(in_double) {}
-  CacheSurfaces(const DeviceScene& scene) : CacheSurfaces(&scene.surfaces, &scene.exact_surfaces) {}
-  const gpu::Buffer<wt_surface>* surfaces;
-  const gpu::Buffer<wt_exact_surface>* exact;
-};
 
 class CacheLookup {
  public:

@@ -15,7 +15,7 @@ CacheStore::CacheStore(gpu::Context& context, const CacheTable& table) : work_(t
   kernel_ = {context, definitions};
 }
 
-void CacheStore::operator()(const DeviceScene& scene, RayQueue& rays, const RayQueue& missed,
+void CacheStore::operator()(const CacheSurfaces& world, RayQueue& rays, const RayQueue& missed,
                             const HitList& missed_hits, const gpu::Buffer<uint32_t>& indices, HitList& hits,
                             CacheTable& table, uint32_t static_surfaces, uint32_t now,
                             const gpu::Buffer<uint32_t>* receptions, gpu::Buffer<uint32_t>* receivers) {
@@ -33,7 +33,7 @@ void CacheStore::operator()(const DeviceScene& scene, RayQueue& rays, const RayQ
                                           .used = table.used,
                                           .regions = table.device_regions,
                                           .counters = table.counters,
-                                          .exact_surfaces = scene.exact_surfaces,
+                                          .exact_surfaces = world.exact,
                                           .receptions = receptions,
                                           .receivers = receivers,
                                           .cycles = table.cycles,

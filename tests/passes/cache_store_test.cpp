@@ -95,13 +95,13 @@ TEST_CASE("cache_store: only rays of the list are stored, and their hits go into
     HitList all = upload_hits(std::vector<Hit>(count, {7, 7, 7}));
     CacheStore store(context(), cache.table);
     const auto missed_indices = context().buffer(indices, "indices");
-    store(queue, upload(missed), upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
+    store(cache.scene, queue, upload(missed), upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
     CHECK(download(all, count) == expected);
     for (const device::wt_cache_entry& entry : cache.table.entries.read())
       if (entry.version != 0) CHECK(entry.left % 3 == 1);
     RayQueue none = upload(std::vector<CachedRay>(1));
     none.count = 0;
-    store(queue, none, upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
+    store(cache.scene, queue, none, upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
     CHECK(download(all, count) == expected);
   }
 }
@@ -139,7 +139,8 @@ TEST_CASE("cache_store: with scope all the first receiver is kept in the entry a
   const auto indices = context().buffer(all, "indices"), receptions = context().buffer(passed, "receptions");
   auto receivers = context().buffer(std::vector<uint32_t>(count, 5u), "receivers");
   CacheStore store(context(), cache.table);
-  store(queue, upload(rays), upload_hits(hits), indices, list, cache.table, WT_NONE, 1, &receptions, &receivers);
+  store(cache.scene, queue, upload(rays), upload_hits(hits), indices, list, cache.table, WT_NONE, 1, &receptions,
+        &receivers);
   CHECK(receivers.read() == std::vector<uint32_t>(passed.rbegin(), passed.rend()));
   size_t right = 0;
   for (const device::wt_cache_entry& entry : cache.table.entries.read()) {
@@ -147,7 +148,7 @@ TEST_CASE("cache_store: with scope all the first receiver is kept in the entry a
     right += entry.version != 0 && i < count && holds(entry, config, rays[i], hits[i], 1, passed[i]);
   }
   CHECK(right == count);
-  CHECK_THROWS_AS(store(queue, upload(rays), upload_hits(hits), indices, list, cache.table, WT_NONE, 1),
+  CHECK_THROWS_AS(store(cache.scene, queue, upload(rays), upload_hits(hits), indices, list, cache.table, WT_NONE, 1),
                   std::invalid_argument);
 }
 
