@@ -132,6 +132,17 @@ class Bench {
     print(r, command_);
   }
 
+  // Prints puts and finds of random keys beside as many random reads of the 64 bytes of an entry.
+  void against_reads(const std::string& name, const Rate& put, const Rate& find, const GatherRates& gathers) const {
+    for (const auto& [operation, rate] : {std::pair{"put", &put}, {spread_keys.name.c_str(), &find}}) {
+      Result r = result(fmt::format("{}, {}, against random reads", name, operation), rate->asked * 1e-9, "G/s");
+      r.error = static_cast<double>(rate->wrong);
+      r.baseline = "random reads of 64 bytes";
+      r.baseline_value = gathers.slots * 1e-9;
+      print(r, command_);
+    }
+  }
+
   void rates(Questions& questions, const std::string& size, uint64_t bytes) {
     const GatherRates gathers = gather_rates(context_, questions, bytes);
     Result r = result(size + ": random reads of 64 bytes", gathers.slots * 1e-9, "G/s");
@@ -147,6 +158,7 @@ class Bench {
       for (size_t i = 0; i < measured.size(); ++i)
         line(fmt::format("{}: {}, {}", size, name, i == 0 ? "put" : traffics[i - 1].name), table, measured[i],
              i == 0 ? "kept" : "answered", gathers, baseline ? std::optional(thesis[i]) : std::nullopt);
+      against_reads(fmt::format("{}: {}", size, name), measured[0], measured[1], gathers);
       if (!baseline) thesis = measured;
     };
     {

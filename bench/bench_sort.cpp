@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <bit>
-#include <random>
 
 #ifdef WAVETRACER_BOOST
 #include "boost_peer.hpp"
@@ -14,6 +13,7 @@
 #include "device_sort.hpp"
 #include "json_line.hpp"
 #include "sort_peers.hpp"
+#include "sort_variants.hpp"
 #include "timing.hpp"
 #include "wavetracer/error.hpp"
 
@@ -27,7 +27,7 @@ struct Options {
   std::string device, cub;
   size_t runs = 7;
   unsigned largest = 0;  // a power of two; 0 means one that suits the device
-  bool peers = true;
+  bool peers = true, variants = false;
 };
 
 struct Case {
@@ -50,15 +50,6 @@ std::vector<Case> all_cases(unsigned largest) {
     cases.push_back({{64, true, n, 40}});
   }
   return cases;
-}
-
-// The keys are the same in every run and on every machine.
-template <class Key>
-std::vector<Key> random_keys(const SortShape& shape) {
-  std::mt19937_64 generator(1);
-  std::vector<Key> keys(shape.n);
-  for (Key& key : keys) key = static_cast<Key>(generator() >> (64 - shape.bits));
-  return keys;
 }
 
 std::string label(const SortShape& shape, Payload payload) {
@@ -143,7 +134,7 @@ class Bench {
   template <class Key>
   void measure(const Case& c) {
     using Sort = typename DeviceKeys<Key>::Sort;
-    DeviceKeys<Key> keys(context_, random_keys<Key>(c.shape), c.shape.bits);
+    DeviceKeys<Key> keys(context_, keys_of_bits<Key>(c.shape.n, c.shape.bits), c.shape.bits);
     std::vector<Sort> sorts;
     if (c.shape.payload) sorts.push_back(keys.radix(Payload::index));  // first: bitonic is compared with it
     if (!c.crossover) sorts.push_back(keys.radix(c.shape.payload ? Payload::words : Payload::none));
@@ -238,9 +229,15 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(8, 28));
   app.add_option("--cub", options.cub, "the program built of bench/peers/cub_sort.cu");
   app.add_flag("!--no-peers", options.peers, "leave out all peers but that of --cub");
+  app.add_flag("--variants", options.variants,
+               "only the tunings of the radix sort that sort_variants.cpp lists, beside CUB if --cub is given");
   CLI11_PARSE(app, argc, argv);
   try {
-    bench::Bench(options, bench::command_line(argc, argv)).run();
+    const std::string command = bench::command_line(argc, argv);
+    if (options.variants)
+      bench::measure_sort_variants({options.device, options.cub, options.runs, options.largest}, command);
+    else
+      bench::Bench(options, command).run();
   } catch (const Error& error) {
     fmt::print(stderr, "bench_sort: {}\n", error.what());
     return static_cast<int>(error.code());

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "passes/bitonic_sort.hpp"
-#include "passes/radix_sort.hpp"
 #include "timing.hpp"
 
 namespace wavetracer::bench {
@@ -44,8 +43,17 @@ DeviceKeys<Key>::DeviceKeys(gpu::Context& context, std::vector<Key> keys, unsign
       values_(context.buffer<uint32_t>(keys_.size(), "values")) {}
 
 template <class Key>
-typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload) {
-  const auto sort = std::make_shared<RadixSort<Key>>(context_, payload);
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, SortForm form) {
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, form));
+}
+
+template <class Key>
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, const RadixTuning& groups) {
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, groups));
+}
+
+template <class Key>
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort) {
   auto temporary = context_.buffer<uint32_t>(sort->temporary_words(count()), "temporary");
   return {"radix", payload, radix_bytes<Key>(payload, bits_), [this, sort, temporary, payload]() mutable {
             if (payload == Payload::none)
@@ -68,11 +76,16 @@ typename DeviceKeys<Key>::Sort DeviceKeys<Key>::bitonic(Payload payload) {
 }
 
 template <class Key>
+void DeviceKeys<Key>::restore() {
+  context_.copy(given_, sorted_, given_.bytes());
+  context_.copy(given_values_, values_, given_values_.bytes());
+}
+
+template <class Key>
 SortSeconds DeviceKeys<Key>::run(const Sort& sort) {
   const auto once = [&](bool profiling) {
     context_.set_profiling(profiling);
-    context_.copy(given_, sorted_, given_.bytes());
-    context_.copy(given_values_, values_, given_values_.bytes());
+    restore();
     context_.finish();
     context_.reset_profile();
     return wall_seconds([&] {

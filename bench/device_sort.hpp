@@ -4,11 +4,14 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "gpu/gpu.hpp"
 #include "passes/payload.hpp"
+#include "passes/radix_sort.hpp"
 
 namespace wavetracer::bench {
 
@@ -16,6 +19,15 @@ struct SortSeconds {
   double wall = 0;    // from the first launch until all is done, as a user waits, without profiling
   double device = 0;  // the kernels alone, by the device's clock, in a separate run
 };
+
+// Random keys of which only the lowest `bits` bits differ, the same in every run and on every machine.
+template <class Key>
+std::vector<Key> keys_of_bits(uint32_t n, unsigned bits) {
+  std::mt19937_64 generator(1);
+  std::vector<Key> keys(n);
+  for (Key& key : keys) key = static_cast<Key>(generator() >> (64 - bits));
+  return keys;
+}
 
 template <class Key>
 class DeviceKeys {
@@ -29,9 +41,13 @@ class DeviceKeys {
     double model_bytes;
     std::function<void()> launch;
   };
-  Sort radix(Payload payload);
+  Sort radix(Payload payload, SortForm form = SortForm::device);
+  // The form for groups with another tuning than the device's.
+  Sort radix(Payload payload, const RadixTuning& groups);
   Sort bitonic(Payload payload);
 
+  // Brings the given keys and words back, as they are before each run.
+  void restore();
   SortSeconds run(const Sort& sort);
   // Counts, for the last run, keys and values that differ from those of std::stable_sort. Above 2^22 keys it counts
   // keys out of order, values that do not belong to their keys or are not stable, and one more if the sum of the keys
@@ -47,6 +63,7 @@ class DeviceKeys {
   gpu::Buffer<Key> given_, sorted_;
   gpu::Buffer<uint32_t> given_values_, values_;
 
+  Sort radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort);
   uint32_t count() const { return static_cast<uint32_t>(keys_.size()); }
   size_t wrong_by_stable_sort(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;
   size_t wrong_by_rules(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;

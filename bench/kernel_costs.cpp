@@ -43,15 +43,17 @@ double items_of(N n) {
   return n.items(kernel.text);
 }
 
-double tree_operations(N n) {
-  const double levels = std::ceil(std::log2(std::max<double>(static_cast<double>(n.triangles), 8)) / 3);
-  return 8 * box_operations * levels + triangle_operations;
+// Slots of the table of sequences, of which a work-item takes several.
+template <Name kernel>
+double slots_of(N n) {
+  return n.items(kernel.text) * n.slots_per_item;
 }
+double blocks_of_rays(N n) { return std::ceil(segments(n) / n.rays_per_block); }
+double met_nodes(N n) { return std::min(n.items("sequences/commute"), nodes(n)); }
+
+double scene_operations(N n) { return tree_operations(n.triangles); }
 double trace_bytes(N) { return ray_m + hit; }
-double vehicles_operations(N n) {
-  return 2 * box_operations *
-         std::ceil(std::log2(std::max<double>(static_cast<double>(n.frame.world.instances.size()), 2)));
-}
+double vehicles_operations(N n) { return instance_tree_operations(n.frame.world.instances.size()); }
 // A ray is read once, and each of its hits is added to a sequence.
 double bounces_bytes(N n) {
   return (rays(n) * (ray_m + 2 * word) + n.hit_share() * segments(n) * (node + word)) / segments(n);
@@ -95,24 +97,24 @@ double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + wo
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
     {"generate_rays/generate_launchers", "diffraction", "rays", rays, always<32>, always<20>},
-    {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
-    {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
-    {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, tree_operations},
-    {"trace_rays/nearest_hits", "", "rays", items_of<"trace_rays/nearest_hits">, always<48>, tree_operations},
+    {"trace_bvh2/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
+    {"trace_bvh8/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
+    {"trace_packet16/trace", "reflections", "segments", segments, trace_bytes, scene_operations},
+    {"trace_rays/nearest_hits", "", "rays", items_of<"trace_rays/nearest_hits">, always<48>, scene_operations},
     {"trace_rays/any_hits", "", "rays", items_of<"trace_rays/any_hits">, always<36>, always<12>},
-    {"bounces/bounces", "reflections", "segments", segments, bounces_bytes, tree_operations},
-    {"scan/scan", "reflections", "blocks", items_of<"scan/scan">, always<8>, always<1>},
-    {"scan/scan_sums", "reflections", "blocks", items_of<"scan/scan_sums">, always<4>, always<1>},
+    {"bounces/bounces", "reflections", "segments", segments, bounces_bytes, scene_operations},
+    {"scan/scan", "reflections", "blocks", blocks_of_rays, always<8>, always<1>},
+    {"scan/scan_sums", "reflections", "blocks", blocks_of_rays, always<4>, always<1>},
     {"interact/interact", "reflections", "segments", segments, interact_bytes, always<20>},
-    {"sequences/clear", "reflections", "slots", items_of<"sequences/clear">, always<12>, nothing},
-    {"sequences/collect", "reflections", "slots", items_of<"sequences/collect">, always<8>, nothing},
-    {"sequences/commute", "reflections", "sequences", items_of<"sequences/commute">, always<12>, nothing},
+    {"sequences/clear", "reflections", "slots", slots_of<"sequences/clear">, always<12>, nothing},
+    {"sequences/collect", "reflections", "slots", slots_of<"sequences/collect">, always<8>, nothing},
+    {"sequences/commute", "reflections", "sequences", met_nodes, always<12>, nothing},
     {"sequences/regrow", "", "slots", items_of<"sequences/regrow">, always<8>, nothing},
     {"sequences/follow", "", "sequences", items_of<"sequences/follow">, always<8>, nothing},
     {"candidates/candidates", "reflections", "pairs of a sequence and a receiver", candidate_pairs, nothing,
      always<static_cast<size_t>(reach_operations)>},
     {"solve/solve", "reflections", "candidates", items_of<"solve/solve">, solve_bytes, mirror_operations, true},
-    {"occlusion/occlusion", "reflections", "legs", legs, leg_bytes, tree_operations},
+    {"occlusion/occlusion", "reflections", "legs", legs, leg_bytes, scene_operations},
     {"visible/visible", "reflections", "solved paths", items_of<"visible/visible">, visible_bytes, nothing},
     {"distinct/row_keys", "reflections", "rows", items_of<"distinct/row_keys">, solved_bytes, point_of_rows, true},
     {"distinct/mark_rows", "reflections", "rows", items_of<"distinct/mark_rows">, solved_bytes, nothing},
@@ -143,7 +145,7 @@ constexpr KernelCost costs[] = {
 
     {"vegetation/vegetation", "vegetation", "paths", items_of<"vegetation/vegetation">, vegetation_bytes,
      vegetation_operations},
-    {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, tree_operations},
+    {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, scene_operations},
     {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
     {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
@@ -154,31 +156,32 @@ constexpr KernelCost costs[] = {
     {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},
     {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
     {"wedge_sight/wedge_sight", "two diffractions", "prefixes", items_of<"wedge_sight/wedge_sight">,
-     always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, tree_operations},
+     always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, scene_operations},
     {"wedge_chains/roof_chains", "", "pairs of ends", items_of<"wedge_chains/roof_chains">, always<sizeof(wt_solved)>,
      always<static_cast<size_t>(wedge_operations)>},
     {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_wave)>,
      always<static_cast<size_t>(wedge_operations)>, true},
     {"wedge_pairs/mark_runs", "two diffractions", "prefixes", items_of<"wedge_pairs/mark_runs">, always<12>, nothing},
-    {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, tree_operations},
+    {"wedge_pairs/wedge_pairs", "two diffractions", "candidates", joined, join_bytes, scene_operations},
 
     {"place/place", "drive", "surfaces", items_of<"place/place">, always<2 * sizeof(wt_exact_surface)>, always<66>,
      true},
     {"wedges/wedges", "drive", "wedges", items_of<"wedges/wedges">, always<2 * sizeof(wt_wedge)>, always<66>, true},
     {"top_level/instance_keys", "drive", "vehicles", items_of<"top_level/instance_keys">, always<200>, always<60>},
     {"top_level/leaves", "drive", "vehicles", items_of<"top_level/leaves">, always<200>, nothing},
-    {"top_level/inner_boxes", "drive", "work-items", items_of<"top_level/inner_boxes">, always<96>, nothing},
+    {"top_level/inner_boxes", "drive", "vehicles", items_of<"top_level/leaves">, always<96>, nothing},
     {"top_level/top_nodes", "drive", "nodes", items_of<"top_level/top_nodes">, always<128>, nothing},
     {"trace_moving/trace_moving", "drive", "segments", segments, trace_bytes, vehicles_operations},
     {"sequences/keep", "drive", "solved paths", items_of<"sequences/keep">, always<8>, nothing},
 
     {"label_rays/label_rays", "cache", "rays", rays, always<16>, nothing},
-    {"cache_lookup/cache_lookup", "cache", "look-ups", lookups, lookup_bytes, nothing},
-    {"cache_store/cache_store", "cache", "traced segments", traced, always<sizeof(wt_cache_entry) + 36>, nothing},
+    {"cache_lookup/cache_lookup", "cache", "look-ups", lookups, lookup_bytes, nothing, false, 1, true},
+    {"cache_store/cache_store", "cache", "traced segments", traced, always<sizeof(wt_cache_entry) + 36>, nothing, false,
+     1, true},
     {"cache_purge/cache_purge", "cache", "entries", entries, always<8>, nothing},
     {"cache_groups/cache_keys", "groups of a cache", "look-ups", lookups, always<60>, nothing},
-    {"cache_groups/cache_elect", "groups of a cache", "misses", missed_rays, always<16>, nothing},
-    {"cache_groups/cache_follow", "groups of a cache", "misses", missed_rays, always<12>, nothing},
+    {"cache_groups/cache_elect", "groups of a cache", "misses", missed_rays, always<16>, nothing, false, 1},
+    {"cache_groups/cache_follow", "groups of a cache", "misses", missed_rays, always<12>, nothing, false, 1},
     {"cache_groups/cache_share", "groups of a cache", "look-ups", lookups, always<4>, nothing},
 
     {"receive/receive", "spheres", "pairs of a segment and a receiver", pairs, segment_bytes_per_pair,
@@ -194,6 +197,15 @@ constexpr KernelCost costs[] = {
 }  // namespace
 
 std::span<const KernelCost> kernel_costs() { return costs; }
+
+double tree_operations(size_t triangles) {
+  const double levels = std::ceil(std::log2(std::max<double>(static_cast<double>(triangles), 8)) / 3);
+  return 8 * box_operations * levels + triangle_operations;
+}
+
+double instance_tree_operations(size_t instances) {
+  return 2 * box_operations * std::ceil(std::log2(std::max<double>(static_cast<double>(instances), 2)));
+}
 
 double FrameNumbers::items(std::string_view kernel) const {
   const auto found = frame.kernels.find(std::string(kernel));

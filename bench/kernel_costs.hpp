@@ -14,7 +14,9 @@ namespace wavetracer::bench {
 struct FrameNumbers {
   const FrameResult& frame;
   const Config& config;
-  size_t triangles;  // in the static scene
+  size_t triangles;         // in the static scene
+  uint32_t slots_per_item;  // Tuning::slots
+  uint32_t rays_per_block;  // Tuning::block
 
   double transmitters() const { return static_cast<double>(frame.world.transmitters.size()); }
   double receivers() const { return static_cast<double>(frame.world.receivers.size()); }
@@ -36,9 +38,15 @@ struct KernelCost {
   double (*bytes)(const FrameNumbers&);       // per element
   double (*operations)(const FrameNumbers&);  // per element
   bool in_double = false;                     // the operations are in double
+  double gathers = 0;                         // places of memory that an element visits at random
+  bool slots = false;                         // such a place has 64 bytes, else at most eight
 };
 
-// Returns every kernel of the frames that bench_frame_kernels runs, except those of sorts, which bench_sort measures.
+// Returns every kernel of the frames that bench_kernels runs. Those of sorts are not among them (sort_kernels.hpp).
 std::span<const KernelCost> kernel_costs();
+
+// The operations of a ray that is traced through a tree of so many triangles, or through one of so many instances.
+double tree_operations(size_t triangles);
+double instance_tree_operations(size_t instances);
 
 }  // namespace wavetracer::bench

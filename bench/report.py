@@ -12,6 +12,7 @@ import pathlib
 import re
 import sys
 
+import kernel_table
 import plots
 import ray_studies
 import rows
@@ -79,6 +80,11 @@ def results_page(groups):
     lines += speed.TABLES["visitor"](groups) + [""] + speed.TABLES["parts"](groups)
     for name, title, *_ in plots.PLOTS:
         lines += ["", f"![{title}](figures/{name}.svg)"]
+    kernels = kernel_table.table(groups)
+    if kernels:
+        lines += ["", "## Every kernel beside its bound", "", "The bound is the least time that a kernel's bytes, its random accesses, its"
+                  " operations and its launches allow on the device ([all cases](results/kernels.md)). A time below it means that"
+                  " the data were in a cache.", ""] + kernels
     lines += ["", "## All benchmarks", "", "| benchmark | devices | cases | newest |", "| --- | --- | ---: | --- |"]
     for bench in sorted({bench for bench, _ in groups}):
         of_it = {device: cases for (name, device), cases in groups.items() if name == bench}

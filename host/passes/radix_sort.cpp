@@ -36,23 +36,33 @@ void require(const char* what, size_t has, size_t needs, uint32_t n) {
 
 template <class Key>
 RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, SortForm form) : payload_(payload) {
+  const uint32_t value_bytes = payload == Payload::none ? 0 : 4;
   if (form == SortForm::device) form = tuning_of(context.info()).alone ? SortForm::chunks : SortForm::groups;
-  const bool groups = form == SortForm::groups;
-  tuning_ = groups ? radix_groups(context.info()) : radix_chunks(context.info());
-  const char* program = groups ? "radix_sort" : "radix_sort_cpu";
-  gpu::Definitions definitions;
-  if (groups) {
-    definitions = {{"WT_ITEMS", std::to_string(tuning_.items)},
-                   {"WT_TILE", std::to_string(tuning_.tile)},
-                   {"WT_OFFSET_ITEMS", std::to_string(tuning_.offset_items)},
-                   {"WT_COLUMNS", std::to_string(tuning_.columns)}};
-  } else {
-    const size_t pair_bytes = sizeof(Key) + (payload == Payload::none ? 0 : 4);
-    const uint64_t keys = form == SortForm::lines ? 0 : tuning_.direct_bytes / pair_bytes;
-    definitions["WT_SCATTER_KEYS"] = std::to_string(keys) + "u";
+  if (form == SortForm::groups) {
+    *this = RadixSort(context, payload, radix_groups(context.info(), sizeof(Key), value_bytes));
+    return;
   }
+  tuning_ = radix_chunks(context.info());
+  const uint64_t keys = form == SortForm::lines ? 0 : tuning_.direct_bytes / (sizeof(Key) + value_bytes);
+  make_kernels(context, "radix_sort_cpu", {{"WT_SCATTER_KEYS", std::to_string(keys) + "u"}});
+}
+
+template <class Key>
+RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, const RadixTuning& groups)
+    : payload_(payload), tuning_(groups) {
+  make_kernels(context, "radix_sort",
+               {{"WT_ITEMS", std::to_string(groups.items)},
+                {"WT_TILE", std::to_string(groups.tile)},
+                {"WT_OFFSET_ITEMS", std::to_string(groups.offset_items)},
+                {"WT_COLUMNS", std::to_string(groups.columns)},
+                {"WT_TOGETHER", groups.together ? "1" : "0"},
+                {"WT_LATE_VALUES", groups.late_values ? "1" : "0"}});
+}
+
+template <class Key>
+void RadixSort<Key>::make_kernels(gpu::Context& context, const char* program, gpu::Definitions definitions) {
   definitions["WT_KEY"] = sizeof(Key) == 4 ? "uint" : "ulong";
-  definitions["WT_PAYLOAD"] = std::to_string(static_cast<int>(payload));
+  definitions["WT_PAYLOAD"] = std::to_string(static_cast<int>(payload_));
   definitions["WT_DIGIT_BITS"] = std::to_string(tuning_.digit_bits);
   count_ = {context, definitions, program};
   offsets_ = {context, definitions, program};

@@ -28,6 +28,9 @@ class RadixSort {
   static constexpr unsigned key_bits = 8 * sizeof(Key);
 
   RadixSort(gpu::Context& context, Payload payload, SortForm form = SortForm::device);
+  // The form for groups with a tuning of the caller's. Local memory must hold what it asks for: the counters of the
+  // columns or the keys of a tile (with `together` their values, too), and a byte for each key.
+  RadixSort(gpu::Context& context, Payload payload, const RadixTuning& groups);
 
   // Words of temporary memory that n keys need.
   size_t temporary_words(uint32_t n) const;
@@ -42,6 +45,7 @@ class RadixSort {
                   unsigned end_bit = key_bits, Stage stage = Stage::sort);
 
  private:
+  void make_kernels(gpu::Context& context, const char* program, gpu::Definitions definitions);
   uint32_t chunk_of(uint32_t n) const;
   void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
             unsigned first_bit, unsigned end_bit, Stage stage);

@@ -48,6 +48,8 @@ struct RadixTuning {
   uint32_t most_chunks;
   bool moves_tiles;       // a group moves one tile, not a chunk, and each tile has counts in temporary memory
   uint32_t columns;       // columns of a tile (groups only)
+  bool together;          // a tile's values lie beside its keys in local memory, not after them (groups only)
+  bool late_values;       // values are read after the tile is ranked (groups only)
   uint64_t direct_bytes;  // up to this many bytes of keys and values are written without lines (chunks only)
 };
 
@@ -140,17 +142,21 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
 
 // Radix sort by groups. Tile and columns fill 48 KiB of local memory, and are the fastest of some twenty choices on an
 // H200 (25 G pairs/s at 2^26 instead of 17, bench_sort); or they fill 32 KiB.
-inline RadixTuning radix_groups(const gpu::DeviceInfo& device) {
+// Values lie beside their keys where the counters of the columns leave room for both. key_bytes, value_bytes: those of
+// an element; 0 without values.
+inline RadixTuning radix_groups(const gpu::DeviceInfo& device, uint32_t key_bytes, uint32_t value_bytes) {
   const bool large = device.local_memory >= 48 << 10;
-  const uint32_t columns = large ? 72 : 32;
+  const uint32_t columns = large ? 72 : 32, tile = 64 * columns, counters = 256 * 2 * (columns + 2);
   return {.digit_bits = 8,
           .items = 256,
           .offset_items = large ? 256u : 32u,
           .offset_groups = 256,  // a group per digit
-          .tile = 64 * columns,
+          .tile = tile,
           .most_chunks = 1024,
           .moves_tiles = true,
           .columns = columns,
+          .together = value_bytes > 0 && tile * (key_bytes + value_bytes) <= std::max(counters, tile * key_bytes),
+          .late_values = false,
           .direct_bytes = 0};
 }
 
@@ -166,6 +172,8 @@ inline RadixTuning radix_chunks(const gpu::DeviceInfo& device) {
           .most_chunks = 8 * std::max(1u, device.compute_units),
           .moves_tiles = false,
           .columns = 0,
+          .together = false,
+          .late_values = false,
           .direct_bytes = uint64_t{16} << 20};
 }
 

@@ -2,8 +2,9 @@
 // radix_sort: a stable radix sort from the least significant digit, reduce then scan; the form for GPUs. Each pass is
 // count, offsets, move; settle follows the last. No work-group waits for another, so no forward progress is assumed.
 // Build options besides those of lib/radix.clh: WT_ITEMS in a work-group (at least WT_DIGITS), WT_OFFSET_ITEMS in one
-// of offsets, WT_TILE keys that a group moves, WT_COLUMNS of a tile. Chunks are whole tiles; an item has an even number
-// of keys of a tile.
+// of offsets, WT_TILE keys that a group moves, WT_COLUMNS of a tile, WT_TOGETHER (1: a tile's values lie in local
+// memory beside its keys, else after them), WT_LATE_VALUES (1: values are read after the tile is ranked). Chunks are
+// whole tiles.
 #include "lib/group_scan.clh"
 #include "lib/radix.clh"
 
@@ -35,7 +36,11 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void count(const gl
     // here.
     WT_KEY key[WT_KEYS_AN_ITEM];
     const bool whole = size == WT_TILE;
-    for (uint k = 0; k < WT_KEYS_AN_ITEM; k += 2) {
+    if (WT_KEYS_AN_ITEM % 2 == 1) {
+      const uint p = (WT_KEYS_AN_ITEM - 1) * WT_ITEMS + lane;
+      key[WT_KEYS_AN_ITEM - 1] = p < size ? source[first + p] : 0;
+    }
+    for (uint k = 0; k + 1 < WT_KEYS_AN_ITEM; k += 2) {
       const uint p = k * WT_ITEMS + lane;
       if (whole) {
         const WT_KEY_PAIR pair = ((const global WT_KEY_PAIR*)(source + first + k * WT_ITEMS))[lane];
@@ -87,16 +92,14 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
                                                                        global uint* temporary, uint n, uint chunk,
                                                                        uint pass, uint shift, uint digit_mask) {
   // Counters of the columns come first, then the tile in its new order: keys, then values.
-  local ulong shared[WT_MAX(WT_DIGITS * WT_ROW * 2, WT_TILE * sizeof(WT_KEY)) / 8];
+  local ulong shared[WT_MAX(WT_DIGITS * WT_ROW * 2, WT_TILE * (sizeof(WT_KEY) + WT_TOGETHER * sizeof(uint))) / 8];
   local uint digits_of_columns[WT_COLUMNS * WT_DIGIT_STRIDE / 4];  // bytes; ranks in the column later
   local uint targets[WT_DIGITS];  // for each digit its start in the output, less its start in the sorted tile
   local uint sums[WT_DIGITS];
   local ushort* columns = (local ushort*)shared;
   local uint* column_pairs = (local uint*)shared;
   local WT_KEY* sorted_keys = (local WT_KEY*)shared;
-  // Values are beside the keys where both fit, else after them.
-  const bool together = WT_PAYLOAD ? WT_TILE * (sizeof(WT_KEY) + sizeof(uint)) <= sizeof shared : false;
-  local uint* sorted_values = together ? (local uint*)(sorted_keys + WT_TILE) : (local uint*)shared;
+  local uint* sorted_values = WT_TOGETHER ? (local uint*)(sorted_keys + WT_TILE) : (local uint*)shared;
   local uchar* digits = (local uchar*)digits_of_columns;
 
   if (wt_radix_constant(temporary)[pass]) return;
@@ -119,7 +122,7 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
   // There are no values yet before the first move of an index.
   const bool has_values = WT_PAYLOAD == 2 ? moves > 0 : WT_PAYLOAD == 1;
   uint value[WT_KEYS_AN_ITEM];
-  for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
+  for (uint k = 0; !WT_LATE_VALUES && k < WT_KEYS_AN_ITEM; ++k) {
     const uint i = first + k * WT_ITEMS + lane;
     value[k] = has_values && i < n ? value_source[i] : i;
   }
@@ -177,9 +180,13 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
     place[k] = columns[d * WT_ROW + column] + digits[p + column * 4];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint k = 0; WT_LATE_VALUES && k < WT_KEYS_AN_ITEM; ++k) {
+    const uint i = first + k * WT_ITEMS + lane;
+    value[k] = has_values && i < n ? value_source[i] : i;
+  }
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) {
     sorted_keys[place[k]] = key[k];
-    if (together) sorted_values[place[k]] = value[k];
+    if (WT_TOGETHER) sorted_values[place[k]] = value[k];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   uint to[WT_KEYS_AN_ITEM];
@@ -188,9 +195,9 @@ __attribute__((reqd_work_group_size(WT_ITEMS, 1, 1))) kernel void move(global WT
     const WT_KEY sorted = sorted_keys[p];
     to[k] = targets[wt_radix_digit(sorted, shift, digit_mask)] + p;
     if (p < size) target[to[k]] = sorted;
-    if (together && p < size) value_target[to[k]] = sorted_values[p];
+    if (WT_TOGETHER && p < size) value_target[to[k]] = sorted_values[p];
   }
-  if (WT_PAYLOAD ? together : true) return;
+  if (WT_TOGETHER || WT_PAYLOAD == 0) return;
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint k = 0; k < WT_KEYS_AN_ITEM; ++k) sorted_values[place[k]] = value[k];
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -92,6 +92,29 @@ TEST_CASE("radix sort: only the bits of the range order") {
   });
 }
 
+TEST_CASE(
+    "radix sort: groups of other sizes, with values beside the keys of a tile and after them, read early and late") {
+  for (const uint32_t items : {256u, 384u, 512u})  // six, four and three keys an item
+    for (const bool together : {false, true})
+      for (const bool late : {false, true}) {
+        CAPTURE(items);
+        CAPTURE(together);
+        CAPTURE(late);
+        const auto check = [&]<class Key>(Payload payload, const SortCase<Key>& c) {
+          RadixTuning tuning = radix_groups(context().info(), sizeof(Key), 4);
+          tuning.items = items;
+          tuning.tile = 1536;
+          tuning.columns = 24;
+          tuning.together = together;
+          tuning.late_values = late;
+          RadixSort<Key> sort(context(), payload, tuning);
+          check_sort(sort, payload, c);
+        };
+        check(Payload::words, SortCase<uint32_t>{random_keys<uint32_t>(4000, 1), 3, 20});
+        check(Payload::index, SortCase<uint64_t>{random_keys<uint64_t>(1700, 2), 30, 48});
+      }
+}
+
 TEST_CASE("radix sort: floats by their ordered bits, zeros and NaN included") {
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> floats{nan, -nan, infinity, -infinity, 0.0f, -0.0f, 1e-45f, -1e-45f, 1.0f, -1.0f, 3e38f, -3e38f};
