@@ -48,8 +48,10 @@ kernel void nearest_hits(const global WT_NODE* nodes, const global WT_LEAF* tria
     const wt_hit hit = wt_hit_of(nodes, triangles, triangle_slots, extent_m, rays + i, &o, &d);
     const int missed = hit.primitive == WT_NONE;
     const float2 weights = missed ? (float2)(0.0f) : wt_weights(corners, hit.primitive, o, d);
-    const wt_packed_hit out = {missed ? INFINITY : hit.t, hit.primitive, weights.x, weights.y};
-    hits[i] = out;
+    hits[i].t = missed ? INFINITY : hit.t;
+    hits[i].primitive = hit.primitive;
+    hits[i].u = weights.x;
+    hits[i].v = weights.y;
   }
 }
 #endif

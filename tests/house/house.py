@@ -169,9 +169,10 @@ def project_faults(root):
     version = found("CMakeLists.txt", r"^project\(wavetracer VERSION ([0-9.]+)")
     named = {"CHANGELOG.md": found("CHANGELOG.md", r"^## \[([0-9.]+)\]"), "CITATION.cff": found("CITATION.cff", r"^version: (.*)$")}
     faults += [f"{name}: it names version {told}, and CMakeLists.txt {version}" for name, told in named.items() if told != version]
-    soname = found("python/wavetracer/_library.py", r'^SONAME = "libwavetracer.so.([0-9.]+)"')
-    if soname != ".".join(version.split(".")[:2]):
-        faults.append(f"python/wavetracer/_library.py: SONAME is of {soname}, and CMakeLists.txt of {version}")
+    for file in ("python/wavetracer/_library.py", "python/wavetracer/kernels.py"):
+        soname = found(file, r'^SONAME = "libwavetracer(?:_kernels)?.so.([0-9.]+)"')
+        if soname != ".".join(version.split(".")[:2]):
+            faults.append(f"{file}: SONAME is of {soname}, and CMakeLists.txt of {version}")
 
     if found("CMakeLists.txt", r"^option\(WAVETRACER_WERROR .* (ON|OFF)\)") != "OFF":
         faults.append("CMakeLists.txt: WAVETRACER_WERROR is not OFF by default, so a newer compiler stops a packager")

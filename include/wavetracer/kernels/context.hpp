@@ -32,6 +32,7 @@ struct Call {
   std::span<const cl_event> after = {};
   // If not null, *done becomes an event that completes with the last command of the call. The caller owns it
   // (clReleaseEvent). The queue is flushed, so that other queues may wait for it.
+  // It stays as it was if the call throws.
   cl_event* done = nullptr;
 };
 

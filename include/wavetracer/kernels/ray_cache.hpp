@@ -58,7 +58,7 @@ class RayCache {
 
   // Makes an empty table of config.buffer_size entries, which the regions share evenly. A region is a place that rays
   // start from, such as a transmitter; rays of a region are answered by its entries alone. bvh: the triangles that rays
-  // leave and meet; it must outlive the cache. Throws Error if a region has less than 16 entries, if the device cannot
+  // leave and meet, whose planes are copied. Throws Error if a region has less than 16 entries, if the device cannot
   // hold the table, for kind = "none", for scope = "all" and for innerframe, which need a world that moves.
   RayCache(const Context& context, const CacheConfig& config, const Bvh& bvh, uint32_t regions = 1);
   // The same for a tracer of your own, whose triangles have the numbers 0 .. triangles - 1; their number only spreads
