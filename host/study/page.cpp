@@ -73,7 +73,7 @@ std::string verdict_cells(const Verdict& verdict) {
 }
 
 const char* verdict_style() {
-  return ".words td,.words th{text-align:left;vertical-align:top}"
+  return ".words{margin-top:1em}.words td,.words th{text-align:left;vertical-align:top}"
          ".verdict{padding:1px 6px;border-radius:3px;white-space:nowrap}"
          ".exceeded{background:#1b7837;color:#fff}.reproduced{background:#a6dba0}.in-part{background:#ffe49c}"
          ".refuted{background:#f4a6a0}.undecided{background:#cfd8dc}"

@@ -8,7 +8,7 @@
 namespace wavetracer::study {
 namespace {
 
-constexpr double title_px = 75, panel_px = 230, gap_px = 85, left_px = 85, right_px = 15, between_px = 95,
+constexpr double title_px = 75, panel_px = 230, gap_px = 105, left_px = 85, right_px = 15, between_px = 95,
                  key_line_px = 17;
 constexpr size_t columns_of_keys = 3;
 
@@ -45,7 +45,7 @@ PanelPage::PanelPage(const std::vector<size_t>& lines, size_t panels, size_t a_r
   double at = title_px;
   for (const size_t count : lines) {
     tops_px_.push_back(at);
-    at += static_cast<double>(rows_) * (panel_px + gap_px) - 20;
+    at += static_cast<double>(rows_) * (panel_px + gap_px) - 40;
     keys_px_.push_back(at);
     key_rows_.push_back((count + columns_of_keys - 1) / columns_of_keys);
     at += key_line_px * static_cast<double>(key_rows_.back()) + 55;

@@ -99,8 +99,10 @@ Claims<CacheRow> bucket_claims() {
 
 Claims<CacheRow> hit_claims() {
   const Names counted = counted_names(all_chained);
-  return {{"hits are spread over the entries at least as evenly as by chance", of_entries(are_even)},
-          {"there are no clusters of busy entries", of_entries(is_without_clusters)},
+  return {{"hits are spread over the entries at least as evenly as by chance",
+           of_entries(are_even, {"variance over mean: ", [](double value) { return plain(value); }, ""})},
+          {"there are no clusters of busy entries",
+           of_entries(is_without_clusters, {"clustering: ", [](double value) { return plain(value); }, ""})},
           {"some entries are left unused", of_each(counted, some_unused, share_form())},
           {"some entries never answer", of_each(counted, some_never_answer, share_form())}};
 }
