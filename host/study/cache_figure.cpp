@@ -18,7 +18,7 @@ Findings show(const Experiment& experiment, const CacheMeasurement& measured, co
   if (plot.settings.empty()) plot.settings = settings_of(measured.rows);
   found.figure = line_figure(plot, shown.table);
   const Fields fields = cache_fields(measured.rows, measured.device.name, figure.settings);
-  found.words = {filled(experiment.paragraph, fields), judged(figure.claims, measured.rows, fields),
+  found.words = {filled(experiment.paragraph, fields), judged(figure.claims, measured.rows, figure.range, fields),
                  shown.numbers.rows.empty() ? summary_table(measured.rows) : shown.numbers};
   found.notes = study_notes(measured, request.repeats);
   found.notes.insert(found.notes.end(), shown.notes.begin(), shown.notes.end());

@@ -20,6 +20,11 @@ constexpr std::initializer_list<double CacheTimes::*> stages = {
 
 double a_segment_ns(double seconds, double segments) { return segments > 0 ? 1e9 * seconds / segments : undefined; }
 
+// Returns a number that is proportional to one of the times.
+Measured with_noise(double value, const CacheTimes& times, const CacheTimes& errors, double CacheTimes::*of) {
+  return {value, times.*of > 0 ? value * errors.*of / times.*of : undefined};
+}
+
 template <class Value, class Get>
 std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
   std::vector<Value> out;
@@ -65,12 +70,30 @@ double read_ns(const CacheRow& row) { return a_segment_ns(row.warm.lookup_s, row
 double gather_ns(const CacheRow& row) { return a_segment_ns(row.cold.gather_s, row.cold_counts.traced()); }
 double trace_ns(const CacheRow& row) { return a_segment_ns(row.cold.trace_s, row.cold_counts.traced()); }
 
+Measured measured_write_ns(const CacheRow& row) {
+  return with_noise(write_ns(row), row.cold, row.cold_error, &CacheTimes::store_s);
+}
+Measured measured_read_ns(const CacheRow& row) {
+  return with_noise(read_ns(row), row.warm, row.warm_error, &CacheTimes::lookup_s);
+}
+Measured measured_gather_ns(const CacheRow& row) {
+  return with_noise(gather_ns(row), row.cold, row.cold_error, &CacheTimes::gather_s);
+}
+Measured measured_trace_ns(const CacheRow& row) {
+  return with_noise(trace_ns(row), row.cold, row.cold_error, &CacheTimes::trace_s);
+}
+
 uint64_t entries_used(const CacheRow& row) {
   return std::accumulate(row.cache.entries_by_hits.begin(), row.cache.entries_by_hits.end(), uint64_t{0});
 }
 
+double warm_once_s(const CacheRow& row) { return row.warm.loop_s - row.order_s; }
+
 void set_savings(std::vector<CacheRow>& point) {
-  for (CacheRow& row : point) row.saved_percent = 100 * (1 - row.warm.loop_s / point.front().warm.loop_s);
+  for (CacheRow& row : point) {
+    row.saved_percent = 100 * (1 - row.warm.loop_s / point.front().warm.loop_s);
+    row.saved_once_percent = 100 * (1 - warm_once_s(row) / warm_once_s(point.front()));
+  }
 }
 
 double value_of(const CacheRow& row, const std::string& column) {
@@ -97,7 +120,7 @@ const Columns<CacheRow>& cache_columns() {
       {"frames", &R::frames},
       {"cold_s", [](const R& r) { return r.cold.loop_s; }},
       {"warm_s", [](const R& r) { return r.warm.loop_s; }},
-      {"warm_error_s", &R::warm_error_s},
+      {"warm_error_s", [](const R& r) { return r.warm_error.loop_s; }},
       {"saved_percent", &R::saved_percent},
       {"frame_s", &R::frame_s},
       {"write_ns", write_ns},
@@ -139,7 +162,11 @@ const Columns<CacheRow>& cache_columns() {
       {"l1_relative", [](const R& r) { return r.error.l1_relative; }},
       {"l2_relative", [](const R& r) { return r.error.l2_relative; }},
       {"region", &R::region},
+      {"order_s", &R::order_s},
+      {"warm_once_s", warm_once_s},
+      {"saved_once_percent", &R::saved_once_percent},
       {"mean_path_length_m", [](const R& r) { return r.error.mean_path_length_m; }},
+      {"l2_error_m", &R::l2_error_m},
   };
   return all;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 #include "base/csv_columns.hpp"
 #include "study/entry_summary.hpp"
+#include "study/measured.hpp"
 #include "study/path_error.hpp"
 #include "wavetracer/simulation.hpp"
 
@@ -29,6 +30,9 @@ CacheTimes cache_times(const StageSeconds& seconds);
 CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>));
 CacheTimes operator-(const CacheTimes& a, const CacheTimes& b);
 
+// Times that were not measured.
+constexpr CacheTimes unknown_times = {undefined, undefined, undefined, undefined, undefined, undefined, undefined};
+
 // Segments of a frame.
 struct CacheCounts {
   double segments = 0, lookups = 0, hits = 0;
@@ -48,17 +52,20 @@ struct CacheRow {
   uint64_t rays = 0;  // per transmitter
   uint32_t division = 0;
   double position_step_m = 0;
-  uint32_t depth = 0;                      // 0: all segments; else those of this depth
-  uint32_t region = 0;                     // 0: rays of all transmitters; else of this one alone, counted from 1
-  std::string transmitter{};               // name of that transmitter
-  uint64_t frames = 0;                     // number of frames after the cold one, which are averaged
-  CacheTimes cold{}, warm{};               // times of a frame whose table is empty, and of those after it
-  double warm_error_s = undefined;         // standard error of the mean of warm.loop_s; NaN for medians
+  uint32_t depth = 0;         // 0: all segments; else those of this depth
+  uint32_t region = 0;        // 0: rays of all transmitters; else of this one alone, counted from 1
+  std::string transmitter{};  // name of that transmitter
+  uint64_t frames = 0;        // number of frames after the cold one, which are averaged
+  CacheTimes cold{}, warm{};  // times of a frame whose table is empty, and of those after it
+  CacheTimes cold_error{unknown_times}, warm_error{unknown_times};  // standard errors of these times
+  double order_s = 0;                      // keys, sort and gathering of a warm frame, a part of warm.loop_s
   double frame_s = 0;                      // wall time of a warm frame, with candidates, paths and fields
   CacheCounts cold_counts{}, counts{};     // counts of the cold frame, and of an average warm one
   CacheSummary cache{};                    // statistics of the last frame
   double paths = 0, sequences = 0;         // averages over warm frames
   PathError error{};                       // errors of warm frames
+  double l2_error_m = undefined;           // standard error of the mean of error.l2_m
+  double saved_once_percent = 0;           // the same, with the sort counted once
   double saved_percent = 0;                // relative to the time of the first setting, warm
   EntrySummary entries{};                  // entries of the last frame, for settings that keep entries
   std::vector<CentroidError> centroids{};  // one per frame, in studies that keep them
@@ -75,11 +82,19 @@ double write_ns(const CacheRow& row);
 double read_ns(const CacheRow& row);
 double gather_ns(const CacheRow& row);
 double trace_ns(const CacheRow& row);
+// Return the same with their noise.
+Measured measured_write_ns(const CacheRow& row);
+Measured measured_read_ns(const CacheRow& row);
+Measured measured_gather_ns(const CacheRow& row);
+Measured measured_trace_ns(const CacheRow& row);
 
 // Returns the entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);
 
-// Sets saved_percent of rows of one point, whose first is the reference.
+// Returns the time of a warm frame without its sort: the thesis sorts its buffer of rays once, when it is made.
+double warm_once_s(const CacheRow& row);
+
+// Sets saved_percent and saved_once_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);
 
 const Columns<CacheRow>& cache_columns();

@@ -38,6 +38,9 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const CacheSubj
                .frames = subject.warm.size(),
                .cold = summarised(subject.cold, median),
                .warm = summarised(subject.warm, still ? median : mean),
+               .cold_error = summarised(subject.cold, error_of_median),
+               .warm_error = summarised(subject.warm, still ? error_of_median : error_of_mean),
+               .order_s = subject.order_s.mean(),
                .frame_s = median(subject.frame_s),
                .cold_counts = counts_of(subject.first),
                .counts = {subject.segments.mean(), subject.lookups.mean(), subject.hits.mean(), subject.groups.mean(),
@@ -45,11 +48,21 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const CacheSubj
                .cache = subject.last.cache,
                .paths = subject.paths.mean(),
                .sequences = subject.sequences.mean(),
-               .error = subject.error.mean()};
+               .error = subject.error.mean(),
+               .l2_error_m = subject.centroid_m.standard_error()};
   if (cache.statistics) row.entries = summary_of(subject.last.cache_entries);
-  if (!still) row.warm_error_s = subject.loop_s.standard_error();
   if (study.centroids) row.centroids = subject.centroids;
   return row;
+}
+
+// Sets the noise of the times of frames, without what frames of a drive have in common.
+void set_loop_noise(const std::vector<CacheSubject>& subjects, std::vector<CacheRow>& rows) {
+  std::vector<std::vector<double>> samples(subjects.size());
+  for (size_t i = 0; i < subjects.size(); ++i)
+    for (const CacheTimes& times : subjects[i].warm) samples[i].push_back(times.loop_s);
+  const std::vector<double> noise = relative_errors(samples);
+  const double still = subjects.front().simulation.frame_count() == 1 ? median_noise : 1;
+  for (size_t i = 0; i < rows.size(); ++i) rows[i].warm_error.loop_s = still * noise[i] * rows[i].warm.loop_s;
 }
 
 // A number of rays in a world.
@@ -82,6 +95,7 @@ std::vector<CacheRow> measure_point(const Point& at) {
     require_segments(subjects.front().segments.mean(), at.config);
     std::vector<CacheRow> found;
     for (size_t i = 0; i < group.size(); ++i) found.push_back(row_of(study, group[i], subjects[i], at.drive, at.rays));
+    set_loop_noise(subjects, found);
     set_savings(found);
     rows.insert(rows.end(), found.begin() + (begin == 1 ? 0 : 1), found.end());
   }

@@ -59,11 +59,11 @@ std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, cons
 
 Columns<FramePair> frame_columns(const Drive& drive);
 
-// Returns "at depth 1 if paired by ray and bounce, at no depth if paired by place": where subsequent frames correlate
-// by a mean from `low` to `high`.
+// Answers for each pairing and depth, and for whole outputs by place, whether subsequent frames correlate by a mean
+// from `low` to `high`.
 Judge<FramePair> correlate_on_average(double low, double high);
-// In the same way: where their correlation falls below `low`, and where it rises to `high`, or to four fifths of it,
-// but no further.
+// In the same way: whether their correlation falls below `low`, and whether it rises to `high`, or to four fifths of
+// it, but no further.
 Judge<FramePair> correlation_falls_below(double low);
 Judge<FramePair> correlation_rises_to(double high);
 

@@ -29,19 +29,6 @@ void add(NumberTable& table, const std::string& what, const std::vector<double>&
   table.rows.back().resize(table.heads.size(), "undefined");
 }
 
-// Says where values satisfy a condition: "at every depth", "at no depth", "at depths 1 and 3". Each depth is a case of
-// `tally`.
-std::string where_depths(const std::vector<double>& values, const std::function<bool(double)>& are_so, Tally& tally) {
-  std::vector<std::string> words;
-  for (size_t i = 0; i < values.size(); ++i) {
-    tally.add(are_so(values[i]));
-    if (are_so(values[i])) words.push_back(std::to_string(i + 1));
-  }
-  if (words.empty()) return "at no depth";
-  if (words.size() == values.size()) return "at every depth";
-  return (words.size() == 1 ? "at depth " : "at depths ") + list_words(words);
-}
-
 using FrameValue = std::function<double(const FramePair&)>;
 
 double by_ray(const FramePair& row) { return row.found.points.total; }
@@ -59,45 +46,31 @@ std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& r
   return out;
 }
 
-double mean_value(const std::vector<double>& values) {
+Measured mean_value(const std::vector<double>& values) {
   RunningMean mean;
   for (const double value : values) mean.add(value);
-  return mean.mean();
+  return {mean.mean(), mean.standard_error()};
 }
-double least_value(const std::vector<double>& values) { return values.empty() ? undefined : std::ranges::min(values); }
-double greatest_value(const std::vector<double>& values) {
-  return values.empty() ? undefined : std::ranges::max(values);
+// Extremes are those of the frames that were measured, without an error of their own.
+Measured least_value(const std::vector<double>& values) {
+  return values.empty() ? Measured{} : Measured{std::ranges::min(values), 0};
+}
+Measured greatest_value(const std::vector<double>& values) {
+  return values.empty() ? Measured{} : Measured{std::ranges::max(values), 0};
 }
 
-using FrameSummary = double (*)(const std::vector<double>&);
+using FrameSummary = Measured (*)(const std::vector<double>&);
 
 // Returns a value per depth, for subsequent frames.
-std::vector<double> summaries(const std::vector<FramePair>& rows, const FrameValue& value, FrameSummary summary) {
-  std::vector<double> out;
+std::vector<Measured> summaries(const std::vector<FramePair>& rows, const FrameValue& value, FrameSummary summary) {
+  std::vector<Measured> out;
   for (const std::vector<double>& values : previous_values(rows, value)) out.push_back(summary(values));
   return out;
 }
 
 std::vector<double> previous_means(const std::vector<FramePair>& rows, const FrameValue& value) {
-  return summaries(rows, value, mean_value);
-}
-
-// Says where a summary of the correlations of subsequent frames satisfies a condition, for both pairings.
-Judge<FramePair> where_correlations(FrameSummary summary, const std::function<bool(double)>& are_so) {
-  return [=](const std::vector<FramePair>& rows) {
-    Tally tally;
-    const std::string rays = where_depths(summaries(rows, by_ray, summary), are_so, tally),
-                      places = where_depths(summaries(rows, by_place, summary), are_so, tally);
-    return Judgement{tally.outcome(),
-                     fmt::format("{} if paired by ray and bounce, {} if paired by place", rays, places)};
-  };
-}
-
-// Returns a value per depth, of the last frame against the first.
-std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<double> out;
-  for (const FramePair& row : rows)
-    if (row.against == "first" && row.frame == rows.back().frame && row.depth > 0) out.push_back(value(row));
+  for (const Measured& mean : summaries(rows, value, mean_value)) out.push_back(mean.value);
   return out;
 }
 
@@ -106,6 +79,36 @@ std::vector<double> whole_values(const std::vector<FramePair>& rows, const Frame
   std::vector<double> out;
   for (const FramePair& row : rows)
     if (row.against == "previous" && row.depth == 0 && !std::isnan(value(row))) out.push_back(value(row));
+  return out;
+}
+
+// Answers for each pairing and depth whether a summary of the correlations of subsequent frames satisfies a condition.
+Judge<FramePair> where_correlations(FrameSummary summary, const std::function<Answer(const Measured&)>& are_so) {
+  return [=](const std::vector<FramePair>& rows) {
+    Cases out{.form = correlation_form(), .at = "depth"};
+    const auto add_pairing = [&](const char* words, const FrameValue& value) {
+      for (uint64_t depth = 1; const Measured& found : summaries(rows, value, summary))
+        out.all.push_back({words, depth++, are_so(found), found.value});
+    };
+    add_pairing("paired by ray and bounce", by_ray);
+    add_pairing("paired by place", by_place);
+    const auto add_whole_output = [&](const char* words, const FrameValue& value) {
+      const std::vector<double> values = whole_values(rows, value);
+      if (values.empty()) return;
+      const Measured found = summary(values);
+      out.all.push_back({words, 0, are_so(found), found.value});
+    };
+    add_whole_output("whole outputs", by_place);
+    add_whole_output("whole outputs of rays in no order", unordered_by_place);
+    return out;
+  };
+}
+
+// Returns a value per depth, of the last frame against the first.
+std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<double> out;
+  for (const FramePair& row : rows)
+    if (row.against == "first" && row.frame == rows.back().frame && row.depth > 0) out.push_back(value(row));
   return out;
 }
 
@@ -152,14 +155,13 @@ std::string greatest_words(const std::vector<LagRow>& rows, const std::string& d
 }  // namespace
 
 Judge<FramePair> correlate_on_average(double low, double high) {
-  return where_correlations(mean_value, [=](double mean) { return mean >= low && mean <= high; });
+  return where_correlations(mean_value, [=](const Measured& mean) { return between(mean, low, high); });
 }
 Judge<FramePair> correlation_falls_below(double low) {
-  return where_correlations(least_value, [=](double least) { return least < low; });
+  return where_correlations(least_value, [=](const Measured& least) { return below(least, low); });
 }
 Judge<FramePair> correlation_rises_to(double high) {
-  return where_correlations(greatest_value,
-                            [=](double greatest) { return greatest >= 0.8 * high && greatest <= high; });
+  return where_correlations(greatest_value, [=](const Measured& most) { return between(most, 0.8 * high, high); });
 }
 
 Words frame_words(const Experiment& experiment, const std::vector<FramePair>& rows, const Drive& drive,
@@ -191,7 +193,7 @@ Words frame_words(const Experiment& experiment, const std::vector<FramePair>& ro
   add_whole(table, "subsequent frames, whole outputs, points paired by place", whole_values(rows, by_place));
   add_whole(table, "the same, rays launched in no order", whole_values(rows, unordered_by_place));
   add_whole(table, "subsequent frames, whole outputs, points paired by ray and bounce", whole_values(rows, by_ray));
-  return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, fields), table};
+  return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, {}, fields), table};
 }
 
 // Lags must ascend from 1 for each map and depth.

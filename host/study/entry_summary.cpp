@@ -17,12 +17,12 @@ struct Cycles {
   void add(uint32_t cycles) {
     if (cycles > 0) values.push_back(cycles);
   }
-  double middle() {
+  Measured middle() {
     std::ranges::sort(values);
     const auto out = static_cast<std::ptrdiff_t>(values.size() / 20);
     RunningMean mean;
     for (auto at = values.begin() + out; at != values.end() - out; ++at) mean.add(*at);
-    return mean.mean();
+    return {mean.mean(), mean.standard_error()};
   }
 };
 
@@ -45,8 +45,11 @@ std::vector<EntryGroup> grouped_by(const CacheEntryRows& rows, const std::vector
   std::vector<EntryGroup> out;
   for (auto& [number, one] : found) {
     one.group.number = number;
-    one.group.read_cycles = one.read.middle();
-    one.group.write_cycles = one.write.middle();
+    const Measured read = one.read.middle(), write = one.write.middle();
+    one.group.read_cycles = read.value;
+    one.group.read_error = read.error;
+    one.group.write_cycles = write.value;
+    one.group.write_error = write.error;
     out.push_back(one.group);
   }
   return out;
@@ -56,32 +59,28 @@ double variance(const RunningMean& mean) {
   return std::pow(mean.standard_error(), 2) * static_cast<double>(mean.count());
 }
 
-// Values of depth 1, and of all deeper ones, weighted by their entries.
-struct Levels {
-  double bucket = undefined, below = undefined;
-};
-
-Levels levels_of(const EntrySummary& entries, double EntryGroup::*cycles) {
+// Deeper ones are weighted by their entries.
+Levels levels_of(const EntrySummary& entries, double EntryGroup::*cycles, double EntryGroup::*error) {
   Levels out;
-  double sum = 0, count = 0;
+  double sum = 0, count = 0, noise = 0;
   for (const EntryGroup& group : entries.by_depth) {
     if (std::isnan(group.*cycles)) continue;
     if (group.number == 1) {
-      out.bucket = group.*cycles;
+      out.bucket = {group.*cycles, group.*error};
     } else {
-      sum += static_cast<double>(group.entries) * group.*cycles;
-      count += static_cast<double>(group.entries);
+      const auto weight = static_cast<double>(group.entries);
+      sum += weight * group.*cycles;
+      // A group of one entry has no standard error.
+      noise = std::hypot(noise, weight * (std::isnan(group.*error) ? group.*cycles : group.*error));
+      count += weight;
     }
   }
-  if (count > 0) out.below = sum / count;
+  if (count > 0) out.below = {sum / count, noise / count};
   return out;
 }
 
-std::optional<bool> longer_in_buckets(const EntrySummary& entries, double EntryGroup::*cycles) {
-  const Levels levels = levels_of(entries, cycles);
-  if (std::isnan(levels.bucket) || std::isnan(levels.below)) return std::nullopt;
-  return levels.bucket > levels.below;
-}
+// Returns a variance over the one expected, whose relative standard error for n values is about the root of 2 / n.
+Measured of_sample(double ratio, double n) { return {ratio, ratio * std::sqrt(2 / std::max(n - 1, 1.0))}; }
 
 }  // namespace
 
@@ -111,22 +110,22 @@ EntrySummary summary_of(const CacheEntryRows& rows) {
   return out;
 }
 
-std::optional<bool> reads_longer_in_buckets(const EntrySummary& entries) {
-  return longer_in_buckets(entries, &EntryGroup::read_cycles);
+Levels read_levels(const EntrySummary& entries) {
+  return levels_of(entries, &EntryGroup::read_cycles, &EntryGroup::read_error);
 }
 
-std::optional<bool> writes_longer_in_buckets(const EntrySummary& entries) {
-  return longer_in_buckets(entries, &EntryGroup::write_cycles);
+Levels write_levels(const EntrySummary& entries) {
+  return levels_of(entries, &EntryGroup::write_cycles, &EntryGroup::write_error);
 }
 
-std::optional<bool> are_even(const EntrySummary& entries) {
-  if (std::isnan(entries.dispersion)) return std::nullopt;
-  return entries.dispersion <= 1.5;
+Measured measured_dispersion(const EntrySummary& entries) {
+  double count = 0;
+  for (const SlotRun& run : entries.runs) count += static_cast<double>(run.entries);
+  return of_sample(entries.dispersion, count);
 }
 
-std::optional<bool> is_without_clusters(const EntrySummary& entries) {
-  if (std::isnan(entries.clustering)) return std::nullopt;
-  return entries.clustering <= 2;
+Measured measured_clustering(const EntrySummary& entries) {
+  return of_sample(entries.clustering, static_cast<double>(entries.runs.size()));
 }
 
 }  // namespace wavetracer::study

@@ -3,8 +3,8 @@
 // buckets, by region, and along the table.
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <vector>
+#include "study/measured.hpp"
 #include "wavetracer/cache_entries.hpp"
 
 namespace wavetracer::study {
@@ -15,6 +15,7 @@ struct EntryGroup {
   uint32_t number = 0;  // a depth in the trees, from 1, or a region, from 0
   uint64_t entries = 0, hits = 0;
   double read_cycles = 0, write_cycles = 0;
+  double read_error = undefined, write_error = undefined;  // standard errors of these means
 };
 
 // Entries of a run of slots.
@@ -39,13 +40,15 @@ constexpr uint32_t slot_runs = 50;  // runs have about equal numbers of entries
 
 EntrySummary summary_of(const CacheEntryRows& rows);
 
-// Tells whether entries in the buckets themselves, of depth 1, take more cycles than deeper ones. Returns nothing if
-// one kind is missing.
-std::optional<bool> reads_longer_in_buckets(const EntrySummary& entries);
-std::optional<bool> writes_longer_in_buckets(const EntrySummary& entries);
-// Tells whether hits are as even as chance makes them: dispersion is 1.5 at most.
-std::optional<bool> are_even(const EntrySummary& entries);
-// Tells whether no busy entries lie together: clustering is 2 at most.
-std::optional<bool> is_without_clusters(const EntrySummary& entries);
+// An average of entries in the buckets themselves, of depth 1, and of deeper ones. NaN if one kind is missing.
+struct Levels {
+  Measured bucket, below;
+};
+Levels read_levels(const EntrySummary& entries);
+Levels write_levels(const EntrySummary& entries);
+
+// Return dispersion and clustering with the noise that a sample of so many entries, or runs, has.
+Measured measured_dispersion(const EntrySummary& entries);
+Measured measured_clustering(const EntrySummary& entries);
 
 }  // namespace wavetracer::study

@@ -21,6 +21,7 @@ struct OrderFigure {
   std::vector<Series> series;  // gains are relative to the first series
   bool moves;                  // true: averages over the frames of a moving_world(); false: medians of the first frame
   Claims<OrderRow> claims;
+  Range range = {};  // for claims that give no other
 };
 
 // A view of a study of caches; figures share studies. The fields are cache_fields().
@@ -29,6 +30,7 @@ struct CacheFigure {
   CacheView view;
   Claims<CacheRow> claims = {};
   std::vector<std::string> settings = {};  // the settings for the field {saves}
+  Range range = {};                        // for claims that give no other
 };
 
 // Compares the hits of one transmitter's rays in frames of a drive. Fields: {device}, {rays}, {frames}, {moved} and

@@ -18,7 +18,8 @@ struct CacheSubject {
   Simulation simulation;
   std::vector<CacheTimes> cold, warm;
   std::vector<double> frame_s;
-  RunningMean loop_s, segments, lookups, hits, groups, shared, paths, sequences;
+  RunningMean order_s;  // the sort of a warm frame
+  RunningMean segments, lookups, hits, groups, shared, paths, sequences;
   PathErrorMean error;
   RunningMean centroid_m;
   std::vector<CentroidError> centroids;

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include "output/median.hpp"
+#include "study/measured.hpp"
 #include "study/ray_counts.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/stages.hpp"
@@ -40,11 +41,30 @@ void check_same(const OrderRow& a, const OrderRow& b) {
                   grouped(a.rays), label(a.series), a.paths, a.sequences, label(b.series), b.paths, b.sequences));
 }
 
+// Sets the noise of rows, one per subject, whose times are medians or means.
+void set_noise(const std::vector<OrderSubject>& subjects, bool medians, std::vector<OrderRow>& rows) {
+  std::vector<std::vector<double>> unpaid(subjects.size()), paid(subjects.size());
+  for (size_t i = 0; i < subjects.size(); ++i)
+    for (const StageSeconds& sample : subjects[i].samples) {
+      unpaid[i].push_back(part_seconds(sample, FramePart::discovery));
+      paid[i].push_back(unpaid[i].back() + part_seconds(sample, FramePart::order));
+    }
+  const std::vector<double> of_unpaid = relative_errors(unpaid), of_paid = relative_errors(paid);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i].noise_unpaid = (medians ? median_noise : 1) * of_unpaid[i];
+    rows[i].noise_paid = (medians ? median_noise : 1) * of_paid[i];
+  }
+}
+
 }  // namespace
 
 const Columns<OrderRow>& order_columns(bool averages) {
   using R = OrderRow;
-  static const Columns<R> one_frame = {
+  static const Columns<R> errors = {
+      {"unpaid_error_s", [](const R& r) { return r.noise_unpaid * r.times.unpaid_s; }},
+      {"paid_error_s", [](const R& r) { return r.noise_paid * r.times.paid_s(); }},
+  };
+  static const Columns<R> common = {
       {"rays", &R::rays},
       {"method", [](const R& r) { return r.series.method; }},
       {"mnemonic", [](const R& r) { return r.series.mnemonic; }},
@@ -62,11 +82,17 @@ const Columns<OrderRow>& order_columns(bool averages) {
       {"launched", &R::launched},
       {"bins", [](const R& r) { return has_bins(r.series) ? r.series.bins : 0; }},
   };
+  static const Columns<R> one_frame = [] {
+    Columns<R> all = common;
+    all.insert(all.end(), errors.begin(), errors.end());
+    return all;
+  }();
   static const Columns<R> many = [] {
-    Columns<R> all = one_frame;
+    Columns<R> all = common;
     all.emplace_back("frames", &R::frames);
     all.emplace_back("reduction_unpaid_percent", [](const R& r) { return reduction_percent(r.gain_unpaid); });
     all.emplace_back("reduction_paid_percent", [](const R& r) { return reduction_percent(r.gain_paid); });
+    all.insert(all.end(), errors.begin(), errors.end());
     return all;
   }();
   return averages ? many : one_frame;
@@ -149,6 +175,7 @@ std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Ser
                     .paths = subjects[i].paths,
                     .sequences = subjects[i].sequences});
   }
+  set_noise(subjects, of.frames == 0, rows);
   compare(rows);
   return rows;
 }

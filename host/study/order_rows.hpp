@@ -8,6 +8,7 @@
 #include <vector>
 #include "base/csv_columns.hpp"
 #include "study/series.hpp"
+#include "study/statistics.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::study {
@@ -30,10 +31,12 @@ struct OrderRow {
   OrderTimes times;
   uint64_t paths = 0, sequences = 0;      // sums over all frames
   double gain_unpaid = 1, gain_paid = 1;  // unpaid_s and paid_s of the unordered launch over those of this series
+  // Relative standard errors of unpaid_s and paid_s, see relative_errors() of measured.hpp; NaN for a single frame.
+  double noise_unpaid = undefined, noise_paid = undefined;
 };
 
 // Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the
-// reductions of time, in percent, that the gains mean.
+// reductions of time, in percent, that the gains mean. Last are the standard errors of unpaid_s and paid_s.
 const Columns<OrderRow>& order_columns(bool averages);
 
 // Returns how much less time a gain means, in percent; negative for more time.

@@ -159,8 +159,8 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
 
 Words order_words(const Experiment& experiment, const std::vector<OrderRow>& rows, const std::string& device) {
   const Fields fields = order_fields(rows, device);
-  return {filled(experiment.paragraph, fields), judged(experiment.as<OrderFigure>()->claims, rows, fields),
-          gain_table(rows)};
+  const OrderFigure& figure = *experiment.as<OrderFigure>();
+  return {filled(experiment.paragraph, fields), judged(figure.claims, rows, figure.range, fields), gain_table(rows)};
 }
 
 Findings measure(const OrderFigure& figure, const Experiment& experiment, const Request& request, const Host& host) {

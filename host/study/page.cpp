@@ -3,6 +3,7 @@
 #include "study/page.hpp"
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 #include <sstream>
@@ -62,11 +63,30 @@ std::string page_markdown(const Section& section, const Heading& heading) {
   return text;
 }
 
+std::string verdict_cells(const Verdict& verdict) {
+  std::string kind(word(verdict.outcome));
+  std::ranges::replace(kind, ' ', '-');
+  const std::string origin =
+      verdict.origin == Origin::thesis ? "" : fmt::format(" <span class=\"origin\">{}</span>", word(verdict.origin));
+  return fmt::format("<td>{}{}</td><td><span class=\"verdict {}\">{}</span></td><td>{}</td>", xml_text(verdict.claim),
+                     origin, kind, word(verdict.outcome), xml_text(verdict.measured));
+}
+
+const char* verdict_style() {
+  return ".words td,.words th{text-align:left;vertical-align:top}"
+         ".verdict{padding:1px 6px;border-radius:3px;white-space:nowrap}"
+         ".exceeded{background:#1b7837;color:#fff}.reproduced{background:#a6dba0}.in-part{background:#ffe49c}"
+         ".refuted{background:#f4a6a0}.undecided{background:#cfd8dc}"
+         ".not-measured-there,.not-judged{background:#eee;color:#555}"
+         ".origin{font-size:11px;color:#666;white-space:nowrap}"
+         ".wide{overflow-x:auto}.problem{color:#b00}";
+}
+
 std::string table_html(const NumberTable& table) {
   std::string text = table.caption.empty() ? "" : fmt::format("<p>{}</p>\n", xml_text(table.caption));
-  text += "<table>\n<thead><tr>" + html_cells(table.heads, "th") + "</tr></thead>\n<tbody>\n";
+  text += "<div class=\"wide\"><table>\n<thead><tr>" + html_cells(table.heads, "th") + "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) text += "<tr>" + html_cells(row, "td") + "</tr>\n";
-  return text + "</tbody>\n</table>\n";
+  return text + "</tbody>\n</table></div>\n";
 }
 
 std::string heading_html(const Heading& heading, const std::vector<std::string>& more) {
@@ -78,12 +98,23 @@ std::string heading_html(const Heading& heading, const std::vector<std::string>&
   return items_html(items);
 }
 
+namespace {
+
+std::string verdicts_table_html(const std::vector<Verdict>& verdicts) {
+  std::string text =
+      "<table class=\"words\">\n<thead><tr><th>claim</th><th>verdict</th><th>measured</th></tr></thead>\n<tbody>\n";
+  for (const Verdict& verdict : verdicts) text += "<tr>" + verdict_cells(verdict) + "</tr>\n";
+  return text + "</tbody>\n</table>\n";
+}
+
+}  // namespace
+
 std::string section_html(const Section& section) {
   std::string text =
       fmt::format("<section id=\"{}\">\n<h2>{}: {}</h2>\n", section.name, section.name, xml_text(section.title));
   if (!section.problem.empty()) text += fmt::format("<p class=\"problem\">{}</p>\n", xml_text(section.problem));
   if (!section.words.paragraph.empty()) text += fmt::format("<p>{}</p>\n", xml_text(section.words.paragraph));
-  if (!section.words.verdicts.empty()) text += table_html(verdict_table(section.words.verdicts));
+  if (!section.words.verdicts.empty()) text += verdicts_table_html(section.words.verdicts);
   text += section.svg;
   if (!section.words.numbers.rows.empty()) text += table_html(section.words.numbers);
   std::vector<std::string> notes;

@@ -40,6 +40,10 @@ std::string heading_markdown(const Heading& heading);
 // Returns a page of one section, whose plot is NAME.svg beside it.
 std::string page_markdown(const Section& section, const Heading& heading);
 
+// Returns the cells of a claim, its verdict, coloured, and what was measured. verdict_style() is their CSS.
+std::string verdict_cells(const Verdict& verdict);
+const char* verdict_style();
+// Returns a table that can be scrolled sideways where the page is narrow.
 std::string table_html(const NumberTable& table);
 // more: items in addition to those of the heading, after the scene.
 std::string heading_html(const Heading& heading, const std::vector<std::string>& more = {});

@@ -1,45 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
-#include "study/cache_claims.hpp"
 #include "study/entry_views.hpp"
 #include "study/experiment.hpp"
 #include "study/order_claims.hpp"
+#include "study/standing_claims.hpp"
 #include "study/table_regions.hpp"
 
 namespace wavetracer::study {
 namespace {
 
-using Names = std::vector<std::string>;
-
-// Numbers of bins beside the thesis'.
-constexpr uint32_t finer_bins[] = {32, 64, 128};
 constexpr uint64_t operation_rays = 50000;
 constexpr uint64_t large_buffer = 10 * thesis_chained_buffer;
-const Names chained_tables = {"chained uniform", "chained Morton", "chained mixed"},
-            mutexes = {"mutex uniform", "mutex Morton", "mutex mixed"},
-            readers = {"readers uniform", "readers Morton", "readers mixed"};
-
-Names counted_names(Names names) {
-  for (std::string& name : names) name = counted_name(name);
-  return names;
-}
-
-// Returns our tables, then the same as the thesis prints them.
-Names with_printed(Names names) {
-  const Names ours = names;
-  for (const std::string& name : ours) names.push_back("printed " + name);
-  return names;
-}
-
-const Names all_chained = with_printed(chained_tables), all_mutexes = with_printed(mutexes),
-            printed_chained = Names(all_chained.begin() + 3, all_chained.end()),
-            printed_mutexes = Names(all_mutexes.begin() + 3, all_mutexes.end()),
-            mutexes_and_chained = with_printed({"mutex uniform", "mutex Morton", "mutex mixed", "chained mixed"});
-const Names printed_readers = {"printed readers uniform", "printed readers Morton", "printed readers mixed"},
-            chained_counted = counted_names(all_chained), mutexes_counted = counted_names(all_mutexes);
-
-constexpr const char* no_time_of_a_ray = "rays are traced in packets and groups, so that no ray has a time of its own";
 constexpr const char* operations_caption =
     "Time per segment of the cache's operations against the depth of the segment";
 constexpr const char* regions_caption = "Time per segment of the cache's operations in each region of the table";
@@ -74,60 +46,26 @@ CacheStudy rays_study(const std::string& name, std::vector<Setting> settings) {
   return study;
 }
 
-bool writes_longer_than_reads(const CacheRow& row) { return write_ns(row) > read_ns(row); }
-bool writes_as_three_reads(const CacheRow& row) {
-  const double reads = write_ns(row) / read_ns(row);
-  return reads >= 2.5 && reads <= 3.5;
-}
-bool gathers_quickly(const CacheRow& row) { return gather_ns(row) < 0.1 * write_ns(row); }
-// Judges the chained tables that keep their entries.
-Judge<CacheRow> of_entries(std::optional<bool> (*holds)(const EntrySummary&)) {
-  return of_each(chained_counted, [holds](const CacheRow& row) { return holds(row.entries); });
-}
-bool some_unused(const CacheRow& row) { return entries_used(row) < row.cache.entries; }
-bool some_never_answer(const CacheRow& row) { return row.cache.entries_by_hits.front() > 0; }
-
-// Returns the claims of figures 6.3 and 6.7 about tracing a segment against looking it up.
-Claims<CacheRow> trace_claims(const Names& settings) {
-  return {{"tracing takes longer than a read",
-           of_each(settings, [](const CacheRow& row) { return trace_ns(row) > read_ns(row); })},
-          {"tracing takes longer than ten reads",
-           of_each(settings, [](const CacheRow& row) { return trace_ns(row) > 10 * read_ns(row); })},
-          {"tracing takes longer than a write",
-           of_each(settings, [](const CacheRow& row) { return trace_ns(row) > write_ns(row); })}};
-}
-
-// Returns the other claims of figure 6.3.
-Claims<CacheRow> bucket_claims() {
-  Claims<CacheRow> claims = trace_claims(all_chained);
-  claims.push_back({"tracing takes longer for buckets than for other nodes", not_judged(no_time_of_a_ray)});
-  return claims;
-}
-// Returns the other claims of figure 6.7.
-Claims<CacheRow> region_claims() {
-  Claims<CacheRow> claims = trace_claims(all_mutexes);
-  claims.push_back({"regions that take longer to write and read are faster to trace",
-                    across_regions(all_mutexes, access_ns, trace_ns, true)});
-  claims.push_back({"busier regions are faster to trace", across_regions(all_mutexes, region_lookups, trace_ns, true)});
-  return claims;
-}
-
 OrderFigure all_orders() {
   Series direction_origin = ordered("direction-origin");
   direction_origin.each_depth = true;  // the method is meant for rays that no longer share their origin
   const std::string h3dh = "hilbert3d-histogram", hz = "morton-histogram", to_2d = h3dh + "-hilbert2d",
                     to_3d = h3dh + "-hilbert3d";
-  Claims<OrderRow> claims = h3dh_gains();
-  claims.push_back({"H3DH and HZ are the fastest of the six orders, at {most} rays",
-                    fastest_are({h3dh, hz}, {"morton", to_2d, to_3d})});
+  Claims<OrderRow> claims = repeated(h3dh_gains());
   claims.push_back(
-      {"WS is the slowest, at every number of rays", none_slower_than_ws({"morton", h3dh, hz, to_2d, to_3d})});
-  claims.push_back({"Z is slightly slower than H3DH and HZ, by a quarter at most, at {most} rays",
-                    slightly_slower("morton", {h3dh, hz})});
-  claims.push_back({"H3DH2DH is not slower than Z up to 50,000,000 rays", no_slower(to_2d, "morton", 0, 50000000)});
+      {"H3DH and HZ are the fastest of the six orders", fastest_are({h3dh, hz}, {"morton", to_2d, to_3d})});
+  claims.push_back(
+      {"WS is the slowest, at every number of rays", all_faster_than_ws({"morton", h3dh, hz, to_2d, to_3d})});
+  claims.push_back(
+      {"Z is slightly slower than H3DH and HZ, by a quarter at most", slightly_slower("morton", {h3dh, hz})});
+  claims.push_back(
+      {"H3DH2DH is not slower than Z up to 50,000,000 rays", no_slower(to_2d, "morton"), Range{50000, 50000000}});
   claims.push_back({"H3DH2DH degrades sharply beyond 50,000,000 rays", degrades_beyond(to_2d, h3dh, 50000000)});
-  claims.push_back({"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d, 0, 16777216)});
-  claims.push_back({"launches in two or three dimensions gain nothing over the same order in one", shapes_gain()});
+  claims.push_back(
+      {"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d), Range{50000, 16777216}});
+  claims = over_bins(claims);
+  claims.push_back(
+      {"launches in two or three dimensions gain nothing over the same order in one", shapes_gain_nothing()});
   std::vector<Series> series = {unordered(),
                                 ordered("morton"),
                                 ordered(h3dh),
@@ -140,9 +78,10 @@ OrderFigure all_orders() {
                                 with_shape(unordered(), "3d"),
                                 with_shape(ordered(h3dh), "2d"),
                                 with_shape(ordered(h3dh), "3d")};
-  for (const uint32_t bins : finer_bins)
-    for (const std::string& method : {h3dh, hz, to_2d, to_3d}) series.push_back(with_bins(ordered(method), bins));
-  return {.series = series, .moves = false, .claims = claims};
+  return {.series = with_finer_bins(series, {h3dh, hz, to_2d, to_3d}),
+          .moves = false,
+          .claims = claims,
+          .range = {50000, Range::open}};
 }
 
 const auto chained_operations =
@@ -188,13 +127,7 @@ const std::vector<Experiment> standing = {
                   "What the table adds besides is the gathering of missed rays.",
      .figure =
          CacheFigure{
-             .study = chained_operations,
-             .view = operations_by_tree_depth(all_chained),
-             .claims = {{"writes take longer than reads", of_each(all_chained, writes_longer_than_reads)},
-                        {"the rest takes next to nothing: gathering less than a tenth of a write",
-                         of_each(all_chained, gathers_quickly)},
-                        {"writes take longer in buckets than in other nodes", of_entries(writes_longer_in_buckets)},
-                        {"reads take longer in buckets than in other nodes", of_entries(reads_longer_in_buckets)}}}},
+             .study = chained_operations, .view = operations_by_tree_depth(all_chained), .claims = write_claims()}},
     {.name = "figure-6.3",
      .doc = "chained cache: writes and reads against tracing",
      .title = "Operations of the chained table and tracing",
@@ -212,13 +145,7 @@ const std::vector<Experiment> standing = {
      .paragraph = "The thesis finds hits spread evenly over the entries, entries of the buffer that are never used, "
                   "and some that are but never answer (section 6.3.1, figure 6.4). Measured on {device} at {rays} "
                   "rays, after a cold frame and a warm one.",
-     .figure = CacheFigure{.study = chained_operations,
-                           .view = hits_along_table(all_chained),
-                           .claims = {{"hits are spread over the entries at least as evenly as by chance",
-                                       of_entries(are_even)},
-                                      {"there are no clusters of busy entries", of_entries(is_without_clusters)},
-                                      {"some entries are left unused", of_each(chained_counted, some_unused)},
-                                      {"some entries never answer", of_each(chained_counted, some_never_answer)}}}},
+     .figure = CacheFigure{.study = chained_operations, .view = hits_along_table(all_chained), .claims = hit_claims()}},
     {.name = "figure-6.5",
      .doc = "chained cache against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the chained table",
@@ -226,17 +153,9 @@ const std::vector<Experiment> standing = {
      .paragraph = "The thesis finds no chained cache of 50,000 entries faster than none, whatever the hash, "
                   "but between 2,560,000 and 10,240,000 rays (section 6.3.1, figure 6.5). "
                   "Measured on {device} with a warm table, one of them saves time {saves}.",
-     .figure = CacheFigure{.study = chained_rays,
-                           .view = times_by_rays,
-                           .claims = {{"no gain below 2,560,000 and beyond 10,240,000 rays",
-                                       everywhere(outside(2560000, 10240000), saves_not(chained_tables))},
-                                      {"a gain from 2,560,000 to 10,240,000 rays",
-                                       everywhere(between(2560000, 10240000), saves(chained_tables))},
-                                      {"as printed: no gain below 2,560,000 and beyond 10,240,000 rays",
-                                       everywhere(outside(2560000, 10240000), saves_not(printed_chained))},
-                                      {"as printed: a gain from 2,560,000 to 10,240,000 rays",
-                                       everywhere(between(2560000, 10240000), saves(printed_chained))}},
-                           .settings = chained_tables}},
+     .figure =
+         CacheFigure{
+             .study = chained_rays, .view = times_by_rays, .claims = window_claims(), .settings = chained_tables}},
     {.name = "figure-6.6",
      .doc = "open cache: what a write and a read of a segment take, by hash",
      .title = "Operations of the open table",
@@ -244,21 +163,7 @@ const std::vector<Experiment> standing = {
      .paragraph = "The thesis finds most writes to the open table to take three times as long as most reads (60 ms "
                   "against 20 ms), and both to take less than in the chained table (section 6.3.1, figure 6.6). "
                   "Measured on {device} at {rays} rays.",
-     .figure = CacheFigure{.study = open_operations,
-                           .view = regions(mutexes_and_chained),
-                           .claims = {{"writes take longer than reads", of_each(all_mutexes, writes_longer_than_reads)},
-                                      {"writes take three times as long as reads",
-                                       of_each(all_mutexes, writes_as_three_reads)},
-                                      {"the rest takes next to nothing: gathering less than a tenth of a write",
-                                       of_each(all_mutexes, gathers_quickly)},
-                                      {"busier regions take longer to write",
-                                       across_entries(mutexes_counted, &EntryGroup::write_cycles)},
-                                      {"busier regions take longer to read",
-                                       across_entries(mutexes_counted, &EntryGroup::read_cycles)},
-                                      {"writes take less than in the chained table, with the mixed hash",
-                                       is_less(write_ns, "mutex mixed", "chained mixed")},
-                                      {"reads take less than in the chained table, with the mixed hash",
-                                       is_less(read_ns, "mutex mixed", "chained mixed")}}}},
+     .figure = CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained), .claims = lock_claims()}},
     {.name = "figure-6.7",
      .doc = "open cache: writes and reads against tracing",
      .title = "Operations of the open table and tracing",
@@ -275,20 +180,7 @@ const std::vector<Experiment> standing = {
                   "most with the mixed hash, then with the uniform one, then with Morton codes (section 6.3.1, "
                   "figure 6.8). "
                   "Measured on {device} with a warm table, one of them saves time {saves}.",
-     .figure = CacheFigure{.study = open_rays,
-                           .view = times_by_rays,
-                           .claims = {{"the time of no cache, within 10%, up to 50,000 rays",
-                                       everywhere(up_to(50000), all_take_the_time_of_none(readers, 10))},
-                                      {"a gain beyond 50,000 rays", everywhere(above(50000), saves(readers))},
-                                      {"the mixed hash is the fastest beyond 50,000 rays",
-                                       everywhere(above(50000), fastest_is("readers mixed", readers))},
-                                      {"Morton codes are the slowest of the three beyond 50,000 rays",
-                                       everywhere(above(50000), slowest_is("readers Morton", readers))},
-                                      {"a gain from fewer rays on than with the chained table, with the mixed hash",
-                                       gains_earlier("readers mixed", "chained mixed")},
-                                      {"as printed: a gain beyond 50,000 rays",
-                                       everywhere(above(50000), saves(printed_readers))}},
-                           .settings = readers}},
+     .figure = CacheFigure{.study = open_rays, .view = times_by_rays, .claims = open_claims(), .settings = readers}},
     {.name = "figure-6.9",
      .doc = "open cache with a mutex against none, rays in order",
      .title = "Frames with the open table, rays in order",
@@ -297,13 +189,9 @@ const std::vector<Experiment> standing = {
                   "the thesis finds the open table to save time from some 16,000 rays on, "
                   "2 s at most at 2,048,000 (section 6.3.1, figure 6.9). Measured on {device} with a warm table, "
                   "one of them saves time {saves}.",
-     .figure = CacheFigure{.study = open_rays_ordered,
-                           .view = times_by_rays,
-                           .claims = {{"a gain beyond 16,000 rays", everywhere(above(16000), saves(mutexes))},
-                                      {"most seconds are saved at 2,048,000 rays", saves_most_at(mutexes, 2048000)},
-                                      {"as printed: a gain beyond 16,000 rays",
-                                       everywhere(above(16000), saves(printed_mutexes))}},
-                           .settings = mutexes}},
+     .figure =
+         CacheFigure{
+             .study = open_rays_ordered, .view = times_by_rays, .claims = ordered_claims(), .settings = mutexes}},
 };
 
 }  // namespace

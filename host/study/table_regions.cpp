@@ -3,6 +3,7 @@
 // Rows are those of add_regions() of cache_study.cpp.
 #include "study/table_regions.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include "study/entry_views.hpp"
 #include "study/ray_counts.hpp"
@@ -92,27 +93,31 @@ struct RegionPairs {
 Judge<CacheRow> correlated(std::vector<std::string> settings,
                            std::function<RegionPairs(const CacheRows&, const std::string&)> pairs, bool opposite) {
   return [=](const CacheRows& rows) {
-    std::vector<std::string> yes, no;
-    Tally tally;
+    Cases out{.form = correlation_form()};
     for (const std::string& setting : settings) {
       const RegionPairs regions = pairs(rows, setting);
       const double found = regions.a.size() < 3 ? undefined : pearson(regions.a, regions.b);
-      if (std::isnan(found)) continue;
-      const bool holds = opposite ? found <= -clear_correlation : found >= clear_correlation;
-      tally.add(holds);
-      (holds ? yes : no).push_back(fmt::format("\"{}\" ({:.2f})", setting, found));
+      if (!std::isnan(found))
+        out.all.push_back({'"' + setting + '"', 0, correlates(opposite ? -found : found, regions.a.size()), found});
     }
-    if (yes.empty() && no.empty()) return not_measured();
-    const std::string words =
-        yes.empty() ? "not confirmed for " + list_words(no)
-                    : "confirmed for " + list_words(yes) + (no.empty() ? "" : ", not for " + list_words(no));
-    return Judgement{tally.outcome(), words};
+    return out;
   };
 }
 
 }  // namespace
 
-Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite) {
+Answer correlates(double coefficient, size_t pairs) {
+  if (std::isnan(coefficient)) return Answer::absent;
+  if (pairs <= 3) return Answer::undecided;
+  // Transformed coefficients are normal, with a standard error of one over the root of n - 3.
+  const double error = 1 / std::sqrt(static_cast<double>(pairs) - 3),
+               // Rounding makes coefficients of exact lines larger than 1.
+      distance = std::atanh(std::clamp(coefficient, -1.0, 1.0)) - std::atanh(clear_correlation);
+  if (std::abs(distance) <= noise_factor * error) return Answer::undecided;
+  return distance > 0 ? Answer::yes : Answer::no;
+}
+
+Judge<CacheRow> across_regions(std::vector<std::string> settings, RegionValue value, RegionValue with, bool opposite) {
   const auto pairs = [=](const CacheRows& rows, const std::string& setting) {
     RegionPairs out;
     for (const CacheRow* row : regions_of(rows, setting)) {

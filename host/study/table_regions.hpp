@@ -14,12 +14,18 @@ CacheView regions(std::vector<std::string> settings, bool with_trace = false);
 double region_lookups(const CacheRow& row);  // a measure of how busy it is
 double access_ns(const CacheRow& row);       // a write and a read
 
-// Judges for each of these settings whether two values of the regions correlate: "confirmed for "A" (0.91), not for "B"
-// (-0.20)". The limit is a correlation of at least a half, or at most minus a half if they are claimed to be opposite;
-// "not measured" if there are fewer than three regions.
-Judge<CacheRow> across_regions(std::vector<std::string> settings, CacheValue value, CacheValue with, bool opposite);
-// Judges in the same way the entries of each region, whose hits measure how busy it is, in one frame of all
+// A number of a region.
+using RegionValue = double (*)(const CacheRow&);
+
+// Answers for each of these settings whether two values of the regions correlate: by at least a half, or by at most
+// minus a half if they are claimed to be opposite. The noise is that of a coefficient of so few pairs (R. A. Fisher,
+// Metron 1921); with three regions or fewer nothing is decided.
+Judge<CacheRow> across_regions(std::vector<std::string> settings, RegionValue value, RegionValue with, bool opposite);
+// Answers in the same way for the entries of each region, whose hits measure how busy it is, in one frame of all
 // transmitters.
 Judge<CacheRow> across_entries(std::vector<std::string> settings, double EntryGroup::*cycles);
+
+// Answers whether a coefficient of `pairs` pairs is at least a half.
+Answer correlates(double coefficient, size_t pairs);
 
 }  // namespace wavetracer::study

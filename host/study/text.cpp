@@ -5,6 +5,7 @@
 #include <fmt/args.h>
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wavetracer::study {
@@ -28,10 +29,14 @@ std::string line(const std::vector<std::string>& cells, const std::vector<size_t
 
 }  // namespace
 
+std::string_view word(Origin origin) {
+  static constexpr std::array words = {"thesis", "other author", "repetition"};
+  return words.at(static_cast<size_t>(origin));
+}
+
 NumberTable verdict_table(const std::vector<Verdict>& verdicts) {
   NumberTable out{.caption = "", .heads = {"claim", "verdict", "measured"}, .rows = {}};
-  for (const auto& [claim, outcome, measured] : verdicts)
-    out.rows.push_back({claim, std::string(word(outcome)), measured});
+  for (const Verdict& one : verdicts) out.rows.push_back({one.claim, std::string(word(one.outcome)), one.measured});
   return out;
 }
 
@@ -80,8 +85,6 @@ std::string saved_words(double percentage) {
   if (std::abs(percentage) < 0.5) return "the same time";
   return percent(std::abs(percentage)) + (percentage > 0 ? " less time" : " more time");
 }
-
-std::string verdict(bool holds) { return holds ? "confirmed" : "not confirmed"; }
 
 std::string list_words(const std::vector<std::string>& words) {
   std::string text;

@@ -5,15 +5,26 @@
 #pragma once
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 #include "study/judgement.hpp"
 
 namespace wavetracer::study {
 
+// The author of a claim. Each is counted apart.
+enum class Origin {
+  thesis,     // A. Zhdanov
+  other,      // another author, whom the claim names
+  repetition  // a claim of another figure, or the same about other tables, such as those as printed
+};
+// Returns "thesis", "other author" or "repetition".
+std::string_view word(Origin origin);
+
 struct Verdict {
   std::string claim;
   ClaimOutcome outcome;
   std::string measured;
+  Origin origin = Origin::thesis;
 };
 
 struct NumberTable {
@@ -46,8 +57,6 @@ std::string plain(double value, int digits = 3);
 std::string share_words(double share);
 // Returns "12% less time", "3.0% more time", or "the same time" within half a percent.
 std::string saved_words(double percent);
-// Returns "confirmed" or "not confirmed".
-std::string verdict(bool holds);
 // Returns "a, b and c".
 std::string list_words(const std::vector<std::string>& words);
 

@@ -125,9 +125,9 @@ Report run_thesis(const std::function<Request(const Experiment&)>& request_for, 
     write_so_far(page, first.config.output.directory);
   }
   write_page(page, first.config.output.directory, host, report);
-  report.text =
-      markdown(verdicts_of(page.figures)) +
-      fmt::format("\n\n{}\n{} of {} figures are whole", outcome_counts(page.figures), report.points, report.planned);
+  report.text = markdown(verdicts_of(page.figures)) + fmt::format("\n\n{}\n\n{} of {} figures are whole",
+                                                                  markdown(outcome_counts(page.figures)), report.points,
+                                                                  report.planned);
   return report;
 }
 

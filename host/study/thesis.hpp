@@ -24,12 +24,11 @@ struct ThesisPage {
 std::string family(const std::string& setting);
 // Returns the table thesis.csv and what draws it: time saved against errors, a point per row.
 plots::Figure speed_error_figure(const std::vector<CacheRow>& rows, const std::string& device);
-// Returns every claim with its outcome and what was measured; for a figure without claims, its result. Columns: figure,
-// claim, verdict, measured.
+// Returns every claim with its origin, its outcome and what was measured; for a figure without claims, its result.
+// Columns: figure, claim, origin, verdict, measured.
 NumberTable verdicts_of(const std::vector<Section>& figures);
-// Returns "Of 90 claims, 40 are reproduced, 10 are exceeded, 20 hold in part, 15 are refuted, and 5 could not be
-// judged."
-std::string outcome_counts(const std::vector<Section>& figures);
+// Returns how many claims of each origin have each outcome; figures without claims do not count.
+NumberTable outcome_counts(const std::vector<Section>& figures);
 std::string thesis_html(const ThesisPage& page);
 // Returns the verdicts, then every figure's words and plot, which is NAME.svg beside it.
 std::string thesis_markdown(const ThesisPage& page);

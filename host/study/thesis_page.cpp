@@ -3,6 +3,7 @@
 // Only the names in a row of the table may need escapes.
 #include <fmt/format.h>
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <tuple>
 #include "base/html_page.hpp"
@@ -46,14 +47,33 @@ NumberTable speed_error_numbers(const std::vector<CacheRow>& rows) {
   return table;
 }
 
+struct FigureVerdict {
+  std::string figure;
+  Verdict verdict;
+  bool is_claim = true;  // false: it stands for a figure without a claim or without a result
+};
+
+std::vector<FigureVerdict> figure_verdicts(const std::vector<Section>& figures) {
+  std::vector<FigureVerdict> out;
+  for (const Section& figure : figures) {
+    for (const Verdict& verdict : figure.words.verdicts) out.push_back({figure.name, verdict});
+    if (figure.words.paragraph.empty())
+      out.push_back({figure.name, {figure.title, ClaimOutcome::not_measured, figure.problem}, false});
+    else if (figure.words.verdicts.empty())
+      out.push_back({figure.name,
+                     {figure.title, ClaimOutcome::not_judged, "no claim to judge; the numbers are in its section"},
+                     false});
+  }
+  return out;
+}
+
 // Lists every claim, and where the page has more about it.
 std::string verdicts_html(const std::vector<Section>& figures) {
-  std::string text = "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n<p>" + outcome_counts(figures) +
-                     "</p>\n<table class=\"words\">\n<thead><tr><th>figure</th>"
+  std::string text = "<section id=\"verdicts\">\n<h2>Verdicts</h2>\n" + table_html(outcome_counts(figures)) +
+                     "<table class=\"words\">\n<thead><tr><th>figure</th>"
                      "<th>claim</th><th>verdict</th><th>measured</th></tr></thead>\n<tbody>\n";
-  for (const auto& row : verdicts_of(figures).rows)
-    text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n", row[0],
-                        xml_text(row[1]), xml_text(row[2]), xml_text(row[3]));
+  for (const FigureVerdict& one : figure_verdicts(figures))
+    text += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td>{1}</tr>\n", one.figure, verdict_cells(one.verdict));
   return text +
          "</tbody>\n</table>\n<p><a href=\"#speed-error\">Speed against error of all caches</a></p>\n"
          "</section>\n";
@@ -62,31 +82,32 @@ std::string verdicts_html(const std::vector<Section>& figures) {
 }  // namespace
 
 NumberTable verdicts_of(const std::vector<Section>& figures) {
-  NumberTable table{.caption = "", .heads = {"figure", "claim", "verdict", "measured"}, .rows = {}};
-  for (const Section& figure : figures) {
-    std::vector<Verdict> verdicts = figure.words.verdicts;
-    if (figure.words.paragraph.empty())
-      verdicts = {{figure.title, ClaimOutcome::not_judged, figure.problem}};
-    else if (verdicts.empty())
-      verdicts = {{figure.title, ClaimOutcome::not_judged, "no claim to judge; the numbers are in its section"}};
-    for (const auto& [claim, outcome, measured] : verdicts)
-      table.rows.push_back({figure.name, claim, std::string(word(outcome)), measured});
-  }
+  NumberTable table{.caption = "", .heads = {"figure", "claim", "origin", "verdict", "measured"}, .rows = {}};
+  for (const auto& [figure, verdict, is_claim] : figure_verdicts(figures))
+    table.rows.push_back({figure, verdict.claim, is_claim ? std::string(word(verdict.origin)) : "no claim",
+                          std::string(word(verdict.outcome)), verdict.measured});
   return table;
 }
 
-std::string outcome_counts(const std::vector<Section>& figures) {
-  std::map<ClaimOutcome, size_t> counts;
-  size_t claims = 0;
-  for (const Section& figure : figures)
-    for (const Verdict& verdict : figure.words.verdicts) {
-      ++counts[verdict.outcome];
-      ++claims;
-    }
-  return fmt::format(
-      "Of {} claims, {} are reproduced, {} are exceeded, {} hold in part, {} are refuted, and {} could not be judged.",
-      claims, counts[ClaimOutcome::reproduced], counts[ClaimOutcome::exceeded], counts[ClaimOutcome::in_part],
-      counts[ClaimOutcome::refuted], counts[ClaimOutcome::not_judged]);
+NumberTable outcome_counts(const std::vector<Section>& figures) {
+  NumberTable table{.caption =
+                        "Claims by origin and verdict. A repetition is a claim of another figure, or the same "
+                        "claim about other tables, such as those as printed.",
+                    .heads = {"origin", "claims"},
+                    .rows = {}};
+  for (const ClaimOutcome outcome : outcomes()) table.heads.emplace_back(word(outcome));
+  const std::vector<FigureVerdict> all = figure_verdicts(figures);
+  for (const Origin origin : {Origin::thesis, Origin::other, Origin::repetition}) {
+    const auto count = [&](const std::function<bool(ClaimOutcome)>& counts) {
+      return std::to_string(std::ranges::count_if(all, [&](const FigureVerdict& one) {
+        return one.is_claim && one.verdict.origin == origin && counts(one.verdict.outcome);
+      }));
+    };
+    table.rows.push_back({std::string(word(origin)), count([](ClaimOutcome) { return true; })});
+    for (const ClaimOutcome outcome : outcomes())
+      table.rows.back().push_back(count([outcome](ClaimOutcome one) { return one == outcome; }));
+  }
+  return table;
 }
 
 std::string family(const std::string& setting) {
@@ -141,13 +162,13 @@ std::string thesis_html(const ThesisPage& page) {
         page.svg + table_html(speed_error_numbers(page.rows));
   text += "</section>\n";
   for (const Section& figure : page.figures) text += section_html(figure);
-  return html_page("Ray orders and ray caches", "body{max-width:1280px}.problem{color:#b00}", text);
+  return html_page("Ray orders and ray caches", std::string("body{max-width:1280px}") + verdict_style(), text);
 }
 
 std::string thesis_markdown(const ThesisPage& page) {
   std::string text = "# Ray orders and ray caches: the thesis' figures, measured\n\n" + heading_markdown(page.heading) +
-                     "\n## Verdicts\n\n" + outcome_counts(page.figures) + "\n\n" + markdown(verdicts_of(page.figures)) +
-                     "\n\n## Speed against error\n\n";
+                     "\n## Verdicts\n\n" + markdown(outcome_counts(page.figures)) + "\n\n" +
+                     markdown(verdicts_of(page.figures)) + "\n\n## Speed against error\n\n";
   if (std::none_of(page.rows.begin(), page.rows.end(), shown))
     text += "No cache was measured.\n";
   else if (page.svg.empty())

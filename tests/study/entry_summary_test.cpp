@@ -57,20 +57,22 @@ TEST_CASE("groups by depth and region: what no search finds is in no depth, what
   CHECK(found.by_region[0].read_cycles == 200);
   CHECK(found.by_region[1].hits == 6);
   CHECK(found.by_region[1].write_cycles == 155);
-  CHECK(reads_longer_in_buckets(found) == false);
-  CHECK(writes_longer_in_buckets(found) == false);
+  CHECK(read_levels(found).bucket.value == 100);
+  CHECK(read_levels(found).below.value == 400);
+  CHECK(write_levels(found).bucket.value == 60);
+  CHECK(write_levels(found).bucket.error == doctest::Approx(10));  // 50 and 70
 }
 
-TEST_CASE("buckets that take longer, and tables that cannot say") {
+TEST_CASE("averages of buckets and of what is below them, and tables that have none") {
   const auto with = [](uint32_t bucket, uint32_t below) {
     return summary_of(rows_of({{0, 0, 1, 1, bucket, bucket}, {1, 0, 2, 1, below, below}}));
   };
-  CHECK(reads_longer_in_buckets(with(300, 200)) == true);
-  CHECK(writes_longer_in_buckets(with(300, 200)) == true);
-  CHECK(writes_longer_in_buckets(with(200, 300)) == false);
-  CHECK_FALSE(reads_longer_in_buckets(with(0, 0)).has_value());    // no clock
-  CHECK_FALSE(reads_longer_in_buckets(with(300, 0)).has_value());  // no entry further down answered
-  CHECK_FALSE(reads_longer_in_buckets(summary_of({})).has_value());
+  CHECK(read_levels(with(300, 200)).bucket.value == 300);
+  CHECK(write_levels(with(300, 200)).below.value == 200);
+  CHECK(write_levels(with(300, 200)).below.error == 200);    // one entry: nothing is known
+  CHECK(std::isnan(read_levels(with(0, 0)).bucket.value));   // no clock
+  CHECK(std::isnan(read_levels(with(300, 0)).below.value));  // no entry further down answered
+  CHECK(std::isnan(read_levels(summary_of({})).bucket.value));
 }
 
 TEST_CASE("one operation in a hundred that is interrupted does not move a mean") {
@@ -85,23 +87,21 @@ TEST_CASE("hits by chance: both numbers are near 1; more even: less; crowded ent
   const EntrySummary chance = spread([&](uint32_t) { return poisson(random); });
   CHECK(chance.dispersion == doctest::Approx(1).epsilon(0.05));
   CHECK(chance.clustering == doctest::Approx(1).epsilon(0.6));  // there are 50 runs: a standard deviation of 0.2
-  CHECK(are_even(chance) == true);
-  CHECK(is_without_clusters(chance) == true);
+  CHECK(measured_dispersion(chance).error == doctest::Approx(std::sqrt(2 / 19999.0) * chance.dispersion));
+  CHECK(measured_clustering(chance).error == doctest::Approx(std::sqrt(2 / 49.0) * chance.clustering));
   const EntrySummary alike = spread([](uint32_t) { return 2u; });
   CHECK(alike.dispersion == 0);
   CHECK(alike.clustering == 0);
-  CHECK(are_even(alike) == true);
   const EntrySummary crowded = spread([&](uint32_t) { return random() % 10 == 0 ? 30u : 0u; });  // anywhere
   CHECK(crowded.dispersion == doctest::Approx(27).epsilon(0.1));
-  CHECK(are_even(crowded) == false);
-  CHECK(is_without_clusters(crowded) == true);
+  CHECK(crowded.clustering < 2);
   const EntrySummary clustered = spread([&](uint32_t slot) { return poisson(random) + (slot < 4000 ? 1u : 0u); });
-  CHECK(is_without_clusters(clustered) == false);
+  CHECK(clustered.clustering > 3);
 }
 
 TEST_CASE("no entries, and entries that were never asked") {
-  CHECK_FALSE(are_even(summary_of({})).has_value());
-  CHECK_FALSE(is_without_clusters(summary_of({})).has_value());
-  CHECK_FALSE(are_even(spread([](uint32_t) { return 0u; })).has_value());
+  CHECK(std::isnan(measured_dispersion(summary_of({})).value));
+  CHECK(std::isnan(measured_clustering(summary_of({})).value));
+  CHECK(std::isnan(measured_dispersion(spread([](uint32_t) { return 0u; })).value));
   CHECK(summary_of({}).runs.empty());
 }

@@ -61,47 +61,61 @@ TEST_CASE("the control equation's C_E is the root of the rays that a launch has 
 }
 
 TEST_CASE("claim: of a group one ray is traced") {
-  const auto judge = one_ray_a_group({"a"});
-  CHECK(judge({row_at("a", 1000, 1, 300, 700)}) == "confirmed");
-  CHECK(judge({row_at("a", 1000, 1, 300, 600)}) == "not confirmed");  // 400 were traced
-  CHECK(judge({row_at("a", 1000, 1, 0, 1000)}) == "not confirmed");
-  CHECK(judge({row_at("b", 1000, 1, 300, 700)}) == "not measured");
+  const auto outcome = [](double groups, double shared) {
+    return outcome_of(one_ray_a_group({"a"})({row_at("a", 1000, 1, groups, shared)}));
+  };
+  CHECK(outcome(300, 700) == ClaimOutcome::reproduced);
+  CHECK(outcome(300, 600) == ClaimOutcome::refuted);  // 400 were traced
+  CHECK(outcome(0, 1000) == ClaimOutcome::refuted);
+  CHECK(outcome(299, 700) == ClaimOutcome::undecided);
+  CHECK(one_ray_a_group({"b"})({row_at("a", 1000, 1, 300, 700)}).all.empty());
 }
 
 TEST_CASE("claim: coherence inside the frame saves time") {
-  const CacheRow faster = with_saving(row_at("a", 1000, 1, 300, 700), 10), slower = with_saving(faster, -10);
-  CacheRow later = slower;
-  later.rays = 2000;
-  CHECK(somewhere_faster(names, 1)({faster, later}) == "at 1,000 rays");
-  CHECK(somewhere_faster(names, 1)({slower, later}) == "at none of the numbers of rays");
-  CHECK(somewhere_faster(names, 0.01)({with_loss(faster, 0.02), later}) == "at none of the numbers of rays");
-  CHECK(somewhere_faster({"c"}, 1)({faster}) == "not measured");
+  CacheRow none{.setting = "no cache", .rays = 1000};
+  none.warm = {.loop_s = 1};
+  none.warm_error.loop_s = 0.001;
+  CacheRow faster = with_saving(row_at("a", 1000, 1, 300, 700), 10);
+  faster.warm = {.loop_s = 0.9};
+  faster.warm_error.loop_s = 0.001;
+  none.drive = faster.drive = "still";
+  const auto outcome = [&](const CacheRow& row, double lost) {
+    return outcome_of(somewhere_faster(names, lost)({none, row}));
+  };
+  CHECK(outcome(faster, 1) == ClaimOutcome::reproduced);
+  CHECK(outcome(with_saving(faster, -10), 1) == ClaimOutcome::refuted);
+  CHECK(outcome(with_saving(faster, 0.1), 1) == ClaimOutcome::undecided);
+  CHECK(outcome(with_loss(faster, 0.02), 0.01) == ClaimOutcome::refuted);
+  CHECK(somewhere_faster({"c"}, 1)({none, faster}).all.empty());
 }
 
-TEST_CASE("claims of Popov: how many times fewer rays, how many times as fast") {
-  const CacheRow few = with_saving(row_at("a", 1000, 1, 10, 990), 75), many = row_at("a", 1000, 1, 500, 500);
-  CHECK(fewer_traced_times(50)({many, few}) == "confirmed: up to 100 times");
-  CHECK(fewer_traced_times(50)({many}) == "not confirmed: 2.00 times at most");
-  CHECK(fewer_traced_times(50)({row_at("a", 1000, 1, 0, 0)}) == "not measured");
-  CHECK(times_as_fast(2.5)({many, few}) == "confirmed: up to 4.00 times");
-  CHECK(times_as_fast(2.5)({with_saving(many, 50)}) == "not confirmed: 2.00 times at most");
+TEST_CASE("claims of Popov: how many times fewer rays") {
+  const CacheRow few = row_at("a", 1000, 1, 10, 990), many = row_at("a", 1000, 1, 500, 500);
+  const auto words = [](const CacheRows& rows) { return words_of(fewer_traced_times(50)(rows)); };
+  CHECK(words({many, few}) == "yes (up to 100 times)");
+  CHECK(words({many}) == "no (up to 2.00 times)");
+  CHECK(words({row_at("a", 1000, 1, 0, 0)}) == "not measured");
 }
 
-TEST_CASE("claim: a larger C_E errs more") {
-  const CacheRow fine = with_loss(row_at("a", 100000, 1, 1, 1), 0.01),
-                 coarse = with_loss(row_at("a", 100000, 4, 1, 1), 0.1);
-  CHECK(error_grows(names)({coarse, fine}) == "confirmed");
-  CHECK(error_grows(names)({with_loss(coarse, 0.001), fine}) == "not confirmed");
-  CHECK(error_grows(names)({fine}) == "not measured");
+TEST_CASE("claim: a larger C_E errs more, by more than the paths' number leaves open") {
+  CacheRow fine = with_loss(row_at("a", 100000, 1, 1, 1), 0.01), coarse = with_loss(row_at("a", 100000, 4, 1, 1), 0.1);
+  fine.error.reference_paths = coarse.error.reference_paths = 1000;
+  const auto outcome = [](const CacheRow& a, const CacheRow& b) { return outcome_of(error_grows(names)({a, b})); };
+  CHECK(outcome(coarse, fine) == ClaimOutcome::reproduced);
+  CHECK(outcome(with_loss(coarse, 0.001), with_loss(fine, 0.05)) == ClaimOutcome::refuted);
+  CHECK(outcome(with_loss(coarse, 0.011), fine) == ClaimOutcome::undecided);
 }
 
 TEST_CASE("claim: at equal C_E the error is the same whatever the number of rays") {
-  const CacheRow few = with_loss(row_at("a", 100000, 2, 1, 1), 0.01),
-                 many = with_loss(row_at("a", 900000, 2, 1, 1), 0.02);
-  CHECK(error_is_controlled(names, 3, 1e-3)({few, many}) == "confirmed");
-  CHECK(error_is_controlled(names, 3, 1e-3)({few, with_loss(many, 0.04)}) == "not confirmed");
-  CHECK(error_is_controlled(names, 3, 1e-3)({with_loss(few, 0), with_loss(many, 5e-4)}) == "confirmed");
-  CHECK(error_is_controlled(names, 3, 1e-3)({few}) == "not measured");
+  CacheRow few = with_loss(row_at("a", 100000, 2, 1, 1), 0.01), many = with_loss(row_at("a", 900000, 2, 1, 1), 0.02);
+  few.error.reference_paths = many.error.reference_paths = 100000;
+  const auto outcome = [](const CacheRow& a, const CacheRow& b) {
+    return outcome_of(error_is_controlled(names, 3, 1e-3)({a, b}));
+  };
+  CHECK(outcome(few, many) == ClaimOutcome::reproduced);
+  CHECK(outcome(few, with_loss(many, 0.04)) == ClaimOutcome::refuted);
+  CHECK(outcome(few, with_loss(many, 0.03)) == ClaimOutcome::undecided);
+  CHECK(outcome(with_loss(few, 0), with_loss(many, 5e-4)) == ClaimOutcome::reproduced);
 }
 
 TEST_CASE("innerframe: settings group by the control equation, at random and in order; every frame is alone") {

@@ -1,112 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests outcomes of claims on cases that are known by hand: a claim that holds, one that does not, and those in
-// between.
+// Tests the model of verdicts on numbers that are known by hand: comparisons with noise, shares of cases, ranges,
+// words.
 #include "study/judgement.hpp"
 #include <doctest/doctest.h>
+#include <cmath>
+#include "study/cache_claims.hpp"
 #include "study/cache_verdicts.hpp"
-#include "study/coherence_frames.hpp"
-#include "study/innerframe_claims.hpp"
-#include "study/made_order_rows.hpp"
-#include "study/order_claims.hpp"
+#include "study/short_answers.hpp"
+#include "study/table_regions.hpp"
 
 using namespace wavetracer::study;
 using namespace cache_verdicts;
+using namespace short_answers;
 
 namespace {
 
-ClaimOutcome outcome_of(const std::vector<std::pair<bool, bool>>& cases) {
-  Tally tally;
-  for (const auto& [holds, beyond] : cases) tally.add(holds, beyond);
-  return tally.outcome();
+Cases cases_of(const std::vector<Answer>& answers) {
+  Cases out;
+  for (const Answer answer : answers) out.all.push_back({"", out.all.size() + 1, answer});
+  return out;
 }
+ClaimOutcome outcome_of_answers(const std::vector<Answer>& answers) { return outcome_of(cases_of(answers)); }
 
 }  // namespace
 
-TEST_CASE("a tally: all, none, some, and all beyond what was claimed") {
-  CHECK(outcome_of({}) == ClaimOutcome::not_judged);
-  CHECK(outcome_of({{true, false}, {true, false}}) == ClaimOutcome::reproduced);
-  CHECK(outcome_of({{true, true}, {true, false}}) == ClaimOutcome::reproduced);
-  CHECK(outcome_of({{true, true}, {true, true}}) == ClaimOutcome::exceeded);
-  CHECK(outcome_of({{false, false}, {false, true}}) == ClaimOutcome::refuted);
-  CHECK(outcome_of({{true, true}, {false, false}}) == ClaimOutcome::in_part);
+TEST_CASE("comparisons decide beyond twice the standard error, and beyond a hundredth of the value") {
+  CHECK(above({1.21, 0.1}, 1) == yes);
+  CHECK(above({1.19, 0.1}, 1) == open);
+  CHECK(above({0.81, 0.1}, 1) == open);
+  CHECK(above({0.79, 0.1}, 1) == no);
+  CHECK(above({1.009, 0}, 1) == open);  // a factor of 1.01 and less decides nothing
+  CHECK(above({1.02, 0}, 1) == yes);
+  CHECK(above({1.04, std::nan("")}, 1) == open);  // its noise is not known
+  CHECK(above({1.06, std::nan("")}, 1) == yes);
+  CHECK(above({}, 1) == absent);
+  CHECK(below({0.98, 0}, 1) == yes);
+  CHECK(below({1.02, 0}, 1) == no);
+  CHECK(between({0.25, 0.01}, 0.2, 0.3) == yes);
+  CHECK(between({0.29, 0.01}, 0.2, 0.3) == open);
+  CHECK(between({0.4, 0.01}, 0.2, 0.3) == no);
+  CHECK(between({0, 0}, 0, 1) == yes);
+  CHECK(reaches({2.6, 0}, 2.5) == yes);
+  CHECK(reaches({2.8, 0}, 2.5) == more);
+  CHECK(reaches({2.51, 0}, 2.5) == open);
+  CHECK(reaches({2.4, 0}, 2.5) == no);
 }
 
-TEST_CASE("outcomes of worlds join to one: what was not judged speaks for nothing") {
-  const auto joined = [](std::initializer_list<ClaimOutcome> outcomes) {
-    Tally tally;
-    for (const ClaimOutcome outcome : outcomes) tally.add(outcome);
-    return tally.outcome();
-  };
-  CHECK(joined({ClaimOutcome::reproduced, ClaimOutcome::not_judged}) == ClaimOutcome::reproduced);
-  CHECK(joined({ClaimOutcome::exceeded, ClaimOutcome::reproduced}) == ClaimOutcome::reproduced);
-  CHECK(joined({ClaimOutcome::exceeded, ClaimOutcome::exceeded}) == ClaimOutcome::exceeded);
-  CHECK(joined({ClaimOutcome::refuted, ClaimOutcome::exceeded}) == ClaimOutcome::in_part);
-  CHECK(joined({ClaimOutcome::in_part, ClaimOutcome::reproduced}) == ClaimOutcome::in_part);
-  CHECK(joined({ClaimOutcome::refuted, ClaimOutcome::not_judged}) == ClaimOutcome::refuted);
-  CHECK(joined({ClaimOutcome::not_judged}) == ClaimOutcome::not_judged);
+TEST_CASE("two measured numbers: their noises add up, exact zeros are equal") {
+  CHECK(less({1, 0.03}, {1.1, 0.03}) == yes);  // 2 * 0.042 < 0.1
+  CHECK(less({1, 0.04}, {1.1, 0.04}) == open);
+  CHECK(less({1.1, 0.03}, {1, 0.03}) == no);
+  CHECK(less({1, 0}, {1.001, 0}) == open);
+  CHECK(less({0, 0}, {0, 0}) == no);
+  CHECK(less({}, {1, 0}) == absent);
+  const Measured half = quotient({1, 0.03}, {2, 0.08});
+  CHECK(half.value == 0.5);
+  CHECK(half.error == doctest::Approx(0.5 * 0.05));
+  CHECK(all_of({yes, more}) == yes);
+  CHECK(all_of({yes, open}) == open);
+  CHECK(all_of({no, open}) == no);
+  CHECK(all_of({}) == absent);
+  CHECK(opposite(yes) == no);
+  CHECK(opposite(no) == yes);
+  CHECK(opposite(open) == open);
 }
 
-TEST_CASE("caches: a share of time that is saved, less, more, and in one world of two alone") {
-  const std::string words = "15% less time if purged by position, for many rays";
-  const auto outcome = [&](double seconds) {
-    return judgement_of("figure-6.11", words, {1000, 5000}, only("position mixed", seconds)).outcome;
-  };
-  CHECK(outcome(0.86) == ClaimOutcome::refuted);
-  CHECK(outcome(0.845) == ClaimOutcome::reproduced);
-  CHECK(outcome(0.8) == ClaimOutcome::exceeded);
-  const CacheCost late = [](const std::string& setting, uint64_t rays) {
-    return std::pair{setting == "position mixed" && rays == 5000 ? 0.5 : 1.0, 0.0};
-  };
-  CHECK(judgement_of("figure-6.11", words, {1000, 5000}, late).outcome == ClaimOutcome::in_part);
+TEST_CASE("noise of repeats: of a mean, of a median, and without what all subjects have in common") {
+  CHECK(error_of_mean({1, 3}) == doctest::Approx(1));
+  CHECK(error_of_median({1, 3}) == doctest::Approx(std::sqrt(std::acos(-1.0) / 2)));
+  CHECK(std::isnan(error_of_mean({1})));
+  // Rounds take 1, 2 and 4 times as long for both: each takes the same share of every round.
+  const std::vector<double> common = relative_errors({{1, 2, 4}, {2, 4, 8}});
+  CHECK(common[0] == doctest::Approx(0));
+  CHECK(common[1] == doctest::Approx(0));
+  // Shares 1/2 and 3/4: a mean of 5/8, deviations of 1/8.
+  CHECK(relative_errors({{1, 3}, {1, 1}})[0] == doctest::Approx(0.125 / 0.625));
+  CHECK(std::isnan(relative_errors({{1}, {1}})[0]));
 }
 
-TEST_CASE("caches: every kind of judge says the outcome that its words say") {
-  const auto outcome = [](const char* figure, const char* words, const std::vector<uint64_t>& rays,
-                          const CacheCost& cost) { return judgement_of(figure, words, rays, cost).outcome; };
-  const char* gain = "a gain from 2,560,000 to 10,240,000 rays";  // everywhere()
-  CHECK(outcome("figure-6.5", gain, {2560000}, only("chained mixed", 0.5)) == ClaimOutcome::reproduced);
-  CHECK(outcome("figure-6.5", gain, {2560000}, same) == ClaimOutcome::refuted);
-  CHECK(outcome("figure-6.5", gain, {1000}, same) == ClaimOutcome::not_judged);
-  const char* twice = "by position, on average twice as far off with Morton codes as with the uniform hash";
-  const auto off = [](double morton, double uniform) {
-    return errors("position Morton", morton, "position uniform", uniform);
-  };
-  CHECK(outcome("figure-6.15", twice, {1000}, off(2, 1)) == ClaimOutcome::reproduced);
-  CHECK(outcome("figure-6.15", twice, {1000}, off(1, 1)) == ClaimOutcome::refuted);
-  CHECK(outcome("figure-6.15", twice, {1000}, off(0, 0)) == ClaimOutcome::not_judged);
-  const char* five = "around 5 m by precision with the uniform hash";
-  const auto metres = [](double m) { return only("precision 0.0125 uniform", 1, m); };
-  CHECK(outcome("figure-6.17", five, {1000}, metres(5)) == ClaimOutcome::reproduced);
-  CHECK(outcome("figure-6.17", five, {1000}, metres(50)) == ClaimOutcome::refuted);
-  CHECK(outcome("figure-6.3", "tracing takes longer for buckets than for other nodes", {1000}, same) ==
-        ClaimOutcome::not_judged);
+TEST_CASE("coefficients of few pairs decide little") {
+  CHECK(correlates(0.99, 3) == open);
+  CHECK(correlates(0.9, 4) == open);
+  CHECK(correlates(0.95, 8) == yes);
+  CHECK(correlates(-0.5, 8) == no);
+  CHECK(correlates(std::nan(""), 8) == absent);
 }
 
-TEST_CASE("orders: a gain that is reached, exceeded, missed, and reached with the sort not paid alone") {
-  const auto outcome = [](double ordered_s, double sort_s) {
-    const auto rows = made_rows(find_experiment("figure-6.1"), {49000}, [&](const Series& series, uint64_t) {
-      return series.method == "none" ? std::pair{1.0, 0.0} : std::pair{ordered_s, sort_s};
-    });
-    return gains(ordered("hilbert3d-histogram"), 49000, 2.5)(rows).outcome;
-  };
-  CHECK(outcome(0.5, 0) == ClaimOutcome::refuted);
-  CHECK(outcome(0.39, 0) == ClaimOutcome::reproduced);
-  CHECK(outcome(0.3, 0) == ClaimOutcome::exceeded);
-  CHECK(outcome(0.3, 0.2) == ClaimOutcome::in_part);
+TEST_CASE("a verdict follows from the shares of the cases") {
+  CHECK(outcome_of_answers({}) == ClaimOutcome::not_measured);
+  CHECK(outcome_of_answers({absent, absent}) == ClaimOutcome::not_measured);
+  CHECK(outcome_of_answers({yes, yes, absent}) == ClaimOutcome::reproduced);
+  CHECK(outcome_of_answers({yes, yes, open}) == ClaimOutcome::reproduced);
+  CHECK(outcome_of_answers({yes, more}) == ClaimOutcome::reproduced);
+  CHECK(outcome_of_answers({more, more}) == ClaimOutcome::exceeded);
+  CHECK(outcome_of_answers({no, no, open}) == ClaimOutcome::refuted);
+  CHECK(outcome_of_answers({no, yes, yes}) == ClaimOutcome::in_part);
+  CHECK(outcome_of_answers({open, open, yes}) == ClaimOutcome::undecided);
+  CHECK(outcome_of_answers({open, no}) == ClaimOutcome::undecided);
+  CHECK(outcome_of_answers({open}) == ClaimOutcome::undecided);
+  CHECK(outcome_of(Cases{.why = "no timer"}) == ClaimOutcome::not_judged);
+  CHECK(outcomes().size() == 7);
 }
 
-TEST_CASE("coherence between frames: depths and pairings are cases") {
-  const auto outcome = [](double first, double second) {
-    std::vector<FramePair> rows(2);
-    for (size_t i = 0; i < 2; ++i) {
-      rows[i].against = "previous";
-      rows[i].frame = 1;
-      rows[i].depth = static_cast<uint32_t>(i + 1);
-      rows[i].found.points.total = rows[i].by_place = i == 0 ? first : second;
-    }
-    return correlation_falls_below(0.1)(rows).outcome;
+TEST_CASE("a range is covered if a measured number of rays is in it, and not far from its end") {
+  CHECK_FALSE(up_to(50000000).is_covered({2000}));
+  CHECK_FALSE(up_to(50000000).is_covered({1000, 12000000}));
+  CHECK(up_to(50000000).is_covered({1000, 12500000}));
+  CHECK(up_to(37000).is_covered({1000, 10000, 61000}));
+  CHECK_FALSE(at_rays(61000).is_covered({1000, 10000}));
+  CHECK(at_rays(61000).is_covered({1000, 61000}));
+  CHECK(beyond(50000).is_covered({64000}));
+  CHECK_FALSE(beyond(50000).is_covered({50000}));
+  CHECK_FALSE(Range{70000, 90000}.is_covered({49000, 200000}));
+  CHECK_FALSE(Range{}.is_covered({}));
+}
+
+TEST_CASE("numbers of rays outside of a claim's range say nothing about it") {
+  const char *at = "by precision, the mixed hash takes noticeably more time than no cache at 61,000 rays",
+             *to = "by precision, the mixed hash is faster than no cache, up to 37,000 rays";
+  const auto judge = [](const char* words, const std::vector<uint64_t>& rays) {
+    const CacheCost cost = [](const std::string& setting, uint64_t count) {
+      return std::pair{setting != "precision 0.0125 mixed" ? 1.0 : count <= 37000 ? 0.8 : 1.3, 0.0};
+    };
+    return judgement_of_claim("figure-6.16", words, rays, cost);
   };
-  CHECK(outcome(0.05, 0.02) == ClaimOutcome::reproduced);
-  CHECK(outcome(0.05, 0.3) == ClaimOutcome::in_part);
-  CHECK(outcome(0.2, 0.3) == ClaimOutcome::refuted);
+  CHECK(judge(at, {2000}).outcome == ClaimOutcome::not_measured);
+  CHECK(judge(at, {2000}) == "measured at 2,000 rays");
+  CHECK(judge(at, {1000, 37000}) == "measured from 1,000 to 37,000 rays");
+  CHECK(judge(at, {1000, 61000}).outcome == ClaimOutcome::reproduced);
+  CHECK(judge(to, {1000, 61000}).outcome == ClaimOutcome::not_measured);
+  CHECK(judge(to, {1000, 37000, 61000}).outcome == ClaimOutcome::reproduced);
+}
+
+TEST_CASE("words: the places of each answer, by group, and the measured numbers") {
+  Cases cases{.all = {{"a", 1000, yes, 0.8}, {"a", 5000, no, 1.1}, {"a", 9000, open, 1}, {"b", 1000, yes, 0.5}},
+              .form = time_form()};
+  CHECK(words_of(cases) ==
+        "a: yes at 1,000 rays, no at 5,000 rays, undecided at 9,000 rays (20% less time to 10% more time); "
+        "b: yes at 1,000 rays (50% less time)");
+  CHECK(words_of(cases_of({yes, yes, yes, yes})) == "yes at all 4 numbers of rays");
+  CHECK(words_of(cases_of({yes, yes, yes, yes, no})) == "yes at 4 of 5 numbers of rays, no at 5 rays");
+  CHECK(words_of(cases_of({absent})) == "not measured");
+  CHECK(words_of({}) == "not measured");
+  cases = {.all = {{"", 0, yes, 3}}, .form = factor_form()};
+  CHECK(words_of(cases) == "yes (a factor of 3.00)");
+  cases.all[0].note = "both are 0";
+  CHECK(words_of(cases) == "yes (both are 0)");
+  cases = {.all = {{"", 1, yes, 0.25}, {"", 2, yes, 0.3}}, .form = correlation_form(), .at = "depth"};
+  CHECK(words_of(cases) == "yes at depths 1 and 2 (0.25 to 0.30)");
+  CHECK(words_of(Cases{.why = "no timer"}) == "no timer");
 }

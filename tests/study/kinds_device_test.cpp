@@ -226,7 +226,7 @@ TEST_CASE("innerframe: frames that are each alone, and a page that says how many
   REQUIRE(outcome.code == 0);
   CHECK_FALSE(contains(outcome.err, "arning"));  // of gnuplot
   const std::string page = squeezed(contents(folder.path("out/innerframe.md")));
-  CHECK(contains(page, "| of a group of coherent rays only one is traced | reproduced | confirmed |"));
+  CHECK(contains(page, "| of a group of coherent rays only one is traced | reproduced | yes at "));
   CHECK(contains(page, "| 10,000 | 1.0 | 46 | groups with one hit point | "));
   CHECK(contains(page, "every frame finds its table empty"));
 }

@@ -23,6 +23,7 @@ inline wavetracer::study::CacheMeasurement made_measurement(const wavetracer::st
         CacheRow row{.study = study.name, .drive = drive, .setting = setting.name, .rays = rays, .frames = 3};
         row.warm.loop_s = seconds;
         row.cold.loop_s = 2 * seconds;
+        row.warm_error.loop_s = 0.001 * seconds;
         row.cold_counts = {100, 100, 20};
         row.counts = {100, 100, 75};
         row.error.reference_paths = 40;
@@ -32,12 +33,13 @@ inline wavetracer::study::CacheMeasurement made_measurement(const wavetracer::st
         row.error.spurious_share = row.error.spurious_power = 0;
         row.error.delay_ns = 0;
         row.error.l1_m = row.error.l2_m = l2_m;
+        row.l2_error_m = 0.001 * l2_m;
         row.error.l1_relative = row.error.l2_relative = l2_m / 100;
         row.cache.on = setting.name != study.settings.front().name;
         row.cache.entries = 50000;
         row.cache.entries_by_hits = {100, 200, 300, 400};
         if (setting.whole_only)
-          row.entries = {.by_depth = {{1, 700, 1500, 130, 160}, {2, 300, 500, 180, 260}},
+          row.entries = {.by_depth = {{1, 700, 1500, 130, 160, 1, 1}, {2, 300, 500, 180, 260, 1, 1}},
                          .by_region = {{0, 1000, 2000, 150, 190}},
                          .runs = {{0, 500, 2.5}, {500, 500, 1.5}},
                          .dispersion = 0.8,

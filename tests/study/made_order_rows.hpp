@@ -24,7 +24,9 @@ inline std::vector<wavetracer::study::OrderRow> made_rows(const wavetracer::stud
                        .series = series,
                        .times = {.trace_s = 0.9 * unpaid, .order_s = order, .unpaid_s = unpaid, .frame_s = 2 * unpaid},
                        .paths = 30,
-                       .sequences = 1000});
+                       .sequences = 1000,
+                       .noise_unpaid = 0.001,
+                       .noise_paid = 0.001});
     }
     compare(point);
     rows.insert(rows.end(), point.begin(), point.end());

@@ -236,7 +236,8 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
     const std::string columns =
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
         "gain_paid,launched,bins";
-    CHECK(lines[0] == columns + (experiment.moves() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : ""));
+    CHECK(lines[0] == columns + (experiment.moves() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : "") +
+                          ",unpaid_error_s,paid_error_s");
     std::vector<std::string> base;
     for (size_t i = 1; i < lines.size(); ++i) {
       const std::vector<std::string> cells = split(lines[i], ',');

@@ -32,19 +32,19 @@ CacheMeasurement with_regions(const std::string& setting, const std::vector<doub
 
 }  // namespace
 
-TEST_CASE("regions whose values go along, against each other, and not at all") {
-  const auto judge = [](const std::vector<double>& read, bool opposite) {
-    return across_regions({"mutex mixed"}, region_lookups, read_ns,
-                          opposite)(with_regions("mutex mixed", {100, 200, 300, 400}, read).rows);
+TEST_CASE("regions whose values go along, against each other, and too few of them") {
+  const auto words = [](const std::vector<double>& read, bool opposite) {
+    std::vector<double> lookups;
+    for (size_t i = 1; i <= read.size(); ++i) lookups.push_back(100.0 * static_cast<double>(i));
+    return words_of(across_regions({"mutex mixed"}, region_lookups, read_ns,
+                                   opposite)(with_regions("mutex mixed", lookups, read).rows));
   };
-  CHECK(judge({1, 2, 3, 4}, false) == "confirmed for \"mutex mixed\" (1.00)");
-  CHECK(judge({1, 2, 3, 4}, true) == "not confirmed for \"mutex mixed\" (1.00)");
-  CHECK(judge({4, 3, 2, 1}, true) == "confirmed for \"mutex mixed\" (-1.00)");
-  CHECK(judge({4, 3, 2, 1}, false) == "not confirmed for \"mutex mixed\" (-1.00)");
-  CHECK(judge({1, 2, 2, 1}, false) == "not confirmed for \"mutex mixed\" (0.00)");
-  const auto two = with_regions("mutex mixed", {100, 200}, {1, 2}).rows;
-  CHECK(across_regions({"mutex mixed"}, region_lookups, read_ns, false)(two) == "not measured");
-  CHECK(across_regions({"no such setting"}, region_lookups, read_ns, false)(two) == "not measured");
+  CHECK(words({1, 2, 3, 4, 5, 6.1}, false) == "\"mutex mixed\": yes (1.00)");
+  CHECK(words({1, 2, 3, 4, 5, 6.1}, true) == "\"mutex mixed\": no (1.00)");
+  CHECK(words({6.1, 5, 4, 3, 2, 1}, true) == "\"mutex mixed\": yes (-1.00)");
+  CHECK(words({1, 2, 2, 1}, false) == "\"mutex mixed\": undecided (0.00)");
+  CHECK(words({1, 2, 3}, false) == "\"mutex mixed\": undecided (1.00)");
+  CHECK(words({1, 2}, false) == "not measured");
 }
 
 TEST_CASE("a figure's regions are in its table, and no row of the whole frame is taken for one") {

@@ -8,6 +8,7 @@
 #include "base/xml_text.hpp"
 #include "contains.hpp"
 #include "study/made_cache_rows.hpp"
+#include "study/squeezed.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::study;
@@ -100,10 +101,13 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   const std::string table = html.substr(begin, end - begin);
   for (const Section& figure : made.figures)
     CHECK(contains(table, "<td><a href=\"#" + figure.name + "\">" + figure.name + "</a></td>"));
-  CHECK(contains(table, "<td>a &gt; b</td><td>in part</td><td>not &lt;confirmed&gt;</td>"));
+  CHECK(contains(
+      table, "<td>a &gt; b</td><td><span class=\"verdict in-part\">in part</span></td><td>not &lt;confirmed&gt;</td>"));
   CHECK(contains(table, "#figure-6.5\">figure-6.5</a></td><td>" + xml_text(made.figures[4].title) +
-                            "</td><td>not judged</td><td>no claim to judge"));
-  CHECK(contains(table, "<td>Operations</td><td>not judged</td><td>failed: no memory</td>"));
+                            "</td><td><span class=\"verdict not-judged\">not judged</span></td><td>no claim to judge"));
+  CHECK(contains(table,
+                 "<td>Operations</td><td><span class=\"verdict not-measured-there\">not measured there</span></td>"
+                 "<td>failed: no memory</td>"));
   // Every link leads to a section, and numbers are a table in theirs.
   static const std::regex link(R"re(<a href="#([^"]+)")re");
   size_t links = 0;
@@ -115,16 +119,36 @@ TEST_CASE("the page begins with a table of all verdicts, whose links lead to sec
   CHECK_FALSE(std::regex_search(html, std::regex(R"([0-9]e[-+][0-9])")));
 }
 
-TEST_CASE("claims are counted by what came of them, figures without one and figures that failed not at all") {
+TEST_CASE("claims are counted by origin and verdict, figures without one and figures that failed not at all") {
   std::vector<Section> figures(3);
-  figures[0].words = {
-      "text",
-      {{"a", ClaimOutcome::refuted, ""}, {"b", ClaimOutcome::exceeded, ""}, {"c", ClaimOutcome::refuted, ""}},
-      {}};
-  figures[1].words = {"text", {{"d", ClaimOutcome::reproduced, ""}, {"e", ClaimOutcome::not_judged, ""}}, {}};
-  CHECK(outcome_counts(figures) ==
-        "Of 5 claims, 1 are reproduced, 1 are exceeded, 0 hold in part, 2 are refuted, and 1 could not be judged.");
-  CHECK(contains(thesis_markdown({.heading = {}, .rows = {}, .svg = "", .figures = figures}), "Of 5 claims, 1 are"));
+  figures[0].words = {"text",
+                      {{"a", ClaimOutcome::refuted, ""},
+                       {"b", ClaimOutcome::exceeded, "", Origin::other},
+                       {"c", ClaimOutcome::refuted, ""}},
+                      {}};
+  figures[1].words = {
+      "text", {{"d", ClaimOutcome::reproduced, "", Origin::repetition}, {"e", ClaimOutcome::not_judged, ""}}, {}};
+  const std::string counts = squeezed(markdown(outcome_counts(figures)));
+  CHECK(contains(counts,
+                 "| origin | claims | exceeded | reproduced | in part | refuted | undecided | not measured there | not "
+                 "judged |"));
+  CHECK(contains(counts, "| thesis | 3 | 0 | 0 | 0 | 2 | 0 | 0 | 1 |"));
+  CHECK(contains(counts, "| other author | 1 | 1 | 0 | 0 | 0 | 0 | 0 | 0 |"));
+  CHECK(contains(counts, "| repetition | 1 | 0 | 1 | 0 | 0 | 0 | 0 | 0 |"));
+  const std::string text = squeezed(thesis_markdown({.heading = {}, .rows = {}, .svg = "", .figures = figures}));
+  CHECK(contains(text, "| thesis | 3 | 0 |"));
+  CHECK(contains(text, "| figure | claim | origin | verdict | measured |"));
+  CHECK(contains(text, "| d | repetition | reproduced |"));
+}
+
+TEST_CASE("every verdict has a colour of its own, and a repetition says that it is one") {
+  for (const ClaimOutcome outcome : outcomes()) {
+    std::string kind(word(outcome));
+    std::ranges::replace(kind, ' ', '-');
+    CHECK(contains(verdict_style(), "." + kind));
+  }
+  CHECK(contains(verdict_cells({"a", ClaimOutcome::refuted, "b", Origin::repetition}), ">repetition</span></td>"));
+  CHECK_FALSE(contains(verdict_cells({"a", ClaimOutcome::refuted, "b"}), "thesis"));
 }
 
 TEST_CASE("the table has the most rays of every cache") {
