@@ -9,6 +9,7 @@
 #include "passes/cached_rays.hpp"
 #include "passes/thesis_cache.hpp"
 #include "wavetracer/device/cache_thesis.h"
+#include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::device;
