@@ -59,7 +59,8 @@ std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, cons
 
 Columns<FramePair> frame_columns(const Drive& drive);
 
-// Answers for each pairing and depth whether subsequent frames correlate by a mean from `low` to `high`.
+// Answers for each pairing and depth, and for whole outputs by place, whether subsequent frames correlate by a mean
+// from `low` to `high`.
 Judge<FramePair> correlate_on_average(double low, double high);
 // In the same way: whether their correlation falls below `low`, and whether it rises to `high`, or to four fifths of
 // it, but no further.

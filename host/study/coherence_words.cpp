@@ -74,6 +74,14 @@ std::vector<double> previous_means(const std::vector<FramePair>& rows, const Fra
   return out;
 }
 
+// Returns the defined values of whole outputs of subsequent frames.
+std::vector<double> whole_values(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<double> out;
+  for (const FramePair& row : rows)
+    if (row.against == "previous" && row.depth == 0 && !std::isnan(value(row))) out.push_back(value(row));
+  return out;
+}
+
 // Answers for each pairing and depth whether a summary of the correlations of subsequent frames satisfies a condition.
 Judge<FramePair> where_correlations(FrameSummary summary, const std::function<Answer(const Measured&)>& are_so) {
   return [=](const std::vector<FramePair>& rows) {
@@ -84,6 +92,14 @@ Judge<FramePair> where_correlations(FrameSummary summary, const std::function<An
     };
     add_pairing("paired by ray and bounce", by_ray);
     add_pairing("paired by place", by_place);
+    const auto add_whole_output = [&](const char* words, const FrameValue& value) {
+      const std::vector<double> values = whole_values(rows, value);
+      if (values.empty()) return;
+      const Measured found = summary(values);
+      out.all.push_back({words, 0, are_so(found), found.value});
+    };
+    add_whole_output("whole outputs", by_place);
+    add_whole_output("whole outputs of rays in no order", unordered_by_place);
     return out;
   };
 }
@@ -93,14 +109,6 @@ std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameV
   std::vector<double> out;
   for (const FramePair& row : rows)
     if (row.against == "first" && row.frame == rows.back().frame && row.depth > 0) out.push_back(value(row));
-  return out;
-}
-
-// Returns the defined values of whole outputs of subsequent frames.
-std::vector<double> whole_values(const std::vector<FramePair>& rows, const FrameValue& value) {
-  std::vector<double> out;
-  for (const FramePair& row : rows)
-    if (row.against == "previous" && row.depth == 0 && !std::isnan(value(row))) out.push_back(value(row));
   return out;
 }
 

@@ -133,6 +133,7 @@ void compare(std::span<OrderRow> rows) {
 
 std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device) {
+  if (rays <= rays_of_all_series) return measure_orders(config, series, rays, of, device);
   std::vector<OrderRow> rows;
   for (size_t begin = 1; rows.empty() || begin < series.size(); begin += series_at_once) {
     std::vector<Series> group = {series.front()};

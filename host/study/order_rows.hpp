@@ -64,10 +64,12 @@ struct OrderFrames {
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 
-// The number of series that share a device besides the first, which is then measured again: their queues must fit into
-// its memory together.
+// With more rays than this, so many series besides the first share a device, because their queues must fit into its
+// memory together; the first is measured again with each group.
+constexpr uint64_t rays_of_all_series = 1000000;
 constexpr size_t series_at_once = 11;
-// Measures any number of series in groups. Each row is compared with the first series as its own group measured it.
+// Measures any number of series, in groups where there are many rays. The gains of a row are against the first series
+// as its own group measured it.
 std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 

@@ -40,6 +40,12 @@ Series with_bins(Series series, uint32_t bins) {
   return series;
 }
 
+std::vector<Series> with_finer_bins(std::vector<Series> series, const std::vector<std::string>& methods) {
+  for (const uint32_t bins : {32u, 64u, 128u})
+    for (const std::string& method : methods) series.push_back(with_bins(ordered(method), bins));
+  return series;
+}
+
 bool has_bins(const Series& series) { return series.method.find("histogram") != std::string::npos; }
 
 std::string label(const Series& series) {

@@ -32,6 +32,8 @@ Series ordered(const std::string& method);
 Series born_ordered();
 Series with_shape(Series series, const std::string& shape);
 Series with_bins(Series series, uint32_t bins);
+// Appends these methods with 32, 64 and 128 bins.
+std::vector<Series> with_finer_bins(std::vector<Series> series, const std::vector<std::string>& methods);
 // Tells whether order.bin_num matters for the series.
 bool has_bins(const Series& series);
 

@@ -10,8 +10,6 @@
 namespace wavetracer::study {
 namespace {
 
-// Numbers of bins beside the thesis'.
-constexpr uint32_t finer_bins[] = {32, 64, 128};
 constexpr uint64_t operation_rays = 50000;
 constexpr uint64_t large_buffer = 10 * thesis_chained_buffer;
 constexpr const char* operations_caption =
@@ -65,6 +63,7 @@ OrderFigure all_orders() {
   claims.push_back({"H3DH2DH degrades sharply beyond 50,000,000 rays", degrades_beyond(to_2d, h3dh, 50000000)});
   claims.push_back(
       {"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d), Range{50000, 16777216}});
+  claims = over_bins(claims);
   claims.push_back(
       {"launches in two or three dimensions gain nothing over the same order in one", shapes_gain_nothing()});
   std::vector<Series> series = {unordered(),
@@ -79,9 +78,10 @@ OrderFigure all_orders() {
                                 with_shape(unordered(), "3d"),
                                 with_shape(ordered(h3dh), "2d"),
                                 with_shape(ordered(h3dh), "3d")};
-  for (const uint32_t bins : finer_bins)
-    for (const std::string& method : {h3dh, hz, to_2d, to_3d}) series.push_back(with_bins(ordered(method), bins));
-  return {.series = series, .moves = false, .claims = claims, .range = {50000, Range::open}};
+  return {.series = with_finer_bins(series, {h3dh, hz, to_2d, to_3d}),
+          .moves = false,
+          .claims = claims,
+          .range = {50000, Range::open}};
 }
 
 const auto chained_operations =

@@ -9,6 +9,7 @@
 #include "passes/cached_rays.hpp"
 #include "passes/thesis_cache.hpp"
 #include "wavetracer/device/cache_thesis.h"
+#include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::device;
@@ -49,7 +50,7 @@ void add_vehicles(Cache& cache) {
 }
 
 thesis::CacheKey listing_key(const CacheConfig& config, const CachedRay& ray) {
-  return {model_id(ray.surface),
+  return {model_id(ray.left == WT_NONE ? WT_NONE : ray.surface),
           ray.left == WT_NONE ? 0 : ray.left,
           ray.direction[0],
           ray.direction[1],
@@ -63,7 +64,10 @@ std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   Random random(seed);
   const std::vector<CachedRay> keys = random_rays(seed, 30);
   std::vector<CachedRay> rays;
-  for (size_t i = 0; i < count; ++i) rays.push_back(keys[random.below(30)]);
+  for (size_t i = 0; i < count; ++i) {
+    rays.push_back(keys[random.below(30)]);
+    if (rays.back().left == WT_NONE) rays.back().surface = WT_OWN | 2;  // the vehicle that carries the transmitter
+  }
   return rays;
 }
 
