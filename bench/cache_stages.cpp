@@ -81,7 +81,7 @@ std::vector<StageTimes> stage_times(gpu::Context& context, const SceneRays& rays
       });
       timed(missing, look_up);
       timed(tracing, [&] { trace(scene, l.rays, l.traced); });
-      timed(storing, [&] { store(l.rays, l.rays, l.traced, l.indices, l.hits, table, WT_NONE, 1); });
+      timed(storing, [&] { store(scene, l.rays, l.rays, l.traced, l.indices, l.hits, table, WT_NONE, 1); });
       timed(hitting, look_up);
     }
   }

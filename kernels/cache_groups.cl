@@ -25,7 +25,7 @@ kernel void cache_keys(const global float* rays, uint capacity, uint count, cons
   if (first >= count) return;
   const uint end = first + min((uint)WT_RAYS_PER_ITEM, count - first);
   for (uint i = first; i < end; ++i) {
-    const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, 0);
+    const wt_cache_question q = wt_cache_ask(rays, capacity, i, 0, widths, 0);
     global ulong* key = keys + WT_GROUP_WORDS * (size_t)i;
     key[0] = wt_group_word(q.left, q.region);
 #ifdef WT_CACHE_EXACT
@@ -121,8 +121,8 @@ kernel void cache_share(global float* rays, global float* hits, global float* mi
     refused[i] = as_float(WT_NONE);
     const uint from = representatives[i];
     if (from == WT_NONE) continue;
-    const wt_cache_question q = wt_cache_ask(rays, args.capacity, i, args.widths, args.now),
-                            traced = wt_cache_ask(rays, args.capacity, from, args.widths, args.now);
+    const wt_cache_question q = wt_cache_ask(rays, args.capacity, i, 0, args.widths, args.now),
+                            traced = wt_cache_ask(rays, args.capacity, from, 0, args.widths, args.now);
     wt_cache_entry e = wt_cache_answer(traced, hits[from], wt_load_word(hits, args.capacity, WT_HIT_PRIMITIVE, from),
                                        wt_load_word(hits, args.capacity, WT_HIT_SURFACE, from), WT_NONE);
     bool takes = wt_cache_stands(&e, q, regions[q.region]);

@@ -74,7 +74,7 @@ kernel void cache_lookup(global float* rays, global float* hits, global float* m
     wt_cache_question questions[WT_AHEAD];
     const uint ahead = min((uint)WT_AHEAD, end - next);
     for (uint k = 0; k < ahead; ++k) {
-      questions[k] = wt_cache_ask(rays, args.capacity, next + k, args.widths, args.now);
+      questions[k] = wt_cache_ask(rays, args.capacity, next + k, exact_surfaces, args.widths, args.now);
       wt_cache_prefetch_home(cache, questions[k]);
     }
     if (WT_AHEAD > 1)

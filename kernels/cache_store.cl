@@ -52,8 +52,9 @@ inline void flush_tally(wt_cache cache, uint region) {
 kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,
-                        global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
-                        global wt_cache_cycles* cycles, wt_cache_store_arguments args) {
+                        global wt_cache_counters* counters, const global wt_exact_surface* exact_surfaces,
+                        const global uint* receptions, global uint* receivers, global wt_cache_cycles* cycles,
+                        wt_cache_store_arguments args) {
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
   const uint first = get_global_id(0) * WT_RAYS_PER_ITEM;
@@ -64,7 +65,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
     wt_cache_question questions[WT_AHEAD];
     const uint ahead = min((uint)WT_AHEAD, end - next);
     for (uint j = 0; j < ahead; ++j) {
-      questions[j] = wt_cache_ask(missed, args.missed_capacity, next + j, args.widths, args.now);
+      questions[j] = wt_cache_ask(missed, args.missed_capacity, next + j, exact_surfaces, args.widths, args.now);
       wt_cache_prefetch_home(cache, questions[j]);
     }
     for (uint j = 0; j < ahead; ++j) wt_cache_prefetch_entry(cache, questions[j], true);
@@ -84,8 +85,9 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
 kernel void cache_store(global float* rays, const global float* missed, const global float* missed_hits,
                         const global uint* indices, global float* hits, global wt_cache_entry* entries,
                         global uint* heads, global uint* used, const global wt_cache_region* regions,
-                        global wt_cache_counters* counters, const global uint* receptions, global uint* receivers,
-                        global wt_cache_cycles* cycles, wt_cache_store_arguments args) {
+                        global wt_cache_counters* counters, const global wt_exact_surface* exact_surfaces,
+                        const global uint* receptions, global uint* receivers, global wt_cache_cycles* cycles,
+                        wt_cache_store_arguments args) {
   local uint stored, claimed, region;
   wt_cache_tally tally = {0, 0};
   const wt_cache cache = {entries, heads, used, regions, counters, &tally};
@@ -96,7 +98,7 @@ kernel void cache_store(global float* rays, const global float* missed, const gl
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (k < args.missed_count) {
-    const wt_cache_question q = wt_cache_ask(missed, args.missed_capacity, k, args.widths, args.now);
+    const wt_cache_question q = wt_cache_ask(missed, args.missed_capacity, k, exact_surfaces, args.widths, args.now);
     store_hit(cache, q, rays, args.capacity, missed, missed_hits, args.missed_capacity, k, indices[k], hits,
               args.static_surfaces, receptions, receivers, cycles);
     if (q.region != region) flush_tally(cache, q.region);

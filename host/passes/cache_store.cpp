@@ -15,10 +15,10 @@ CacheStore::CacheStore(gpu::Context& context, const CacheTable& table) : work_(t
   kernel_ = {context, definitions};
 }
 
-void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitList& missed_hits,
-                            const gpu::Buffer<uint32_t>& indices, HitList& hits, CacheTable& table,
-                            uint32_t static_surfaces, uint32_t now, const gpu::Buffer<uint32_t>* receptions,
-                            gpu::Buffer<uint32_t>* receivers) {
+void CacheStore::operator()(const DeviceScene& scene, RayQueue& rays, const RayQueue& missed,
+                            const HitList& missed_hits, const gpu::Buffer<uint32_t>& indices, HitList& hits,
+                            CacheTable& table, uint32_t static_surfaces, uint32_t now,
+                            const gpu::Buffer<uint32_t>* receptions, gpu::Buffer<uint32_t>* receivers) {
   if (table.config.holds_all() && (!receptions || !receivers))
     throw std::invalid_argument("cache_store: cache.scope = \"all\" without receptions or receivers");
   if (missed.count == 0) return;
@@ -33,6 +33,7 @@ void CacheStore::operator()(RayQueue& rays, const RayQueue& missed, const HitLis
                                           .used = table.used,
                                           .regions = table.device_regions,
                                           .counters = table.counters,
+                                          .exact_surfaces = scene.exact_surfaces,
                                           .receptions = receptions,
                                           .receivers = receivers,
                                           .cycles = table.cycles,

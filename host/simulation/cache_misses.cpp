@@ -93,7 +93,7 @@ void MissTracer::trace(const DeviceScene& scene, RayQueue& rays, HitList& hits, 
   gather_(rays, indices_, marked, rays_);
   trace_(scene, rays_, hits_);
   if (trails_) trails_->first_receivers(rays_, hits_, receptions_);
-  store_(rays, rays_, hits_, indices_, hits, table, static_surfaces_, now, receives_ ? &receptions_ : nullptr,
+  store_(scene, rays, rays_, hits_, indices_, hits, table, static_surfaces_, now, receives_ ? &receptions_ : nullptr,
          receives_ ? &answers.receivers : nullptr);
 }
 

@@ -57,6 +57,7 @@ Measured share_of_none(const CacheRows& rows, const CacheRow& row) {
 }
 
 Measured warm_s(const CacheRow& row) { return {row.warm.loop_s, row.warm_error.loop_s}; }
+Measured once_s(const CacheRow& row) { return {warm_once_s(row), row.warm_error.loop_s}; }
 Measured l2_m(const CacheRow& row) { return {row.error.l2_m, row.l2_error_m}; }
 Measured l2_relative(const CacheRow& row) {
   const double scale = row.error.l2_m > 0 ? row.error.l2_relative / row.error.l2_m : 0;

@@ -15,6 +15,7 @@ using CacheRows = std::vector<CacheRow>;
 using CacheValue = Measured (*)(const CacheRow&);
 
 Measured warm_s(const CacheRow& row);
+Measured once_s(const CacheRow& row);  // the same with the sort counted once, as the thesis counts it
 Measured l2_m(const CacheRow& row);
 Measured l2_relative(const CacheRow& row);  // relative to the mean length of paths
 

@@ -58,12 +58,14 @@ struct CacheRow {
   uint64_t frames = 0;        // number of frames after the cold one, which are averaged
   CacheTimes cold{}, warm{};  // times of a frame whose table is empty, and of those after it
   CacheTimes cold_error{unknown_times}, warm_error{unknown_times};  // standard errors of these times
+  double order_s = 0;                      // keys, sort and gathering of a warm frame, a part of warm.loop_s
   double frame_s = 0;                      // wall time of a warm frame, with candidates, paths and fields
   CacheCounts cold_counts{}, counts{};     // counts of the cold frame, and of an average warm one
   CacheSummary cache{};                    // statistics of the last frame
   double paths = 0, sequences = 0;         // averages over warm frames
   PathError error{};                       // errors of warm frames
   double l2_error_m = undefined;           // standard error of the mean of error.l2_m
+  double saved_once_percent = 0;           // the same, with the sort counted once
   double saved_percent = 0;                // relative to the time of the first setting, warm
   EntrySummary entries{};                  // entries of the last frame, for settings that keep entries
   std::vector<CentroidError> centroids{};  // one per frame, in studies that keep them
@@ -89,7 +91,10 @@ Measured measured_trace_ns(const CacheRow& row);
 // Returns the entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);
 
-// Sets saved_percent of rows of one point, whose first is the reference.
+// Returns the time of a warm frame without its sort: the thesis sorts its buffer of rays once, when it is made.
+double warm_once_s(const CacheRow& row);
+
+// Sets saved_percent and saved_once_percent of rows of one point, whose first is the reference.
 void set_savings(std::vector<CacheRow>& point);
 
 const Columns<CacheRow>& cache_columns();

@@ -40,6 +40,7 @@ CacheRow row_of(const CacheStudy& study, const Setting& setting, const CacheSubj
                .warm = summarised(subject.warm, still ? median : mean),
                .cold_error = summarised(subject.cold, error_of_median),
                .warm_error = summarised(subject.warm, still ? error_of_median : error_of_mean),
+               .order_s = subject.order_s.mean(),
                .frame_s = median(subject.frame_s),
                .cold_counts = counts_of(subject.first),
                .counts = {subject.segments.mean(), subject.lookups.mean(), subject.hits.mean(), subject.groups.mean(),

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <random>
 #include "study/hit_recorder.hpp"
 #include "study/run.hpp"
 #include "study/scripts.hpp"
@@ -105,21 +107,60 @@ void check_way(const Drive& drive, const Scene& scene) {
   }
 }
 
+namespace {
+
+// Lists of different lengths are paired as far as the shorter one goes.
+double correlate_by_place(std::vector<glm::dvec3> a, std::vector<glm::dvec3> b) {
+  const size_t count = std::min(a.size(), b.size());
+  a.resize(count);
+  b.resize(count);
+  return correlate(a, b).total;
+}
+
+// Appends the depths of a frame one after the other, which makes them one depth of many rays.
+FrameHits joined(const FrameHits& hits) {
+  FrameHits out(1);
+  for (const std::vector<Hit>& depth : hits) out.front().insert(out.front().end(), depth.begin(), depth.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> whole_output(const FrameHits& hits, const std::vector<uint32_t>& order) {
+  std::vector<glm::dvec3> out;
+  for (size_t k = 0; !hits.empty() && k < hits.front().size(); ++k)
+    for (const std::vector<Hit>& depth : hits)
+      if (const Hit& hit = depth[order.empty() ? k : order[k]]; is_hit(hit)) out.push_back(hit.point_m);
+  return out;
+}
+
+// The standard does not say how std::shuffle draws, so that it is written out (R. Durstenfeld, CACM 7, 420, 1964).
+std::vector<uint32_t> random_order(size_t rays) {
+  std::vector<uint32_t> order(rays);
+  std::iota(order.begin(), order.end(), 0u);
+  std::mt19937_64 random(1);
+  for (size_t i = rays; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
+}
+
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against,
                                     uint32_t frame) {
   std::vector<FramePair> out;
   const std::vector<DepthCoherence> found = compare_frames(a, b);
-  for (uint32_t i = 0; i < found.size(); ++i) {
-    std::vector<glm::dvec3> points_a = hit_points(a[i]), points_b = hit_points(b[i]);
-    const size_t count = std::min(points_a.size(), points_b.size());
-    points_a.resize(count);
-    points_b.resize(count);
+  for (uint32_t i = 0; i < found.size(); ++i)
     out.push_back({.against = against,
                    .frame = frame,
                    .depth = i + 1,
                    .found = found[i],
-                   .by_place = correlate(points_a, points_b).total});
-  }
+                   .by_place = correlate_by_place(hit_points(a[i]), hit_points(b[i]))});
+  if (found.empty()) return out;
+  const std::vector<uint32_t> unordered = random_order(a.front().size());
+  out.push_back({.against = against,
+                 .frame = frame,
+                 .depth = 0,
+                 .found = compare_frames(joined(a), joined(b)).front(),
+                 .by_place = correlate_by_place(whole_output(a), whole_output(b)),
+                 .by_place_unordered = correlate_by_place(whole_output(a, unordered), whole_output(b, unordered))});
   return out;
 }
 
@@ -142,6 +183,7 @@ Columns<FramePair> frame_columns(const Drive& drive) {
       {"total", [](const P& p) { return p.found.points.total; }},
       {"pooled", [](const P& p) { return p.found.points.pooled; }},
       {"by_place", &P::by_place},
+      {"by_place_unordered", &P::by_place_unordered},
   };
 }
 
@@ -193,7 +235,8 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
       "total is equation 6.4 divided by the root of the number of components (three, less those "
       "that are constant); "
       "pooled is the coefficient of the points as vectors; by_place is total of points paired by their place in "
-      "the lists of hits",
+      "the lists of hits; depth 0 is the whole output, whose list has all hits of a ray before those of the next one, along the curve of the launch (by_place) and "
+      "with the rays in no order (by_place_unordered)",
       "both is the share of rays that hit in both frames among those that hit in either; "
       "same_surface and same_sequence are shares of the rays that hit in both"};
   return found;

@@ -14,13 +14,16 @@
 
 namespace wavetracer::study {
 
-// A frame compared with an earlier one, at one depth.
+// A frame compared with an earlier one, at one depth, or whole (depth 0): all waypoints of its rays, one ray after the
+// other, as the waypoint buffer of the thesis holds them.
 struct FramePair {
   std::string against;  // "first": frame 0, "previous": the frame before
   uint32_t frame = 0;
   uint32_t depth = 0;
   DepthCoherence found;
   double by_place = undefined;  // equation 6.4, normalised, for points paired by their index in lists of hits
+  // For whole frames, the same where the rays were launched in no order, as without reordering.
+  double by_place_unordered = undefined;
 };
 
 // The frames in which a transmitter launches its rays: consecutive numbers, times, and its positions (file axes).
@@ -45,12 +48,19 @@ Drive plan_drive(const std::vector<RadioEnd>& transmitters, const std::function<
 // Throws ConfigError if the way passes through objects of the scene.
 void check_way(const Drive& drive, const Scene& scene);
 
-// Compares a frame with another, depth by depth.
+// Returns the points where rays were reflected, ray by ray, each in the order of its depths: the whole output. order:
+// the launch indices of the rays, one after the other; empty: ascending.
+std::vector<glm::dvec3> whole_output(const FrameHits& hits, const std::vector<uint32_t>& order = {});
+// Returns the same order of rays at each call: launch indices at random, each once.
+std::vector<uint32_t> random_order(size_t rays);
+
+// Compares a frame with another, depth by depth, and then whole.
 std::vector<FramePair> compare_pair(const FrameHits& a, const FrameHits& b, const std::string& against, uint32_t frame);
 
 Columns<FramePair> frame_columns(const Drive& drive);
 
-// Answers for each pairing and depth whether subsequent frames correlate by a mean from `low` to `high`.
+// Answers for each pairing and depth, and for whole outputs by place, whether subsequent frames correlate by a mean
+// from `low` to `high`.
 Judge<FramePair> correlate_on_average(double low, double high);
 // In the same way: whether their correlation falls below `low`, and whether it rises to `high`, or to four fifths of
 // it, but no further.

@@ -33,12 +33,13 @@ using FrameValue = std::function<double(const FramePair&)>;
 
 double by_ray(const FramePair& row) { return row.found.points.total; }
 double by_place(const FramePair& row) { return row.by_place; }
+double unordered_by_place(const FramePair& row) { return row.by_place_unordered; }
 
 // Returns a list per depth: the defined values of all frames against their previous ones.
 std::vector<std::vector<double>> previous_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<std::vector<double>> out;
   for (const FramePair& row : rows) {
-    if (row.against != "previous") continue;
+    if (row.against != "previous" || row.depth == 0) continue;
     out.resize(std::max<size_t>(out.size(), row.depth));
     if (!std::isnan(value(row))) out[row.depth - 1].push_back(value(row));
   }
@@ -73,6 +74,14 @@ std::vector<double> previous_means(const std::vector<FramePair>& rows, const Fra
   return out;
 }
 
+// Returns the defined values of whole outputs of subsequent frames.
+std::vector<double> whole_values(const std::vector<FramePair>& rows, const FrameValue& value) {
+  std::vector<double> out;
+  for (const FramePair& row : rows)
+    if (row.against == "previous" && row.depth == 0 && !std::isnan(value(row))) out.push_back(value(row));
+  return out;
+}
+
 // Answers for each pairing and depth whether a summary of the correlations of subsequent frames satisfies a condition.
 Judge<FramePair> where_correlations(FrameSummary summary, const std::function<Answer(const Measured&)>& are_so) {
   return [=](const std::vector<FramePair>& rows) {
@@ -83,6 +92,14 @@ Judge<FramePair> where_correlations(FrameSummary summary, const std::function<An
     };
     add_pairing("paired by ray and bounce", by_ray);
     add_pairing("paired by place", by_place);
+    const auto add_whole_output = [&](const char* words, const FrameValue& value) {
+      const std::vector<double> values = whole_values(rows, value);
+      if (values.empty()) return;
+      const Measured found = summary(values);
+      out.all.push_back({words, 0, are_so(found), found.value});
+    };
+    add_whole_output("whole outputs", by_place);
+    add_whole_output("whole outputs of rays in no order", unordered_by_place);
     return out;
   };
 }
@@ -91,8 +108,18 @@ Judge<FramePair> where_correlations(FrameSummary summary, const std::function<An
 std::vector<double> last_values(const std::vector<FramePair>& rows, const FrameValue& value) {
   std::vector<double> out;
   for (const FramePair& row : rows)
-    if (row.against == "first" && row.frame == rows.back().frame) out.push_back(value(row));
+    if (row.against == "first" && row.frame == rows.back().frame && row.depth > 0) out.push_back(value(row));
   return out;
+}
+
+// Shows equation 6.4 of whole outputs: the mean over subsequent frames, and its range.
+void add_whole(NumberTable& table, const std::string& what, const std::vector<double>& values) {
+  if (values.empty()) return;
+  RunningMean mean;
+  for (const double value : values) mean.add(value);
+  table.rows.push_back({what, fmt::format("{} ({} to {})", number(mean.mean()), number(std::ranges::min(values)),
+                                          number(std::ranges::max(values)))});
+  table.rows.back().resize(table.heads.size());
 }
 
 const LagRow* find_lag(const std::vector<LagRow>& rows, const std::string& directions, uint32_t depth, uint32_t lag) {
@@ -163,6 +190,9 @@ Words frame_words(const Experiment& experiment, const std::vector<FramePair>& ro
     line("of these, on the same surface", &DepthCoherence::same_surface);
     line("of these, after the same surfaces", &DepthCoherence::same_sequence);
   }
+  add_whole(table, "subsequent frames, whole outputs, points paired by place", whole_values(rows, by_place));
+  add_whole(table, "the same, rays launched in no order", whole_values(rows, unordered_by_place));
+  add_whole(table, "subsequent frames, whole outputs, points paired by ray and bounce", whole_values(rows, by_ray));
   return {filled(experiment.paragraph, fields), judged(experiment.as<FrameFigure>()->claims, rows, {}, fields), table};
 }
 

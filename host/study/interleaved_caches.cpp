@@ -20,6 +20,7 @@ void note_warm(CacheSubject& subject, FrameResult frame, const PathError& error)
   const CacheCounts counts = counts_of(frame);
   subject.warm.push_back(cache_times(frame.seconds));
   subject.frame_s.push_back(stage_seconds(frame.seconds, Stage::frame));
+  subject.order_s.add(part_seconds(frame.seconds, FramePart::order));
   subject.segments.add(counts.segments);
   subject.lookups.add(counts.lookups);
   subject.hits.add(counts.hits);

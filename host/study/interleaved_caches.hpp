@@ -18,6 +18,7 @@ struct CacheSubject {
   Simulation simulation;
   std::vector<CacheTimes> cold, warm;
   std::vector<double> frame_s;
+  RunningMean order_s;  // the sort of a warm frame
   RunningMean segments, lookups, hits, groups, shared, paths, sequences;
   PathErrorMean error;
   RunningMean centroid_m;

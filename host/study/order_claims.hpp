@@ -31,14 +31,18 @@ Judge<OrderRow> gain_grows(const std::string& method);
 // Answers, with the sort not paid, whether launches in two or three dimensions gain a twentieth at most over one.
 Judge<OrderRow> shapes_gain_nothing();
 
+// Judges the same claims for each number of bins: orders with a histogram have that number, the others are the same.
+// Groups are called "64 bins, sort paid".
+Claims<OrderRow> over_bins(Claims<OrderRow> claims);
+
 // Fields: {device}, {most}: the most rays, {frames}: the number of averaged frames, and {reason} (if WS was measured at
 // 1,000 and 49,000 rays): the part of the time at 49,000 that the device already needs at 1,000, which no order can
 // change.
 Fields order_fields(const std::vector<OrderRow>& rows, const std::string& device);
 
-// Returns speed against WS, a series per row, the fastest at the most rays first, a number of rays per column: where
-// the thesis states its gain and at the most rays, as far as they were measured. "3.00 (2.40)": sort not paid, and
-// paid.
+// Returns speed against WS, a series per row, the fastest at the most rays first; two columns for each number of rays:
+// with the sort counted once, as the thesis counts it, and in each frame, as a frame pays it. The numbers of rays are
+// those where the thesis states its gain and the most, as far as they were measured.
 NumberTable gain_table(const std::vector<OrderRow>& rows);
 
 }  // namespace wavetracer::study

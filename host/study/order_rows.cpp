@@ -80,6 +80,7 @@ const Columns<OrderRow>& order_columns(bool averages) {
       {"gain_unpaid", &R::gain_unpaid},
       {"gain_paid", &R::gain_paid},
       {"launched", &R::launched},
+      {"bins", [](const R& r) { return has_bins(r.series) ? r.series.bins : 0; }},
   };
   static const Columns<R> one_frame = [] {
     Columns<R> all = common;
@@ -128,6 +129,20 @@ void compare(std::span<OrderRow> rows) {
                       [&row](const OrderRow& first) { return first.series.directions == row.series.directions; }),
         row);
   }
+}
+
+std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     const OrderFrames& of, const std::string& device) {
+  if (rays <= rays_of_all_series) return measure_orders(config, series, rays, of, device);
+  std::vector<OrderRow> rows;
+  for (size_t begin = 1; rows.empty() || begin < series.size(); begin += series_at_once) {
+    std::vector<Series> group = {series.front()};
+    const size_t end = std::min(begin + series_at_once, series.size());
+    group.insert(group.end(), series.begin() + std::min(begin, end), series.begin() + end);
+    const std::vector<OrderRow> found = measure_orders(config, group, rays, of, device);
+    rows.insert(rows.end(), found.begin() + (rows.empty() ? 0 : 1), found.end());
+  }
+  return rows;
 }
 
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,

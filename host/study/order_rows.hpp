@@ -35,8 +35,8 @@ struct OrderRow {
   double noise_unpaid = undefined, noise_paid = undefined;
 };
 
-// Columns from `rays` to `launched`; averages over frames also have `frames` and the reductions of time, in percent,
-// that the gains mean. Last are the standard errors of unpaid_s and paid_s.
+// Columns from `rays` to `bins` (0 for orders without a histogram); averages over frames also have `frames` and the
+// reductions of time, in percent, that the gains mean. Last are the standard errors of unpaid_s and paid_s.
 const Columns<OrderRow>& order_columns(bool averages);
 
 // Returns how much less time a gain means, in percent; negative for more time.
@@ -62,6 +62,15 @@ struct OrderFrames {
 
 // Measures `config` with each series applied to it, on the device.
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
+                                     const OrderFrames& of, const std::string& device);
+
+// With more rays than this, so many series besides the first share a device, because their queues must fit into its
+// memory together; the first is measured again with each group.
+constexpr uint64_t rays_of_all_series = 1000000;
+constexpr size_t series_at_once = 11;
+// Measures any number of series, in groups where there are many rays. The gains of a row are against the first series
+// as its own group measured it.
+std::vector<OrderRow> measure_groups(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 
 // Returns null if the series was not measured at that number of rays.

@@ -142,7 +142,7 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
                             .repeats = run.request.repeats};
     std::vector<OrderRow> point;
     try {
-      point = measure_orders(run.config, run.figure.series, rays, of, run.request.device);
+      point = measure_groups(run.config, run.figure.series, rays, of, run.request.device);
     } catch (const DeviceError& error) {  // such as too little memory; earlier measurements are kept
       if (rows.empty()) throw;
       return fmt::format("left out: {} to {} rays, as the device failed: {}", grouped(rays), grouped(run.counts.back()),

@@ -35,13 +35,27 @@ Series with_shape(Series series, const std::string& shape) {
   return series;
 }
 
+Series with_bins(Series series, uint32_t bins) {
+  series.bins = bins;
+  return series;
+}
+
+std::vector<Series> with_finer_bins(std::vector<Series> series, const std::vector<std::string>& methods) {
+  for (const uint32_t bins : {32u, 64u, 128u})
+    for (const std::string& method : methods) series.push_back(with_bins(ordered(method), bins));
+  return series;
+}
+
+bool has_bins(const Series& series) { return series.method.find("histogram") != std::string::npos; }
+
 std::string label(const Series& series) {
-  return series.mnemonic + (series.shape == own_shape(row_of(series.method)) ? "" : " " + series.shape);
+  return series.mnemonic + (series.shape == own_shape(row_of(series.method)) ? "" : " " + series.shape) +
+         (series.bins == thesis_bins ? "" : " " + std::to_string(series.bins) + " bins");
 }
 
 const std::vector<std::string>& series_keys() {
-  static const std::vector<std::string> keys = {"trace.rays", "trace.directions", "order.method", "order.each_depth",
-                                                "launch.shape"};
+  static const std::vector<std::string> keys = {"trace.rays",       "trace.directions", "order.method",
+                                                "order.each_depth", "order.bin_num",    "launch.shape"};
   return keys;
 }
 
@@ -50,6 +64,7 @@ void apply(Config& config, const Series& series, uint64_t rays) {
   config.trace.directions = Directions::named(series.directions);
   config.order.method = OrderMethod::named(series.method);
   config.order.each_depth = series.each_depth;
+  config.order.bin_num = series.bins;
   config.launch.shape = LaunchDimensions::named(series.shape);
 }
 

@@ -63,11 +63,22 @@ OrderFigure all_orders() {
   claims.push_back({"H3DH2DH degrades sharply beyond 50,000,000 rays", degrades_beyond(to_2d, h3dh, 50000000)});
   claims.push_back(
       {"H3DH3DH is not slower than H3DH2DH up to 16,000,000 rays", no_slower(to_3d, to_2d), Range{50000, 16777216}});
+  claims = over_bins(claims);
   claims.push_back(
       {"launches in two or three dimensions gain nothing over the same order in one", shapes_gain_nothing()});
-  return {.series = {unordered(), ordered("morton"), ordered(h3dh), ordered(hz), ordered(to_2d), ordered(to_3d),
-                     direction_origin, born_ordered(), with_shape(unordered(), "2d"), with_shape(unordered(), "3d"),
-                     with_shape(ordered(h3dh), "2d"), with_shape(ordered(h3dh), "3d")},
+  std::vector<Series> series = {unordered(),
+                                ordered("morton"),
+                                ordered(h3dh),
+                                ordered(hz),
+                                ordered(to_2d),
+                                ordered(to_3d),
+                                direction_origin,
+                                born_ordered(),
+                                with_shape(unordered(), "2d"),
+                                with_shape(unordered(), "3d"),
+                                with_shape(ordered(h3dh), "2d"),
+                                with_shape(ordered(h3dh), "3d")};
+  return {.series = with_finer_bins(series, {h3dh, hz, to_2d, to_3d}),
           .moves = false,
           .claims = claims,
           .range = {50000, Range::open}};

@@ -26,6 +26,23 @@ MountConfig roof(const std::string& name, const std::string& role) {
   return mount;
 }
 
+// Receivers on the pavements of four streets of the built-in city, so that errors are means over tens of paths and
+// more: two receivers and the roofs get a few.
+void add_walkers(Config& config) {
+  constexpr double pavement_m = 7, height_m = 1.5, step_m = 15, street_m = 97.5;
+  const auto add = [&](double x, double y) {
+    RadioEnd end;
+    end.name = fmt::format("walker-{}", config.receivers.size());
+    end.position_m = {x, y, height_m};
+    config.receivers.push_back(end);
+  };
+  for (int k = -6; k <= 6; ++k) {
+    if (k == 0) continue;
+    for (const double street : {-street_m, 0.0, street_m}) add(step_m * k, street + pavement_m);
+    add(pavement_m, step_m * k);
+  }
+}
+
 }  // namespace
 
 bool has_vehicles(const Config& config) {
@@ -38,6 +55,7 @@ Config with_traffic(const Config& city, const std::string& drive, uint64_t frame
   config.trajectories.generate = fmt::format("{} --vehicles {} --seconds {:g} --step 0.1", city.scene.generate,
                                              vehicles, std::ceil(*config.time.end_s) + 1);
   config.mounts.push_back(roof("roof", "receiver"));
+  add_walkers(config);
   if (drive == "spheres" || drive == "thesis") config.trace.reception = "sphere";
   if (drive == "fixed" || drive == "spheres") return config;
   config.transmitters.clear();

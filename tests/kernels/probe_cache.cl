@@ -120,7 +120,7 @@ kernel void put_rays(global wt_cache_entry* entries, global uint* heads, global 
                      global uint* slots) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, now);
+  const wt_cache_question q = wt_cache_ask(rays, capacity, i, 0, widths, now);
   const wt_cache_entry e = wt_cache_answer(q, 1.0f, primitives[i], 0, WT_NONE);
   slots[i] = wt_cache_put(probe_cache(entries, heads, used, regions, counters), q, &e);
 }
@@ -132,7 +132,7 @@ kernel void find_rays(global wt_cache_entry* entries, global uint* heads, global
   if (i >= count) return;
   uint slot;
   wt_cache_entry e;
-  const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, now);
+  const wt_cache_question q = wt_cache_ask(rays, capacity, i, 0, widths, now);
   const bool found = wt_cache_find(probe_cache(entries, heads, used, regions, counters), q, &e, &slot);
   primitives[i] = found ? e.primitive : WT_NONE;
 }

@@ -81,7 +81,7 @@ kernel void hash_questions(wt_cache_widths widths, const global ulong* cells, co
 kernel void hash_rays(const global float* rays, uint capacity, uint count, wt_cache_widths widths, global uint* out) {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const wt_cache_question q = wt_cache_ask(rays, capacity, i, widths, 1u);
+  const wt_cache_question q = wt_cache_ask(rays, capacity, i, 0, widths, 1u);
   out[i] = (uint)(q.hash >> 32) ^ q.region;
 }
 

@@ -223,6 +223,6 @@ TEST_CASE("cache_store writes the hits of missed rays back into the whole queue"
   HitList all = upload_hits(std::vector<Hit>(rays.size(), {7, 7, 7}));
   CacheStore store(context(), cache.table);
   const auto missed_indices = context().buffer(indices, "indices");
-  store(queue, upload(missed), upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
+  store(cache.scene, queue, upload(missed), upload_hits(missed_hits), missed_indices, all, cache.table, WT_NONE, 1);
   CHECK(download(all, rays.size()) == expected);
 }

@@ -9,6 +9,7 @@
 #include "passes/cached_rays.hpp"
 #include "passes/thesis_cache.hpp"
 #include "wavetracer/device/cache_thesis.h"
+#include "wavetracer/device/moving.h"
 
 using namespace wavetracer;
 using namespace wavetracer::device;
@@ -28,10 +29,29 @@ CacheConfig printed(CacheKind kind, uint32_t entries, uint32_t hash_method) {
   return config;
 }
 
+// Surfaces from this number on are those of vehicles, a hundred each; those before are the environment.
+constexpr uint32_t static_surfaces = 300, surfaces_a_vehicle = 100;
+
+// Section 3.2.3: an environment is loaded as one model, "which usually has -1 as id"; a vehicle has the id of its
+// model; a ray from the buffer has 0.
+uint16_t model_id(uint32_t surface) {
+  if (surface == WT_NONE) return 0;
+  if (surface < static_surfaces) return static_cast<uint16_t>(-1);
+  return static_cast<uint16_t>(1 + (surface - static_surfaces) / surfaces_a_vehicle);
+}
+
+// Gives the world of a cache the vehicles of model_id().
+void add_vehicles(Cache& cache) {
+  std::vector<wt_exact_surface> surfaces(1000);
+  for (uint32_t i = 0; i < surfaces.size(); ++i)
+    surfaces[i].instance = i < static_surfaces ? WT_NONE : (i - static_surfaces) / surfaces_a_vehicle;
+  cache.scene.exact_surfaces = context().buffer(surfaces, "exact surfaces");
+  cache.movement.instance_since = context().buffer(std::vector<uint32_t>(10), "instances moved");
+}
+
 thesis::CacheKey listing_key(const CacheConfig& config, const CachedRay& ray) {
-  const auto or_zero = [](uint32_t number) { return number == WT_NONE ? 0 : number; };
-  return {or_zero(ray.surface),
-          or_zero(ray.left),
+  return {model_id(ray.left == WT_NONE ? WT_NONE : ray.surface),
+          ray.left == WT_NONE ? 0 : ray.left,
           ray.direction[0],
           ray.direction[1],
           ray.direction[2],
@@ -44,7 +64,10 @@ std::vector<CachedRay> few_rays(uint32_t seed, size_t count) {
   Random random(seed);
   const std::vector<CachedRay> keys = random_rays(seed, 30);
   std::vector<CachedRay> rays;
-  for (size_t i = 0; i < count; ++i) rays.push_back(keys[random.below(30)]);
+  for (size_t i = 0; i < count; ++i) {
+    rays.push_back(keys[random.below(30)]);
+    if (rays.back().left == WT_NONE) rays.back().surface = WT_OWN | 2;  // the vehicle that carries the transmitter
+  }
   return rays;
 }
 
@@ -65,12 +88,14 @@ TEST_CASE("printed tables: hashes and buckets are those of the listings") {
   for (int i = 0; i < 20000; ++i) {
     CachedRay ray = random_ray(random);
     ray.left = random.below(2) ? random.below(0x7FFFFFFF) : random.below(1000);
-    ray.surface = random.below(100000);
+    ray.surface = random.below(1000);
+    const uint32_t instance =
+        ray.surface < static_surfaces ? WT_NONE : (ray.surface - static_surfaces) / surfaces_a_vehicle;
     for (const uint32_t method : {1u, 2u, 3u}) {
       CacheConfig config = printed("thesis", 64, method);
       config.division = 200000;
       const uint32_t hash = listing_key(config, ray).hash;
-      CHECK(wt_thesis_hash(method, cells_of(config, ray), ray.left, ray.surface) == hash);
+      CHECK(wt_thesis_hash(method, cells_of(config, ray), ray.left, wt_thesis_model(instance)) == hash);
       for (const uint32_t size : {64u, 50000u, 300000u}) {
         CHECK(wt_thesis_slot(hash, size) == thesis::getBucketIndex(hash, static_cast<int>(size)));
         CHECK(wt_thesis_slot(hash, size) <= size / 2);  // the fault
@@ -88,6 +113,7 @@ TEST_CASE("thesis: the open table answers as listing C.3, by position and by pre
     config.purge = purge;
     config.residual_value = 60;
     Cache cache(config);
+    add_vehicles(cache);
     cache.set_stamp(0, 7);
     thesis::OpenTable listing(16, config.readers_number, static_cast<float>(config.residual_value));
     const std::vector<CachedRay> rays = few_rays(3, 400);
@@ -127,6 +153,7 @@ TEST_CASE("thesis-chained: the chained table answers as listing C.2") {
     CAPTURE(method);
     const CacheConfig config = printed("thesis-chained", 60, method);
     Cache cache(config);
+    add_vehicles(cache);
     thesis::ChainedTable listing(20, 3);
     const std::vector<CachedRay> rays = few_rays(5, 300);
     Random random(6);
@@ -173,6 +200,7 @@ TEST_CASE("thesis-chained: equal hashes answer for each other, and a key that ca
   for (const CacheConfig& kind : {config, ours}) {
     CAPTURE(kind.kind);
     Cache cache(kind);
+    add_vehicles(cache);
     cache.put(std::span(pair).first(1), hits_of(1));
     const Answers other = cache.find(std::span(pair).last(1));
     CHECK(other.found[0] == (kind.kind == "thesis-chained"));
@@ -182,10 +210,23 @@ TEST_CASE("thesis-chained: equal hashes answer for each other, and a key that ca
   }
 }
 
+TEST_CASE("thesis: the environment is one model, whatever the surface; a vehicle is another") {
+  CacheConfig config = printed("thesis", 3000, 2);
+  config.locking = "mutex";
+  const CachedRay wall = {{}, {1, 0, 0}, 10, 77}, other_wall = {{}, {1, 0, 0}, 211, 77},
+                  vehicle = {{}, {1, 0, 0}, static_surfaces, 77};
+  Cache cache(config);
+  add_vehicles(cache);
+  cache.put({&wall, 1}, hits_of(1));
+  CHECK(cache.find({&other_wall, 1}).found[0]);
+  CHECK(!cache.find({&vehicle, 1}).found[0]);
+}
+
 TEST_CASE("thesis: with a mutex nothing dies, and keys are still not compared") {
   CacheConfig config = printed("thesis", 16, 1);
   config.locking = "mutex";
   Cache cache(config);
+  add_vehicles(cache);
   const std::vector<CachedRay> rays = few_rays(8, 64);
   for (size_t i = 0; i < rays.size(); ++i) {
     const Hit hit = hit_of(static_cast<uint32_t>(i));

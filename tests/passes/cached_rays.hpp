@@ -149,7 +149,7 @@ class Cache {
     receptions.resize(rays.size(), WT_NONE);
     const auto received = context().buffer(receptions, "receptions");
     auto receivers = context().buffer<uint32_t>(rays.size(), "receivers");
-    store_(queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received,
+    store_(scene, queue, missed, list, context().buffer(every, "indices"), all, table, static_surfaces, now, &received,
            &receivers);
     return entries_of(queue);
   }

@@ -65,6 +65,37 @@ std::vector<uint32_t> by_lists(const std::vector<Ray>& rays, uint32_t bin_num, c
   return order;
 }
 
+// Algorithm 1 as the thesis prints it: bins, in the order of `code`, of vectors.
+template <class Code>
+std::vector<Float3> by_printed_lists(const std::vector<Ray>& rays, uint32_t bin_num, const Code& code) {
+  std::map<uint32_t, std::vector<Float3>> histogram;
+  for (const Ray& element : rays) {
+    const Float3& d = element.direction;
+    const Float3 v = {(d[0] + 1) / 2, (d[1] + 1) / 2, (d[2] + 1) / 2};
+    const auto bin = [&](float c) { return static_cast<uint32_t>(std::floor(c * static_cast<float>(bin_num) / 2)); };
+    histogram[code(bin(v[0]), bin(v[1]), bin(v[2]))].push_back(v);
+  }
+  std::vector<Float3> out;
+  for (const auto& [unused, list] : histogram) out.insert(out.end(), list.begin(), list.end());
+  return out;
+}
+
+// Listing A.1, as the thesis prints it and, with `mended`, with z in place of the second x.
+uint32_t expandBits(uint32_t v) {
+  v = (v * 0x00010001u) & 0xFF0000FFu;
+  v = (v * 0x00000101u) & 0x0F00F00Fu;
+  v = (v * 0x00000011u) & 0xC30C30C3u;
+  return (v * 0x00000005u) & 0x49249249u;
+}
+
+uint32_t morton3D(float x, float y, float z, bool mended) {
+  x = std::min(std::max(x * 1024.0f, 0.0f), 1023.0f);
+  y = std::min(std::max(y * 1024.0f, 0.0f), 1023.0f);
+  (mended ? z : x) = std::min(std::max(z * 1024.0f, 0.0f), 1023.0f);
+  return expandBits(static_cast<uint32_t>(x)) * 4 + expandBits(static_cast<uint32_t>(y)) * 2 +
+         expandBits(static_cast<uint32_t>(z));
+}
+
 }  // namespace
 
 TEST_CASE("the histogram's order is that of its lists along the curve, for any number of bins") {
@@ -205,4 +236,38 @@ TEST_CASE("keys stay within their bits, and bins outside 1 to 1024 are refused")
   }
   CHECK_THROWS_AS(OrderKeys(context(), OrderKey::morton_bins, 0, directions, 10), std::invalid_argument);
   CHECK_THROWS_AS(OrderKeys(context(), OrderKey::hilbert_bins, 1025, directions, 10), std::invalid_argument);
+}
+
+TEST_CASE("listing A.1: mended, it is our code with x as the leading component; as printed, x has no influence") {
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(random.below(1u << 20)) * 0x1p-20f; };
+    const float x = coordinate(), y = coordinate(), z = coordinate();
+    const auto cell = [](float c) { return static_cast<uint32_t>(c * 1024.0f); };
+    CHECK(morton3D(x, y, z, true) == device::wt_morton3_encode32(cell(z), cell(y), cell(x)));
+    // The fault: z, cut to an integer, is 0, and its cell is in the place of x.
+    CHECK(morton3D(x, y, z, false) == device::wt_morton3_encode32(0, cell(y), cell(z)));
+    CHECK(morton3D(x, y, z, false) == morton3D(1 - x, y, z, false));
+  }
+}
+
+TEST_CASE("algorithm 1 as printed: 16 bins sort as our 8 do, and directions are lost") {
+  const LaunchDirections directions("random", 3000, 7);
+  const RayQueue queue = launched(directions, 3000);
+  const std::vector<Ray> rays = download(queue);
+  const auto morton = [](auto x, auto y, auto z) { return device::wt_morton3_encode32(x, y, z); };
+  const std::vector<Float3> printed = by_printed_lists(rays, 16, morton);
+  const std::vector<uint32_t> mended = order_of(OrderKey::morton_bins, 8, directions, queue);
+  REQUIRE(printed.size() == mended.size());
+  size_t different = 0, units = 0;
+  for (size_t i = 0; i < printed.size(); ++i) {
+    const Float3& d = rays[mended[i]].direction;
+    different += printed[i] != Float3{(d[0] + 1) / 2, (d[1] + 1) / 2, (d[2] + 1) / 2};
+    const auto& [x, y, z] = printed[i];
+    units += std::abs(std::sqrt(x * x + y * y + z * z) - 1) < 1e-3f;
+    CHECK((x >= 0 && y >= 0 && z >= 0));  // one octant of the sphere
+  }
+  CHECK(different == 0);
+  CHECK(units < 30);
+  CHECK(order_of(OrderKey::morton_bins, 16, directions, queue) != mended);
 }

@@ -73,17 +73,41 @@ TEST_CASE("figure-6.1 has every method of order.method and every launch shape") 
     shapes.insert(series.shape);
     labels.insert(label(series));
     CHECK(series.each_depth == (series.method == "direction-origin"));
+    CHECK((has_bins(series) || series.bins == 16));
     // The field table must know its values.
     Config applied = load_config(test::source_folder() + "/configs/city.toml");
     apply(applied, series, 1000);
+    CHECK(applied.order.bin_num == series.bins);
     CHECK_NOTHROW(parse_config(resolved_config(applied), "resolved.toml"));
   }
   CHECK(methods == std::set<std::string>{"none", "morton", "hilbert3d-histogram", "morton-histogram",
                                          "hilbert3d-histogram-hilbert2d", "hilbert3d-histogram-hilbert3d",
                                          "direction-origin"});
   CHECK(shapes == std::set<std::string>{"1d", "2d", "3d"});
-  CHECK(labels == std::set<std::string>{"WS", "WS 2d", "WS 3d", "Z", "H3DH", "H3DH 2d", "H3DH 3d", "HZ", "H3DH2DH",
-                                        "H3DH3DH", "direction-origin", "born ordered"});
+  CHECK(labels == std::set<std::string>{"WS",
+                                        "WS 2d",
+                                        "WS 3d",
+                                        "Z",
+                                        "H3DH",
+                                        "H3DH 2d",
+                                        "H3DH 3d",
+                                        "HZ",
+                                        "H3DH2DH",
+                                        "H3DH3DH",
+                                        "direction-origin",
+                                        "born ordered",
+                                        "H3DH 32 bins",
+                                        "HZ 32 bins",
+                                        "H3DH2DH 32 bins",
+                                        "H3DH3DH 32 bins",
+                                        "H3DH 64 bins",
+                                        "HZ 64 bins",
+                                        "H3DH2DH 64 bins",
+                                        "H3DH3DH 64 bins",
+                                        "H3DH 128 bins",
+                                        "HZ 128 bins",
+                                        "H3DH2DH 128 bins",
+                                        "H3DH3DH 128 bins"});
   CHECK(labels.size() == experiment.as<OrderFigure>()->series.size());
 }
 
@@ -108,8 +132,8 @@ TEST_CASE("the built-in city is that of configs/city.toml") {
 
 TEST_CASE("keys that a experiment varies cannot be set, others can") {
   const Experiment& still = find_experiment("figure-6.1");
-  for (const char* set :
-       {"trace.rays=5", "trace.directions=random", "order.method=Z", "order.each_depth = true", "launch.shape=2d"}) {
+  for (const char* set : {"trace.rays=5", "trace.directions=random", "order.method=Z", "order.each_depth = true",
+                          "order.bin_num=64", "launch.shape=2d"}) {
     CAPTURE(set);
     CHECK_THROWS_WITH_AS(experiment_config(still, "", {set}), doctest::Contains("gives"), ConfigError);
   }
@@ -211,7 +235,7 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
     REQUIRE(lines.size() == 1 + 2 * experiment.as<OrderFigure>()->series.size());
     const std::string columns =
         "rays,method,mnemonic,shape,each_depth,trace_s,order_s,unpaid_s,paid_s,frame_s,paths,sequences,gain_unpaid,"
-        "gain_paid,launched";
+        "gain_paid,launched,bins";
     CHECK(lines[0] == columns + (experiment.moves() ? ",frames,reduction_unpaid_percent,reduction_paid_percent" : "") +
                           ",unpaid_error_s,paid_error_s");
     std::vector<std::string> base;
@@ -229,23 +253,27 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
         CHECK(cell(cells, ("gain_" + which).c_str()) == doctest::Approx(gain).epsilon(1e-5));
       }
       if (experiment.moves()) {
-        CHECK(cells.at(15) == "20");
-        CHECK(std::strtod(cells.at(16).c_str(), nullptr) ==
+        CHECK(cells.at(16) == "20");
+        CHECK(std::strtod(cells.at(17).c_str(), nullptr) ==
               doctest::Approx(100 * (1 - cell(cells, "unpaid_s") / cell(base, "unpaid_s"))).epsilon(1e-4));
       }
     }
   }
 }
 
-TEST_CASE("the script draws a line per series in each of two panels, and launch shapes beside their own in two more") {
+TEST_CASE(
+    "the script draws a line per series in each of four panels, and launch shapes beside their own in four more") {
   const Experiment& experiment = find_experiment("figure-6.1");
   const std::string script =
       order_figure("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series, Csv()).commands;
   for (const Series& series : experiment.as<OrderFigure>()->series) {
     const bool has_shapes = series == unordered() || series == ordered("hilbert3d-histogram");
-    CHECK(occurrences(script, " title '" + label(series) + "'") == (has_shapes ? 4 : 2));
+    const size_t panels = series.bins != thesis_bins ? 0
+                          : has_shapes               ? 8
+                                                     : 4;  // other bins are rows of the table alone
+    CHECK(occurrences(script, " title '" + label(series) + "'") == panels);
   }
-  CHECK(occurrences(script, "with linespoints") == 2 * (8 + 6));  // none has more lines than there are colours
+  CHECK(occurrences(script, "with linespoints") == 4 * (8 + 6));  // none has more lines than there are colours
   CHECK(occurrences(script, "'A device''s title'") == 1);
   CHECK(occurrences(script, "/") == occurrences(script, " / "));  // no folder in any name
 }

@@ -110,7 +110,12 @@ FramePair frame_pair(uint32_t frame, double correlation) {
 std::function<std::vector<FramePair>()> correlations(std::vector<double> values) {
   return [=] {
     std::vector<FramePair> rows;
-    for (const double value : values) rows.push_back(frame_pair(static_cast<uint32_t>(rows.size()) + 1, value));
+    for (const double value : values) {
+      rows.push_back(frame_pair(static_cast<uint32_t>(rows.size()) / 2 + 1, value));
+      rows.push_back(rows.back());  // the whole output
+      rows.back().depth = 0;
+      rows.back().by_place_unordered = value;
+    }
     return rows;
   };
 }

@@ -43,6 +43,15 @@ inline wt_uint wt_thesis_hash2(wt_uint primitive, wt_uint instance, wt_uint x, w
          wt_thesis_separate_by_4(instance) << 3 | wt_thesis_separate_by_4(primitive) << 4;
 }
 
+// Numbers of models (section 3.2.3): the environment is one model, whose id is -1 in 16 bits. Every surface of it has
+// that number. An instance has its own number, from 1 on, because 0 is what a ray has at a transmitter.
+#define WT_THESIS_ENVIRONMENT 0xFFFFu
+
+// The instanceId of a key. instance: that of the surface that a ray left, WT_NONE for one of the static scene.
+inline wt_uint wt_thesis_model(wt_uint instance) {
+  return instance == 0xFFFFFFFFu ? WT_THESIS_ENVIRONMENT : (instance + 1u) & 0xFFFFu;
+}
+
 // setIndices of the thesis, with a hash_method. Cells are packed as by wt_cache_cells.
 inline wt_uint wt_thesis_hash(wt_uint method, wt_ulong cells, wt_uint primitive, wt_uint instance) {
   const wt_uint x = (wt_uint)cells & 0x1FFFFFu, y = (wt_uint)(cells >> 21) & 0x1FFFFFu, z = (wt_uint)(cells >> 42);
