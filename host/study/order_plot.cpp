@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is small on an
-// axis of four decades. It needs gnuplot 5.
+// Both axes are logarithmic. In the upper panels of a block times are divided by the rays of all transmitters, because
+// a factor of two is small on an axis of four decades; the lower ones have seconds, as in the thesis. It needs
+// gnuplot 5.
 #include <fmt/format.h>
 #include <algorithm>
 #include <set>
@@ -29,15 +30,19 @@ std::vector<Series> drawn(std::vector<Series> series) {
   return series;
 }
 
-std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column) {
+// a_ray: in nanoseconds a ray; else in seconds, as in the thesis.
+std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column,
+                 bool a_ray) {
   const Series& s = series[index];
+  const std::string value =
+      a_ray ? fmt::format("1e9 * column({}) / column({})", column_number(column), column_number("launched"))
+            : fmt::format("column({})", column_number(column));
   const bool own_shape = label(s) == s.mnemonic;
   return fmt::format(
-      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' && (column({}) == 0 || column({}) == {}) ? 1e9 * column({}) / column({}) : NaN) "
+      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' && (column({}) == 0 || column({}) == {}) ? {} : NaN) "
       "with linespoints linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize 0.5 title '{}'",
       name, column_number("rays"), column_number("mnemonic"), s.mnemonic, column_number("shape"), s.shape,
-      column_number("bins"), column_number("bins"), s.bins, column_number(column), column_number("launched"),
-      colour(series, index),
+      column_number("bins"), column_number("bins"), s.bins, value, colour(series, index),
       own_shape         ? "1"
       : s.shape == "2d" ? "'-'"
                         : "'.'",
@@ -45,9 +50,9 @@ std::string line(const std::string& name, const std::vector<Series>& series, siz
 }
 
 std::string panel(const std::string& name, const std::vector<Series>& series, const std::string& title,
-                  const std::string& column) {
+                  const std::string& column, bool a_ray) {
   std::string text = fmt::format("set title '{}'\nplot ", title);
-  for (size_t i = 0; i < series.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line(name, series, i, column);
+  for (size_t i = 0; i < series.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line(name, series, i, column, a_ray);
   return text + "\n";
 }
 
@@ -78,20 +83,34 @@ plots::Figure order_figure(const std::string& name, const std::string& title, co
   text += fmt::format(
       "set logscale xy\n"
       "set xrange [rays_min / 1.25 : 1.25 * rays_max]\n"
-      "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
       "set format x '10^{{%T}}'\n"
-      "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
       "set xlabel 'rays of each transmitter'\n"
-      "set ylabel 'device time a ray (ns)'\n"
       "set multiplot title '{}' noenhanced\n",
       quoted(title));
   const std::vector<std::vector<Series>> blocks = series_blocks(series);
   std::vector<size_t> lines;
   for (const std::vector<Series>& block : blocks) lines.push_back(block.size());
-  const PanelPage page(lines, 2, 2);
-  for (size_t block = 0; block < blocks.size(); ++block)
-    text += "set key off\n" + page.margins(block, 0) + panel(name, blocks[block], "sort not paid", "unpaid_s") +
-            page.key(block) + page.margins(block, 1) + panel(name, blocks[block], "sort paid", "paid_s");
+  const PanelPage page(lines, 4, 2);
+  constexpr const char *ns_a_ray =
+                           "set ylabel 'device time a ray (ns)'\nset format y '%g'\n"
+                           "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
+                           "do for [k = -3:6] { do for [m in '1 2 5'] { set ytics add (sprintf('%g', m * 10.0**k) m * "
+                           "10.0**k) } }\n",
+                       *seconds =
+                           "set ylabel 'device time (s)'\nset ytics autofreq\nset format y '10^{%T}'\n"
+                           "set yrange [*:*]\n";
+  for (size_t block = 0; block < blocks.size(); ++block) {
+    const auto add = [&](size_t at, const char* title_of, const char* column) {
+      text += page.margins(block, at) + panel(name, blocks[block], title_of, column, at < 2);
+    };
+    text += std::string("set key off\n") + ns_a_ray;
+    add(0, "sort not paid", "unpaid_s");
+    add(1, "sort paid", "paid_s");
+    text += seconds;
+    add(2, "sort not paid", "unpaid_s");
+    text += page.key(block);
+    add(3, "sort paid", "paid_s");
+  }
   return experiment_figure(name, table, text + "unset multiplot\n", page_width_px, page.height_px());
 }
 

@@ -261,16 +261,19 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
   }
 }
 
-TEST_CASE("the script draws a line per series in each of two panels, and launch shapes beside their own in two more") {
+TEST_CASE(
+    "the script draws a line per series in each of four panels, and launch shapes beside their own in four more") {
   const Experiment& experiment = find_experiment("figure-6.1");
   const std::string script =
       order_figure("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series, Csv()).commands;
   for (const Series& series : experiment.as<OrderFigure>()->series) {
     const bool has_shapes = series == unordered() || series == ordered("hilbert3d-histogram");
-    const bool is_drawn = series.bins == thesis_bins;  // others are rows of the table alone
-    CHECK(occurrences(script, " title '" + label(series) + "'") == (!is_drawn ? 0 : has_shapes ? 4 : 2));
+    const size_t panels = series.bins != thesis_bins ? 0
+                          : has_shapes               ? 8
+                                                     : 4;  // other bins are rows of the table alone
+    CHECK(occurrences(script, " title '" + label(series) + "'") == panels);
   }
-  CHECK(occurrences(script, "with linespoints") == 2 * (8 + 6));  // none has more lines than there are colours
+  CHECK(occurrences(script, "with linespoints") == 4 * (8 + 6));  // none has more lines than there are colours
   CHECK(occurrences(script, "'A device''s title'") == 1);
   CHECK(occurrences(script, "/") == occurrences(script, " / "));  // no folder in any name
 }
