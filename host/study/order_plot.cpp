@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both axes are logarithmic. Times are divided by the rays of all transmitters, because a factor of two is small on an
-// axis of four decades. It needs gnuplot 5.
+// Both axes are logarithmic. In the upper panels times are divided by the rays of all transmitters, because a factor of
+// two is small on an axis of four decades; the lower ones have seconds, as in the thesis. It needs gnuplot 5.
 #include <fmt/format.h>
 #include <set>
 #include "study/order_rows.hpp"
@@ -27,15 +27,18 @@ std::vector<Series> drawn(std::vector<Series> series) {
   return series;
 }
 
-std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column) {
+std::string line(const std::string& name, const std::vector<Series>& series, size_t index, const std::string& column,
+                 bool a_ray) {
   const Series& s = series[index];
   const bool own_shape = label(s) == s.mnemonic;
+  const std::string value =
+      a_ray ? fmt::format("1e9 * column({}) / column({})", column_number(column), column_number("launched"))
+            : fmt::format("column({})", column_number(column));
   return fmt::format(
-      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' && (column({}) == 0 || column({}) == {}) ? 1e9 * column({}) / column({}) : NaN) "
+      "'{}.csv' using {}:(strcol({}) eq '{}' && strcol({}) eq '{}' && (column({}) == 0 || column({}) == {}) ? {} : NaN) "
       "with linespoints linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize 0.5 title '{}'",
       name, column_number("rays"), column_number("mnemonic"), s.mnemonic, column_number("shape"), s.shape,
-      column_number("bins"), column_number("bins"), s.bins, column_number(column), column_number("launched"),
-      colour(series, index),
+      column_number("bins"), column_number("bins"), s.bins, value, colour(series, index),
       own_shape         ? "1"
       : s.shape == "2d" ? "'-'"
                         : "'.'",
@@ -43,9 +46,9 @@ std::string line(const std::string& name, const std::vector<Series>& series, siz
 }
 
 std::string panel(const std::string& name, const std::vector<Series>& series, const std::string& title,
-                  const std::string& column) {
+                  const std::string& column, bool a_ray) {
   std::string text = fmt::format("set title '{}'\nplot ", title);
-  for (size_t i = 0; i < series.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line(name, series, i, column);
+  for (size_t i = 0; i < series.size(); ++i) text += (i == 0 ? "" : ", \\\n  ") + line(name, series, i, column, a_ray);
   return text + "\n";
 }
 
@@ -68,15 +71,25 @@ plots::Figure order_figure(const std::string& name, const std::string& title, co
       "set xlabel 'rays of each transmitter'\n"
       "set ylabel 'device time a ray (ns)'\n"
       "set multiplot title '{}' noenhanced\n"
-      "set tmargin at screen 0.86\n"
-      "set bmargin at screen 0.12\n",
+      "set tmargin at screen 0.93\n"
+      "set bmargin at screen 0.56\n",
       quoted(title));
-  text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
-          panel(name, series, "sort not paid", "unpaid_s");
+  const auto row = [&](bool a_ray, const char* key) {
+    text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
+            panel(name, series, "sort not paid", "unpaid_s", a_ray) +
+            "set lmargin at screen 0.48\nset rmargin at screen 0.82\n" + key +
+            panel(name, series, "sort paid", "paid_s", a_ray);
+  };
+  row(true, "set key at screen 0.99, 0.93 right top Left reverse\n");
   text +=
-      "set lmargin at screen 0.48\nset rmargin at screen 0.82\nset key at screen 0.99, 0.86 right top Left reverse\n" +
-      panel(name, series, "sort paid", "paid_s");
-  return experiment_figure(name, table, text + "unset multiplot\n", 1150, 540);
+      "set tmargin at screen 0.46\n"
+      "set bmargin at screen 0.07\n"
+      "set ylabel 'device time (s)'\n"
+      "set ytics autofreq\n"
+      "set format y '10^{%T}'\n"
+      "set yrange [*:*]\n";
+  row(false, "set key off\n");
+  return experiment_figure(name, table, text + "unset multiplot\n", 1150, 960);
 }
 
 }  // namespace wavetracer::study

@@ -22,7 +22,8 @@ size_t column_of(const std::vector<std::string>& columns, const std::string& nam
 plots::Figure experiment_figure(const std::string& name, const Csv& table, const std::string& commands, double width_px,
                                 double height_px);
 
-// Plots figures of orders: one panel without and one with the time of ordering, each with a line per series.
+// Plots figures of orders: one panel without and one with the time of ordering, each with a line per series, in
+// nanoseconds a ray and below in seconds.
 plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& series,
                            const Csv& table);
 

@@ -96,7 +96,8 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
   CHECK(contains(run.out, folder.path("out/figure-6.1.svg")));
   CHECK(contains(plot, "<svg "));
   CHECK(contains(plot, "</svg>"));
-  CHECK(occurrences(plot, "id=\"gnuplot_plot_") == 2 * 12);  // a line per series, sort not paid and paid
+  CHECK(occurrences(plot, "id=\"gnuplot_plot_") ==
+        4 * 12);  // a line per series, sort not paid and paid, in ns a ray and in seconds
 }
 
 TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
