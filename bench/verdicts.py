@@ -10,8 +10,9 @@ import pathlib
 import re
 import sys
 
-COLUMNS = ("device", "date", "command", "figure", "claim", "verdict", "measured")
-WORDS = ("reproduced", "exceeded", "in part", "refuted", "not judged")
+COLUMNS = ("device", "date", "command", "figure", "claim", "origin", "verdict", "measured")
+ORIGINS = ("thesis", "other author", "repetition")
+WORDS = ("exceeded", "reproduced", "in part", "refuted", "undecided", "not measured there", "not judged")
 FILE = pathlib.Path(__file__).parent / "results" / "verdicts.csv"
 
 
@@ -29,8 +30,8 @@ def of_run(text):
     section = re.search(r"^## Verdicts\n(.*?)^## ", text, re.M | re.S)[1]
     for line in section.splitlines():
         cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
-        if len(cells) == 4 and cells[2] in WORDS and not cells[3].startswith("no claim to judge"):
-            yield head | dict(zip(("figure", "claim", "verdict", "measured"), cells))
+        if len(cells) == 5 and cells[2] in ORIGINS and cells[3] in WORDS:
+            yield head | dict(zip(("figure", "claim", "origin", "verdict", "measured"), cells))
 
 
 def of_devices(rows):
@@ -43,11 +44,14 @@ def of_devices(rows):
 
 
 def counts(rows):
-    """Markdown lines: how many claims have which verdict on each device."""
-    lines = ["| device | " + " | ".join(WORDS) + " | command, date |", "| --- |" + " ---: |" * len(WORDS) + " --- |"]
+    """Markdown lines: how many claims of which origin have which verdict on each device."""
+    lines = ["| device | origin | claims | " + " | ".join(WORDS) + " | command, date |",
+             "| --- | --- |" + " ---: |" * (1 + len(WORDS)) + " --- |"]
     for name, own in of_devices(rows).items():
-        numbers = " | ".join(str(sum(row["verdict"] == word for row in own)) for word in WORDS)
-        lines.append(f"| {name} | {numbers} | `{own[0]['command']}`, {own[0]['date']} |")
+        for origin in ORIGINS:
+            found = [row["verdict"] for row in own if row["origin"] == origin]
+            numbers = " | ".join(str(number) for number in [len(found)] + [found.count(word) for word in WORDS])
+            lines.append(f"| {name} | {origin} | {numbers} | `{own[0]['command']}`, {own[0]['date']} |")
     return lines
 
 
@@ -56,15 +60,17 @@ def page(rows):
     devices = of_devices(rows)
     lines = ["# The thesis, claim by claim", "",
              "This page lists every claim of the thesis with its verdict and the measurement behind it. `bench/report.py` generates it from "
-             "`bench/results/verdicts.csv`, so do not edit it. [thesis.md](thesis.md#figures) explains the figures and the five verdicts.", "",
-             "\"With the sort paid\" means that the time of the sort is a part of the measured time. Names in quotation marks are the settings "
-             "of the figure; those with \"printed\" are the tables as the thesis prints them, with their faults.", ""] + counts(rows)
+             "`bench/results/verdicts.csv`, so do not edit it. [thesis.md](thesis.md#figures) explains the figures and the verdicts.", "",
+             "\"Sort paid\" means that the time of the sort is a part of the measured time. Names in quotation marks are the settings "
+             "of the figure; those with \"printed\" are the tables as the thesis prints them, with their faults. A repetition is a claim of "
+             "another figure, or the same claim about other tables; repetitions and claims of other authors are counted apart.", ""] + counts(rows)
     for figure in dict.fromkeys(row["figure"] for row in rows):
         lines += ["", f"## {figure}", "", "| claim | " + " | ".join(devices) + " |", "| --- |" + " --- |" * len(devices)]
         for claim in dict.fromkeys(row["claim"] for row in rows if row["figure"] == figure):
             cells = [next((f"**{row['verdict']}**: {row['measured']}" for row in own
                            if (row["figure"], row["claim"]) == (figure, claim)), "") for own in devices.values()]
-            lines.append(f"| {claim} | " + " | ".join(cells) + " |")
+            origin = next(row["origin"] for row in rows if (row["figure"], row["claim"]) == (figure, claim))
+            lines.append(f"| {claim}{'' if origin == 'thesis' else f' ({origin})'} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 

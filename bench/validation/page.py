@@ -23,9 +23,9 @@ def draw_edges(result, folder):
     lines = ["set multiplot layout 1,2", "set key below", "set xlabel 'nu'", "set title 'one edge, 100 m and 100 m, 5.9 GHz'",
              "set ylabel 'loss, dB'", "$one << END"]
     lines += [f"{row['nu']} {row['exact_db']} {row['v_db']} {row['h_db']}" for row in near] + ["END"]
-    lines += ["plot $one using 1:2 with lines lw 2 title 'Fresnel integral', $one using 1:3 with points pt 7 title 'ours, V', "
-              "$one using 1:4 with points pt 6 title 'ours, H'", "set title 'two edges, the same nu at each, 5.9 GHz'",
-              "set ylabel 'ours (mean of V and H) - double Fresnel integral, dB'"]
+    lines += ["plot $one using 1:2 with lines lw 2 title 'Fresnel integral', $one using 1:3 with points pt 7 title 'wavetracer, V', "
+              "$one using 1:4 with points pt 6 title 'wavetracer, H'", "set title 'two edges, the same nu at each, 5.9 GHz'",
+              "set ylabel 'wavetracer (mean of V, H) - integral, dB'"]
     places = sorted({(row["a_m"], row["b_m"], row["c_m"]) for row in pairs})
     for i, place in enumerate(places):
         lines += [f"$two{i} << END"] + [f"{row['nu_1']} {ours(row) - row['exact_db']}" for row in pairs

@@ -36,7 +36,7 @@ def panel(number, result, kind, hz):
         lines += [f"$p{number}{i} << END"] + [f"{row['d_m']} {row['median_db']} {row['low_db']} {row['high_db'] or 240}" for row in points]
         lines.append("END")
         plots.append(f"$p{number}{i} with yerrorbars pt 7 ps 0.7 lc rgb '{'#1f77b4' if i == 0 else '#d62728'}' "
-                     f"title '{'ours, in sight' if i == 0 else 'ours, hidden'}'")
+                     f"title '{'wavetracer, in sight' if i == 0 else 'wavetracer, hidden'}'")
     what = "masts of 10 m" if kind == "mast" else "between vehicles"
     return lines + [f"set title '{what}, {hz / 1e9:g} GHz'", "plot " + ", ".join(plots)]
 

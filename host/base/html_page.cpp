@@ -13,6 +13,7 @@ constexpr const char* style_of_pages =
     "td,th{border-bottom:1px solid #ddd;padding:2px 8px;text-align:right}"
     "td:nth-child(-n+3),th:nth-child(-n+3){text-align:left}"
     "svg{max-width:100%;height:auto}"
+    ".wide{overflow-x:auto}"
     ".about{font-size:13px;color:#555}";
 
 }  // namespace

@@ -86,7 +86,7 @@ Judge<CacheRow> of_each(std::vector<std::string> settings, std::function<Answere
 
 Judge<CacheRow> on_average(CacheValue value, const std::string& setting, const std::string& than, double low,
                            double high) {
-  return in_each_world(factor_form(), [=](const CacheRows& rows, const std::string& drive) -> Answered {
+  return in_each_world(ratio_form(setting, than), [=](const CacheRows& rows, const std::string& drive) -> Answered {
     const std::vector<Measured> means = means_of(rows, drive, value, {setting, than});
     if (means.empty()) return {};
     if (means[1].value == 0 && means[0].value == 0) return {Answer::undecided, undefined, "both are 0"};

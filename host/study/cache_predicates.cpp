@@ -119,7 +119,7 @@ AtPoint fastest_is(const std::string& setting, const std::vector<std::string>& s
             const Measured next = std::ranges::min(all, {}, &Measured::value);
             return {less(own[0], next), own[0].value / next.value};
           },
-          factor_form()};
+          ratio_form(setting, "the next")};
 }
 
 AtPoint slowest_is(const std::string& setting, const std::vector<std::string>& settings) {
@@ -136,7 +136,7 @@ AtPoint largest_are(CacheValue value, std::vector<std::string> largest, std::vec
             if (least.value == 0) return {Answer::no, undefined, "it is 0"};
             return {less(next, least), next.value > 0 ? least.value / next.value : undefined};
           },
-          factor_form()};
+          ratio_form("the least of these", "the next")};
 }
 
 AtPoint less(CacheValue value, const std::string& setting, const std::string& than, double factor) {
@@ -147,7 +147,7 @@ AtPoint less(CacheValue value, const std::string& setting, const std::string& th
             if (a[0].value == 0 && b[0].value == 0) return {Answer::no, undefined, "both are 0"};
             return {less(factor * a[0], b[0]), b[0].value > 0 ? a[0].value / b[0].value : undefined};
           },
-          factor_form()};
+          ratio_form(setting, than)};
 }
 
 AtPoint at_most(CacheValue value, const std::string& setting, double bound, const ValueForm& form) {

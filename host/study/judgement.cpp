@@ -26,18 +26,20 @@ std::string places(const std::vector<uint64_t>& at, size_t of, const std::string
   return fmt::format(" at {}{} {}", unit, at.size() > 1 ? "s" : "", list_words(words));
 }
 
-// Returns "0.90 to 1.20 m", or what notes say.
+// Returns "0.90 to 1.20 m", or what notes say, or "0.90 m; elsewhere both are 0".
 std::string values_of(const std::vector<const CaseAnswer*>& cases, const ValueForm& form) {
   double low = undefined, high = undefined;
+  std::string note;
   for (const CaseAnswer* one : cases) {
-    if (!one->note.empty()) return one->note;
+    if (!one->note.empty()) note = one->note;
     if (std::isnan(one->value)) continue;
     low = std::isnan(low) ? one->value : std::min(low, one->value);
     high = std::isnan(high) ? one->value : std::max(high, one->value);
   }
-  if (!form.text || std::isnan(low)) return "";
+  if (!form.text || std::isnan(low)) return note;
   const std::string first = form.text(low), last = form.text(high);
-  return form.before + (first == last ? first : first + " to " + last) + form.after;
+  return form.before + (first == last ? first : first + " to " + last) + form.after +
+         (note.empty() ? "" : "; elsewhere " + note);
 }
 
 std::string group_words(const std::vector<const CaseAnswer*>& cases, const Cases& of) {
@@ -79,6 +81,9 @@ bool Range::is_covered(const std::vector<uint64_t>& measured) const {
 }
 
 ValueForm factor_form() { return {"a factor of ", two_decimals, ""}; }
+ValueForm ratio_form(const std::string& of, const std::string& over) {
+  return {of + " over " + over + ": ", two_decimals, ""};
+}
 ValueForm unit_form(const std::string& unit) { return {"", three_digits, " " + unit}; }
 ValueForm time_form() { return {"", of_a_time, ""}; }
 ValueForm correlation_form() { return {"", two_decimals, ""}; }

@@ -58,6 +58,8 @@ struct ValueForm {
   std::string after = {};
 };
 ValueForm factor_form();
+// For a value of one thing over that of another: "no cache over precision 0.0125 Morton: 0.63".
+ValueForm ratio_form(const std::string& of, const std::string& over);
 ValueForm unit_form(const std::string& unit);
 ValueForm time_form();         // for a time over that of no cache: "12% less time"
 ValueForm correlation_form();  // two decimals

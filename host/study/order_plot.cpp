@@ -2,8 +2,10 @@
 // Both axes are logarithmic. In the upper panels times are divided by the rays of all transmitters, because a factor of
 // two is small on an axis of four decades; the lower ones have seconds, as in the thesis. It needs gnuplot 5.
 #include <fmt/format.h>
+#include <algorithm>
 #include <set>
 #include "study/order_rows.hpp"
+#include "study/panels.hpp"
 #include "study/scripts.hpp"
 
 namespace wavetracer::study {
@@ -11,7 +13,7 @@ namespace {
 
 size_t column_number(const std::string& name) { return column_of(names_of(order_columns(false)), name); }
 
-// Each mnemonic has one colour; launch shapes of one method differ in their dashes.
+// Each mnemonic of a block has one colour; launch shapes of one method differ in their dashes.
 std::string_view colour(const std::vector<Series>& series, size_t index) {
   std::set<std::string> earlier;
   for (const Series& other : series) {
@@ -52,6 +54,20 @@ std::string panel(const std::string& name, const std::vector<Series>& series, co
   return text + "\n";
 }
 
+// Divides series into orders, in their own shapes of launch, and launches in other shapes beside their own.
+std::vector<std::vector<Series>> series_blocks(const std::vector<Series>& series) {
+  const auto is_shaped = [](const Series& one) { return label(one) != one.mnemonic; };
+  std::vector<Series> orders, shapes;
+  for (const Series& one : series) {
+    const bool has_shapes = std::ranges::any_of(
+        series, [&](const Series& other) { return is_shaped(other) && other.mnemonic == one.mnemonic; });
+    if (!is_shaped(one)) orders.push_back(one);
+    if (has_shapes) shapes.push_back(one);
+  }
+  if (shapes.empty()) return {orders};
+  return {orders, shapes};
+}
+
 }  // namespace
 
 plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& all,
@@ -70,26 +86,25 @@ plots::Figure order_figure(const std::string& name, const std::string& title, co
       "do for [k = -3:6] {{ do for [m in '1 2 5'] {{ set ytics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }}\n"
       "set xlabel 'rays of each transmitter'\n"
       "set ylabel 'device time a ray (ns)'\n"
-      "set multiplot title '{}' noenhanced\n"
-      "set tmargin at screen 0.93\n"
-      "set bmargin at screen 0.56\n",
+      "set multiplot title '{}' noenhanced\n",
       quoted(title));
-  const auto row = [&](bool a_ray, const char* key) {
-    text += "set lmargin at screen 0.07\nset rmargin at screen 0.41\nset key off\n" +
-            panel(name, series, "sort not paid", "unpaid_s", a_ray) +
-            "set lmargin at screen 0.48\nset rmargin at screen 0.82\n" + key +
-            panel(name, series, "sort paid", "paid_s", a_ray);
-  };
-  row(true, "set key at screen 0.99, 0.93 right top Left reverse\n");
+  const std::vector<std::vector<Series>> blocks = series_blocks(series);
+  std::vector<size_t> lines;
+  for (const std::vector<Series>& block : blocks) lines.push_back(block.size());
+  lines.push_back(blocks.front().size());  // the orders again, in seconds
+  const PanelPage page(lines, 2, 2);
+  for (size_t block = 0; block < blocks.size(); ++block)
+    text += "set key off\n" + page.margins(block, 0) + panel(name, blocks[block], "sort not paid", "unpaid_s", true) +
+            page.key(block) + page.margins(block, 1) + panel(name, blocks[block], "sort paid", "paid_s", true);
   text +=
-      "set tmargin at screen 0.46\n"
-      "set bmargin at screen 0.07\n"
       "set ylabel 'device time (s)'\n"
       "set ytics autofreq\n"
       "set format y '10^{%T}'\n"
       "set yrange [*:*]\n";
-  row(false, "set key off\n");
-  return experiment_figure(name, table, text + "unset multiplot\n", 1150, 960);
+  const size_t last = blocks.size();
+  text += "set key off\n" + page.margins(last, 0) + panel(name, blocks.front(), "sort not paid", "unpaid_s", false) +
+          page.key(last) + page.margins(last, 1) + panel(name, blocks.front(), "sort paid", "paid_s", false);
+  return experiment_figure(name, table, text + "unset multiplot\n", page_width_px, page.height_px());
 }
 
 }  // namespace wavetracer::study

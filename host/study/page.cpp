@@ -73,13 +73,13 @@ std::string verdict_cells(const Verdict& verdict) {
 }
 
 const char* verdict_style() {
-  return ".words td,.words th{text-align:left;vertical-align:top}"
+  return ".words{margin-top:1em}.words td,.words th{text-align:left;vertical-align:top}"
          ".verdict{padding:1px 6px;border-radius:3px;white-space:nowrap}"
          ".exceeded{background:#1b7837;color:#fff}.reproduced{background:#a6dba0}.in-part{background:#ffe49c}"
          ".refuted{background:#f4a6a0}.undecided{background:#cfd8dc}"
          ".not-measured-there,.not-judged{background:#eee;color:#555}"
          ".origin{font-size:11px;color:#666;white-space:nowrap}"
-         ".wide{overflow-x:auto}.problem{color:#b00}";
+         ".problem{color:#b00}";
 }
 
 std::string table_html(const NumberTable& table) {

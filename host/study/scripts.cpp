@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each drive has a row of panels, in the order of the figures; the key is on the right.
+// Panels are in the order of the figures; panels.hpp places them, with a key below each block.
 // It needs gnuplot 5.
 #include "study/scripts.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <stdexcept>
+#include "study/panels.hpp"
 
 namespace wavetracer::study {
 namespace {
 
 using Names = std::vector<std::string>;
 
-std::string line_text(const LinePlot& plot, const Names& names, const LinePanel& panel, size_t index) {
+// index: of the setting in its block, which decides the colour.
+std::string line_text(const LinePlot& plot, const Names& names, const LinePanel& panel, const std::string& setting,
+                      size_t index) {
   const size_t y = column_of(names, panel.y);
-  std::string condition = fmt::format("strcol({}) eq '{}'", column_of(names, "setting"), quoted(plot.settings[index]));
+  std::string condition = fmt::format("strcol({}) eq '{}'", column_of(names, "setting"), quoted(setting));
   if (!panel.drive.empty())
     condition += fmt::format(" && strcol({}) eq '{}'", column_of(names, "drive"), quoted(panel.drive));
   if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column_of(names, "rays"), plot.only_rays);
@@ -27,10 +30,9 @@ std::string line_text(const LinePlot& plot, const Names& names, const LinePanel&
       plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
                    : std::to_string(x);
   return fmt::format(
-      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 dashtype {} pointtype {} pointsize "
-      "0.6 title '{}'",
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 pointtype 7 pointsize 0.6 title '{}'",
       plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
-      index / colours.size() + 1, index < colours.size() ? 7 : 6, quoted(plot.settings[index]));
+      quoted(setting));
 }
 
 // Computes ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an
@@ -52,15 +54,16 @@ std::string y_range(const LinePanel& panel, size_t index) {
                      : fmt::format("[0 : (y{0}_max > {1:g} ? 1.05 * y{0}_max : {1:g})]", index, panel.least);
 }
 
-std::string panel_text(const LinePlot& plot, const Names& names, size_t index) {
+std::string panel_text(const LinePlot& plot, const Names& names, size_t index,
+                       const std::vector<std::string>& settings) {
   const LinePanel& panel = plot.panels[index];
   std::string text = fmt::format(
       "{}set logscale y\nset format y '{}'\nset yrange {}\nset title '{}' noenhanced\nset ylabel '{}' noenhanced\n"
       "plot ",
       panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), quoted(panel.title),
       quoted(panel.y_label));
-  for (size_t i = 0; i < plot.settings.size(); ++i)
-    text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, names, panel, i);
+  for (size_t i = 0; i < settings.size(); ++i)
+    text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, names, panel, settings[i], i);
   return text + "\n";
 }
 
@@ -103,38 +106,32 @@ plots::Figure experiment_figure(const std::string& name, const Csv& table, const
 }
 
 plots::Figure line_figure(const LinePlot& plot, const Csv& table) {
-  const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
-  const size_t height = 120 + 340 * rows;  // in pixels; margins are 60 and 75 of them, gaps 105
-  const auto part = [height](double pixels) { return pixels / static_cast<double>(height); };
+  const std::vector<std::vector<std::string>> blocks = line_blocks(plot.settings);
+  std::vector<size_t> lines;
+  for (const std::vector<std::string>& block : blocks) lines.push_back(block.size());
+  const PanelPage page(lines, plot.panels.size(), plot.panels_a_row);
   std::string text =
-      statistics(plot, table.names()) + "set key off\n" + x_axis(plot) +
-      fmt::format(
-          "set xlabel '{}'\nset multiplot layout {},{} title '{}' noenhanced margins screen "
-          "0.07,0.80,{:.3f},{:.3f} spacing screen 0.07,{:.3f}\n",
-          quoted(plot.x_label), rows, plot.panels_a_row, quoted(plot.title), part(60), 1 - part(75), part(105));
-  for (size_t i = 0; i < plot.panels.size(); ++i) {
-    if (i + 1 == plot.panels.size())
-      text += fmt::format("set key at screen 0.995, {:.3f} right top Left reverse noenhanced maxrows 40 font ',11'\n",
-                          1 - part(75));
-    text += panel_text(plot, table.names(), i);
-  }
-  return experiment_figure(plot.name, table, text + "unset multiplot\n", 1250, static_cast<double>(height));
+      statistics(plot, table.names()) + x_axis(plot) +
+      fmt::format("set xlabel '{}'\nset multiplot title '{}' noenhanced\n", quoted(plot.x_label), quoted(plot.title));
+  for (size_t block = 0; block < blocks.size(); ++block)
+    for (size_t i = 0; i < plot.panels.size(); ++i)
+      text += (i + 1 == plot.panels.size() ? page.key(block) : "set key off\n") + page.margins(block, i) +
+              panel_text(plot, table.names(), i, blocks[block]);
+  return experiment_figure(plot.name, table, text + "unset multiplot\n", page_width_px, page.height_px());
 }
 
 plots::Figure depth_figure(const DepthPlot& plot, const Csv& table) {
-  const size_t rows = (plot.panels.size() + plot.panels_a_row - 1) / plot.panels_a_row;
+  const PanelPage page({plot.max_depth}, plot.panels.size(), plot.panels_a_row);
   std::string text =
-      std::string("set key off\n") + (plot.log_x ? "set logscale x\n" : "set xrange [0:*]\n") +
+      (plot.log_x ? "set logscale x\n" : "set xrange [0:*]\n") +
       fmt::format(
-          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\nset multiplot "
-          "layout {},{} title '{}' noenhanced margins screen 0.07,0.88,0.1,0.88 spacing screen 0.06,0.16\n",
-          quoted(plot.x_label), rows, plot.panels_a_row, quoted(plot.title));
-  for (const DepthPanel& panel : plot.panels) {
-    if (&panel == &plot.panels.back()) text += "set key at screen 0.99, 0.88 right top Left reverse\n";
-    text += panel_text(plot, table.names(), panel);
-  }
-  return experiment_figure(plot.name, table, text + "unset multiplot\n", 1150,
-                           80.0 + 340.0 * static_cast<double>(rows));
+          "set yrange [*<-0.05:1.05]\nset autoscale yfixmin\nset ytics 0.2\nset xlabel '{}'\nset multiplot title '{}' "
+          "noenhanced\n",
+          quoted(plot.x_label), quoted(plot.title));
+  for (size_t i = 0; i < plot.panels.size(); ++i)
+    text += (i + 1 == plot.panels.size() ? page.key(0) : "set key off\n") + page.margins(0, i) +
+            panel_text(plot, table.names(), plot.panels[i]);
+  return experiment_figure(plot.name, table, text + "unset multiplot\n", page_width_px, page.height_px());
 }
 
 }  // namespace wavetracer::study

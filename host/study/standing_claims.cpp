@@ -31,17 +31,19 @@ Answered writes_as_three_reads(const CacheRow& row) {
 Answered gathers_quickly(const CacheRow& row) {
   return {less(measured_gather_ns(row), 0.1 * measured_write_ns(row)), gather_ns(row) / write_ns(row)};
 }
-Judge<CacheRow> traces_longer_than(const Names& settings, Measured (*operation)(const CacheRow&), double times = 1) {
+Judge<CacheRow> traces_longer_than(const Names& settings, Measured (*operation)(const CacheRow&),
+                                   const std::string& name, double times = 1) {
   return of_each(
       settings,
       [=](const CacheRow& row) -> Answered {
         return {less(times * operation(row), measured_trace_ns(row)), trace_ns(row) / operation(row).value};
       },
-      factor_form());
+      ratio_form("tracing", name));
 }
 
 // Judges the chained tables that keep their entries.
-Judge<CacheRow> of_entries(Answered (*holds)(const EntrySummary&), const ValueForm& form = factor_form()) {
+Judge<CacheRow> of_entries(Answered (*holds)(const EntrySummary&),
+                           const ValueForm& form = ratio_form("buckets", "other nodes")) {
   return of_each(
       counted_names(all_chained), [holds](const CacheRow& row) { return holds(row.entries); }, form);
 }
@@ -64,9 +66,9 @@ Answered some_never_answer(const CacheRow& row) {
 
 // Returns the claims of figures 6.3 and 6.7 about tracing a segment against looking it up.
 Claims<CacheRow> trace_claims(const Names& settings) {
-  return {{"tracing takes longer than a read", traces_longer_than(settings, measured_read_ns)},
-          {"tracing takes longer than ten reads", traces_longer_than(settings, measured_read_ns, 10)},
-          {"tracing takes longer than a write", traces_longer_than(settings, measured_write_ns)}};
+  return {{"tracing takes longer than a read", traces_longer_than(settings, measured_read_ns, "a read")},
+          {"tracing takes longer than ten reads", traces_longer_than(settings, measured_read_ns, "a read", 10)},
+          {"tracing takes longer than a write", traces_longer_than(settings, measured_write_ns, "a write")}};
 }
 
 Claims<CacheRow> joined(Claims<CacheRow> claims, const Claims<CacheRow>& more) {
@@ -83,9 +85,10 @@ Claims<CacheRow> window_claims_of(const Names& tables, const std::string& prefix
 }  // namespace
 
 Claims<CacheRow> write_claims() {
-  return {{"writes take longer than reads", of_each(all_chained, writes_longer_than_reads, factor_form())},
+  return {{"writes take longer than reads",
+           of_each(all_chained, writes_longer_than_reads, ratio_form("a write", "a read"))},
           {"the rest takes next to nothing: gathering less than a tenth of a write",
-           of_each(all_chained, gathers_quickly, factor_form())},
+           of_each(all_chained, gathers_quickly, ratio_form("gathering", "a write"))},
           {"writes take longer in buckets than in other nodes",
            of_entries([](const EntrySummary& entries) { return longer_in_buckets(write_levels(entries)); })},
           {"reads take longer in buckets than in other nodes",
@@ -99,8 +102,10 @@ Claims<CacheRow> bucket_claims() {
 
 Claims<CacheRow> hit_claims() {
   const Names counted = counted_names(all_chained);
-  return {{"hits are spread over the entries at least as evenly as by chance", of_entries(are_even)},
-          {"there are no clusters of busy entries", of_entries(is_without_clusters)},
+  return {{"hits are spread over the entries at least as evenly as by chance",
+           of_entries(are_even, {"variance over mean: ", [](double value) { return plain(value); }, ""})},
+          {"there are no clusters of busy entries",
+           of_entries(is_without_clusters, {"clustering: ", [](double value) { return plain(value); }, ""})},
           {"some entries are left unused", of_each(counted, some_unused, share_form())},
           {"some entries never answer", of_each(counted, some_never_answer, share_form())}};
 }
@@ -112,10 +117,12 @@ Claims<CacheRow> window_claims() {
 
 Claims<CacheRow> lock_claims() {
   const Names counted = counted_names(all_mutexes);
-  return {{"writes take longer than reads", of_each(all_mutexes, writes_longer_than_reads, factor_form())},
-          {"writes take three times as long as reads", of_each(all_mutexes, writes_as_three_reads, factor_form())},
+  return {{"writes take longer than reads",
+           of_each(all_mutexes, writes_longer_than_reads, ratio_form("a write", "a read"))},
+          {"writes take three times as long as reads",
+           of_each(all_mutexes, writes_as_three_reads, ratio_form("a write", "a read"))},
           {"the rest takes next to nothing: gathering less than a tenth of a write",
-           of_each(all_mutexes, gathers_quickly, factor_form())},
+           of_each(all_mutexes, gathers_quickly, ratio_form("gathering", "a write"))},
           {"busier regions take longer to write", across_entries(counted, &EntryGroup::write_cycles)},
           {"busier regions take longer to read", across_entries(counted, &EntryGroup::read_cycles)},
           {"writes take less than in the chained table, with the mixed hash",

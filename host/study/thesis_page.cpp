@@ -162,7 +162,7 @@ std::string thesis_html(const ThesisPage& page) {
         page.svg + table_html(speed_error_numbers(page.rows));
   text += "</section>\n";
   for (const Section& figure : page.figures) text += section_html(figure);
-  return html_page("Ray orders and ray caches", std::string("body{max-width:1280px}") + verdict_style(), text);
+  return html_page("Ray orders and ray caches", std::string("body{max-width:840px}") + verdict_style(), text);
 }
 
 std::string thesis_markdown(const ThesisPage& page) {

@@ -82,13 +82,13 @@ TEST_CASE("judges: where, of settings, the first number of rays") {
   const auto slow = [](const CacheRow& one) { return Answered{above(warm_s(one), 0.85), one.warm.loop_s}; };
   CHECK(words_on(of_each({"a", "b"}, slow, unit_form("s"))) == "\"a\": yes (0.900 s); \"b\": no (0.800 s)");
   CHECK(words_on(of_each({"c"}, slow, unit_form("s"))) == "not measured");
-  CHECK(words_on(is_less(warm_s, "b", "a")) == "yes (a factor of 0.89)");
-  CHECK(words_on(is_less(warm_s, "a", "b")) == "no (a factor of 1.12)");
+  CHECK(words_on(is_less(warm_s, "b", "a")) == "yes (b over a: 0.89)");
+  CHECK(words_on(is_less(warm_s, "a", "b")) == "no (a over b: 1.12)");
 }
 
 TEST_CASE("judges of averages, and of changes with the number of rays") {
-  CHECK(words_on(on_average(l2_m, "b", "a", 1, 1.3)) == "fixed transmitter: yes (a factor of 1.20)");
-  CHECK(words_on(on_average(l2_m, "b", "a", 2, 3)) == "fixed transmitter: no (a factor of 1.20)");
+  CHECK(words_on(on_average(l2_m, "b", "a", 1, 1.3)) == "fixed transmitter: yes (b over a: 1.20)");
+  CHECK(words_on(on_average(l2_m, "b", "a", 2, 3)) == "fixed transmitter: no (b over a: 1.20)");
   CHECK(words_on(on_average(l2_m, "b", "c", 2, 3)) == "fixed transmitter: not measured");
   CHECK(words_on(on_average(l2_m, "b", "none", 2, 3)) == "fixed transmitter: no (the other is 0)");
   CHECK(words_on(on_average(l2_m, "none", "none", 2, 3)) == "fixed transmitter: undecided (both are 0)");

@@ -260,8 +260,8 @@ TEST_CASE("figure-6.8: verdicts beyond 50,000 rays only") {
   const std::string text = words_of("figure-6.8", {1000, 64000, 128000}, late);
   CHECK(contains(text,
                  "| a gain beyond 50,000 rays | reproduced | yes at 64,000 and 128,000 rays (10% less time) |\n"
-                 "| the mixed hash is the fastest beyond 50,000 rays | reproduced | yes at 64,000 and 128,000 rays (a "
-                 "factor of 0.90) |"));
+                 "| the mixed hash is the fastest beyond 50,000 rays | reproduced | yes at 64,000 and 128,000 rays "
+                 "(readers mixed over the next: 0.90) |"));
   CHECK(contains(words_of("figure-6.8", {1000}, late),
                  "| a gain beyond 50,000 rays | not measured there | measured at 1,000 rays |"));
 }
@@ -291,7 +291,7 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
                "(5.00 m); "));
   CHECK(contains(errors,
                  "| off farther by precision than by position | in part | fixed transmitter: yes at 49,000 rays, no at "
-                 "1,000 rays (a factor of 0.30 to 1.60); "));
+                 "1,000 rays (position mixed over precision 0.093 mixed: 0.30 to 1.60); "));
   CHECK(contains(errors, "| 10% | 0.10% (-30.0 dB) | "));
   CHECK(contains(errors, "| 5.0 m |"));
   CHECK(contains(errors, "| none | none | none | undefined | right |\n"));
@@ -312,7 +312,7 @@ TEST_CASE("figures 6.2 and 6.4: entries by their depth, and along the table") {
   CHECK(contains(cycles, "| chained Morton | 0 | 0 | 0 | 160 | 260 | 130 | 180 |"));
   CHECK(contains(
       cycles,
-      "| reads take longer in buckets than in other nodes | refuted | \"chained uniform counted\": no (a factor of 0.72); "));
+      "| reads take longer in buckets than in other nodes | refuted | \"chained uniform counted\": no (buckets over other nodes: 0.72); "));
   CHECK(along_table.starts_with("drive,setting,first_slot,entries,hits\nstill,chained uniform,0,500,2.5\n"));
   CHECK(contains(along_table, "still,printed chained mixed,500,500,1.5\n"));
   const std::string text = squeezed(words_text(along.words));

@@ -97,7 +97,7 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
   CHECK(contains(plot, "<svg "));
   CHECK(contains(plot, "</svg>"));
   CHECK(occurrences(plot, "id=\"gnuplot_plot_") ==
-        4 * 12);  // a line per series, sort not paid and paid, in ns a ray and in seconds
+        2 * (8 + 6 + 8));  // a line per series, sort not paid and paid, last in seconds
 }
 
 TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {

@@ -145,7 +145,10 @@ TEST_CASE("words: the places of each answer, by group, and the measured numbers"
   cases = {.all = {{"", 0, yes, 3}}, .form = factor_form()};
   CHECK(words_of(cases) == "yes (a factor of 3.00)");
   cases.all[0].note = "both are 0";
+  CHECK(words_of(cases) == "yes (a factor of 3.00; elsewhere both are 0)");
+  cases.all[0].value = std::nan("");
   CHECK(words_of(cases) == "yes (both are 0)");
+  CHECK(words_of({.all = {{"", 0, yes, 0.63}}, .form = ratio_form("a", "b")}) == "yes (a over b: 0.63)");
   cases = {.all = {{"", 1, yes, 0.25}, {"", 2, yes, 0.3}}, .form = correlation_form(), .at = "depth"};
   CHECK(words_of(cases) == "yes at depths 1 and 2 (0.25 to 0.30)");
   CHECK(words_of(Cases{.why = "no timer"}) == "no timer");

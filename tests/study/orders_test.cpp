@@ -261,14 +261,21 @@ TEST_CASE("the table's gains are the ratios of its own columns") {
   }
 }
 
-TEST_CASE("the script draws a line per series in each of four panels, two of them in seconds") {
+TEST_CASE(
+    "the script draws a line per series in each of two panels, launch shapes beside their own in two more, seconds last") {
   const Experiment& experiment = find_experiment("figure-6.1");
   const std::string script =
       order_figure("figure-6.1", "A device's title", experiment.as<OrderFigure>()->series, Csv()).commands;
-  std::vector<Series> drawn = experiment.as<OrderFigure>()->series;
-  std::erase_if(drawn, [](const Series& series) { return series.bins != thesis_bins; });  // rows of the table alone
-  CHECK(occurrences(script, "with linespoints") == 4 * drawn.size());
-  for (const Series& series : drawn) CHECK(occurrences(script, " title '" + label(series) + "'") == 4);
+  for (const Series& series : experiment.as<OrderFigure>()->series) {
+    const bool has_shapes = series == unordered() || series == ordered("hilbert3d-histogram");
+    const bool is_shaped = label(series) != series.mnemonic;
+    CHECK(occurrences(script, " title '" + label(series) + "'") == (series.bins != thesis_bins
+                                                                        ? 0  // rows of the table alone
+                                                                    : has_shapes ? 6
+                                                                    : is_shaped  ? 2
+                                                                                 : 4));
+  }
+  CHECK(occurrences(script, "with linespoints") == 2 * (8 + 6 + 8));  // none has more lines than there are colours
   CHECK(occurrences(script, "set ylabel 'device time (s)'") == 1);
   CHECK(occurrences(script, "'A device''s title'") == 1);
   CHECK(occurrences(script, "/") == occurrences(script, " / "));  // no folder in any name
