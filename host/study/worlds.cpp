@@ -29,14 +29,14 @@ MountConfig roof(const std::string& name, const std::string& role) {
 // Receivers on the pavements of four streets of the built-in city, so that errors are means over tens of paths and
 // more: two receivers and the roofs get a few.
 void add_walkers(Config& config) {
-  constexpr double pavement_m = 7, height_m = 1.5, step_m = 15, street_m = 97.5;
+  constexpr double pavement_m = 7, height_m = 1.5, step_m = 7.5, street_m = 97.5;
   const auto add = [&](double x, double y) {
     RadioEnd end;
     end.name = fmt::format("walker-{}", config.receivers.size());
     end.position_m = {x, y, height_m};
     config.receivers.push_back(end);
   };
-  for (int k = -6; k <= 6; ++k) {
+  for (int k = -12; k <= 12; ++k) {
     if (k == 0) continue;
     for (const double street : {-street_m, 0.0, street_m}) add(step_m * k, street + pavement_m);
     add(pavement_m, step_m * k);

@@ -74,7 +74,7 @@ TEST_CASE("the thesis' world: all that sends moves, from the first frame to the 
     CHECK(last.transmitters[i].present);
     CHECK(glm::distance(first.transmitters[i].position_m, last.transmitters[i].position_m) > 0.5);
   }
-  CHECK(world.receivers.ends.size() == 20 + 48 + city().receivers.size());
+  CHECK(world.receivers.ends.size() == 20 + 96 + city().receivers.size());
 }
 
 TEST_CASE("a standing transmitter is driven as its velocity says, else at 50 km/h along +x, and nothing else sends") {
