@@ -103,6 +103,30 @@ std::string config_of(const Kind& kind) {
   return (own_depth ? "scene.generate = \"--blocks 1\"\n" : scene) + kind.text;
 }
 
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+// Returns the columns of a table in which a number is undefined. Two kinds may have such numbers: the error of a mean
+// needs several frames, and hits of one depth are not paired in no order, as whole outputs are.
+std::string columns_with_gaps(const std::string& table) {
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::string out;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (size_t i = 0; i < cells.size(); ++i)
+      if (cells[i] == "nan" && !names.at(i).ends_with("_error_s") && names[i] != "by_place_unordered")
+        out += names[i] + " ";
+  }
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("every experiment, and every kind of configuration: a figure, or a message and exit code 2") {
@@ -130,7 +154,7 @@ TEST_CASE("every experiment, and every kind of configuration: a figure, or a mes
       CHECK(run.code == 0);
       CHECK(table.size() > 100);
       // Depths of a cache that nobody asked have no time a look-up: the tables of operations say nan there.
-      if (!experiment.study()) CHECK_FALSE(contains(table, "nan"));
+      if (!experiment.study()) CHECK(columns_with_gaps(table) == "");
     }
   }
 }
