@@ -5,8 +5,8 @@
 #include <memory>
 #include "study/cache_claims.hpp"
 #include "study/experiment.hpp"
+#include "study/hash_claims.hpp"
 #include "study/order_claims.hpp"
-#include "study/printed_claims.hpp"
 #include "study/traffic_settings.hpp"
 
 namespace wavetracer::study {
@@ -18,12 +18,6 @@ constexpr Range hash_range{1000, 49000}, ordered_range{1000, 61000};
 // The thesis' caches of by_hash().
 const std::vector<std::string> caches = {position_uniform,  position_morton,  position_mixed,
                                          precision_uniform, precision_morton, precision_mixed};
-
-// Those that the thesis finds faster than no cache, and all that its figure 6.14 shows.
-const std::vector<std::string> others = {position_uniform, position_morton, position_mixed, precision_uniform,
-                                         precision_mixed},
-                               all_of_them = {none,           position_uniform,  position_morton,
-                                              position_mixed, precision_uniform, precision_mixed};
 
 std::vector<Setting> by_hash() {
   std::vector<Setting> settings = {no_cache()};
@@ -76,26 +70,10 @@ const std::vector<Experiment> hashes = {
          CacheFigure{
              .study = hashing,
              .view = savings_by_rays,
-             .claims =
-                 {{"by precision, Morton codes take the most time of all",
-                   where(slowest_is(precision_morton, all_of_them))},
-                  {"the second worst is no cache: all others save time", where(all_save(others))},
-                  {"by position, the uniform hash takes less time than no cache", where(saves({position_uniform})),
-                   std::nullopt, Origin::repetition},
-                  {"by position, Morton codes take 15% less time than the uniform hash, from 20,000 rays on",
-                   where(less(warm_s, position_morton, position_uniform, 1 / 0.85)), Range{20000, 49000}},
-                  {"by position, the mixed hash takes the time of the uniform one",
-                   on_average(warm_s, position_mixed, position_uniform, 0.95, 1.05)},
-                  {"by precision, Morton codes take more time than no cache",
-                   where(less(warm_s, none, precision_morton))},
-                  {"by precision, the mixed hash takes the time of the uniform one",
-                   on_average(warm_s, precision_mixed, precision_uniform, 0.95, 1.05)},
-                  {"by precision, the uniform hash takes the time of Morton codes by position",
-                   on_average(warm_s, precision_uniform, position_morton, 0.9, 1.1)},
-                  {"by precision, the mixed hash takes the time of Morton codes by position",
-                   on_average(warm_s, precision_mixed, position_morton, 0.9, 1.1)},
-                  {"Morton codes by position take less time than the uniform hash by precision, for many rays (from 37,000 to 49,000)",
-                   where(less(warm_s, position_morton, precision_uniform)), Range{37000, 49000}}},
+             .claims = with_printed(
+                 hash_times,
+                 {{"Morton codes by position take less time than the uniform hash by precision, for many rays (from 37,000 to 49,000)",
+                   where(less(warm_s, position_morton, precision_uniform)), Range{37000, 49000}}}),
              .range = hash_range}},
     {.name = "figure-6.15",
      .doc = "traffic: error by hash function",
@@ -146,20 +124,12 @@ const std::vector<Experiment> hashes = {
          CacheFigure{
              .study = hashing_ordered,
              .view = savings_by_rays,
-             .claims = {{"without a cache, reordering gives 2.5 times the speed at 49,000 rays",
-                         where(less(warm_s, none, unsorted(none), 2.5)), at_rays(49000), Origin::repetition},
-                        {"without a cache, reordering gives 2.5 times the speed at 49,000 rays, the sort counted once",
-                         where(less(once_s, none, unsorted(none), 2.5)), at_rays(49000), Origin::repetition},
-                        {"caches by position, and by precision with Morton codes, save no time",
-                         where(saves_not({position_uniform, position_morton, position_mixed, precision_morton}))},
-                        {"by precision, the uniform hash is faster than no cache, up to 37,000 rays",
-                         where(less(warm_s, precision_uniform, none)), up_to(37000)},
-                        {"by precision, the mixed hash is faster than no cache, up to 37,000 rays",
-                         where(less(warm_s, precision_mixed, none)), up_to(37000)},
-                        {"by precision, the uniform hash takes noticeably more time than no cache at 61,000 rays",
-                         where(less(warm_s, none, precision_uniform, 1.05)), at_rays(61000)},
-                        {"by precision, the mixed hash takes noticeably more time than no cache at 61,000 rays",
-                         where(less(warm_s, none, precision_mixed, 1.05)), at_rays(61000)}},
+             .claims = with_printed(
+                 ordered_times,
+                 {{"without a cache, reordering gives 2.5 times the speed at 49,000 rays",
+                   where(less(warm_s, none, unsorted(none), 2.5)), at_rays(49000), Origin::repetition},
+                  {"without a cache, reordering gives 2.5 times the speed at 49,000 rays, the sort counted once",
+                   where(less(once_s, none, unsorted(none), 2.5)), at_rays(49000), Origin::repetition}}),
              .range = ordered_range}},
     {.name = "figure-6.17",
      .doc = "traffic: error by hash function, rays in order",
@@ -170,20 +140,10 @@ const std::vector<Experiment> hashes = {
          "the uniform and the mixed hash, to hover around 5 units, more than by position, "
          "and sorting to reduce the error slightly (section 6.3.2, figure 6.17, and its fourth conclusion). "
          "Measured on {device}.",
-     .figure =
-         CacheFigure{
-             .study = hashing_ordered,
-             .view = errors_by_rays,
-             .claims = {{"the centroid is off farther by precision than by position, with the uniform hash",
-                         where(less(l2_m, position_uniform, precision_uniform))},
-                        {"around 5 m by precision with the uniform hash",
-                         mean_between(l2_m, precision_uniform, 4, 6, "m")},
-                        {"around 5 m by precision with the mixed hash", mean_between(l2_m, precision_mixed, 4, 6, "m")},
-                        {"sorting reduces the error by position",
-                         on_average(l2_m, position_mixed, unsorted(position_mixed), 0, 1)},
-                        {"sorting reduces the error by precision",
-                         on_average(l2_m, precision_mixed, unsorted(precision_mixed), 0, 1)}},
-             .range = ordered_range}},
+     .figure = CacheFigure{.study = hashing_ordered,
+                           .view = errors_by_rays,
+                           .claims = with_printed(ordered_errors),
+                           .range = ordered_range}},
     {.name = "figure-6.18",
      .doc = "traffic: average time of a frame while the transmitters move, reordered against not",
      .title = "Frames in traffic, with reordering and without",
@@ -202,20 +162,6 @@ const std::vector<Experiment> hashes = {
 
 }  // namespace
 
-const std::vector<Experiment>& hashing_figures() {
-  static const std::vector<Experiment> all = [] {
-    std::vector<Experiment> out = hashes;
-    for (Experiment& one : out) {
-      Claims<CacheRow> more;
-      if (one.name == "figure-6.14") more = printed_hash_times();
-      if (one.name == "figure-6.16") more = printed_ordered_times();
-      if (one.name == "figure-6.17") more = printed_ordered_errors();
-      if (CacheFigure* figure = std::get_if<CacheFigure>(&one.figure))
-        figure->claims.insert(figure->claims.end(), more.begin(), more.end());
-    }
-    return out;
-  }();
-  return all;
-}
+const std::vector<Experiment>& hashing_figures() { return hashes; }
 
 }  // namespace wavetracer::study
