@@ -28,7 +28,7 @@
 namespace wavetracer::bench {
 namespace {
 
-constexpr uint32_t packet = 16, packets_group = 16, interactions = 3;
+constexpr uint32_t packet = 16, interactions = 3;
 constexpr uint64_t least_slots = 1 << 18;
 constexpr double trace_bytes = 6.0 * sizeof(float) + WT_HIT_PLANES * sizeof(float);
 
@@ -117,50 +117,15 @@ class SceneKernels {
                              .wrong = [] { return 0; }});
     if (!rows_.wants("trace_bvh8/trace") && !rows_.wants("trace_packet16/trace")) return;
     add_trees_of_cpus(context_, scene_, still_);
-    gpu::Definitions definitions = still_.definitions;
-    LaunchShape().define(definitions);
-    definitions["WT_COUNT_BLOCKS"] = "1";
-    definitions["WT_BLOCK"] = std::to_string(packet);
     HitList others = hits_of_packets(context_, rays_);
-    const gpu::Range range = LaunchShape().range(others.blocks(rays_.count), packets_group);
-    gpu::KernelOf<calls::trace_bvh8::trace> bvh8{context_, definitions};
-    const auto wrong = [&] { return differing_hits(hits, others, rays_.count); };
-    rows_.measure(context_, {.variant = variant,
-                             .kernels = {{"trace_bvh8/trace", share(operations)}},
-                             .run =
-                                 [&] {
-                                   bvh8(range, Stage::trace,
-                                        calls::trace_bvh8::trace{.nodes = still_.nodes8,
-                                                                 .blocks = still_.blocks8,
-                                                                 .moving = still_.moving,
-                                                                 .extent_m = still_.extent_m,
-                                                                 .rays = rays_.planes,
-                                                                 .capacity = rays_.capacity,
-                                                                 .ray_count = rays_.count,
-                                                                 .hits = others.planes,
-                                                                 .block_hits = others.block_hits});
-                                 },
-                             .wrong = wrong});
-    gpu::KernelOf<calls::trace_packet16::trace> packet16{context_, definitions};
-    rows_.measure(context_, {.variant = variant,
-                             .kernels = {{"trace_packet16/trace", share(operations)}},
-                             .run =
-                                 [&] {
-                                   packet16(range, Stage::trace,
-                                            calls::trace_packet16::trace{.nodes = still_.packet_nodes2,
-                                                                         .triangles = still_.triangles2,
-                                                                         .triangle_slots = still_.triangle_slots,
-                                                                         .nodes8 = still_.nodes8,
-                                                                         .blocks = still_.blocks8,
-                                                                         .moving = still_.moving,
-                                                                         .extent_m = still_.extent_m,
-                                                                         .rays = rays_.planes,
-                                                                         .capacity = rays_.capacity,
-                                                                         .ray_count = rays_.count,
-                                                                         .hits = others.planes,
-                                                                         .block_hits = others.block_hits});
-                                 },
-                             .wrong = wrong});
+    for (const auto& [kernel, shape] :
+         {std::pair{"trace_bvh8/trace", TraceShape::bvh8}, {"trace_packet16/trace", TraceShape::packet16}}) {
+      Trace trace(context_, still_, shape);
+      rows_.measure(context_, {.variant = variant,
+                               .kernels = {{kernel, share(operations)}},
+                               .run = [&] { trace(still_, rays_, others); },
+                               .wrong = [&] { return differing_hits(hits, others, rays_.count); }});
+    }
   }
 
   std::vector<Placement> placements() const {

@@ -9,10 +9,16 @@
 
 namespace wavetracer {
 
+namespace {
+
+constexpr uint32_t lanes = 16;  // rays of a block for the trees of CPUs
+
+}  // namespace
+
 Trace::Trace(gpu::Context& context, const DeviceTrees& scene, TraceShape shape, const LaunchShape& launch, Scope scope)
     : shape_(shape),
       launch_(launch),
-      block_(tuning_of(context.info()).block),
+      block_(shape == TraceShape::bvh2 ? tuning_of(context.info()).block : lanes),
       blocks_group_(tuning_of(context.info()).trace_group),
       counts_blocks_(shape != TraceShape::bvh2 || launch.plain()) {
   gpu::Definitions definitions = scene.definitions;

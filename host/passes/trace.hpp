@@ -16,6 +16,7 @@ class Trace {
   // The traced part: everything, or only the static scene (see trace_moving).
   enum class Scope { all, fixed };
 
+  // The blocks of bvh8 and packet16 have 16 rays on every device, and hits must have such blocks, too.
   Trace(gpu::Context& context, const DeviceTrees& scene, TraceShape shape, const LaunchShape& launch = {},
         Scope scope = Scope::all);
   // Does it count the hits of blocks? If not (launches of another shape on GPUs), Compact::count_blocks does it.
