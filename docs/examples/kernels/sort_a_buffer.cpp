@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts a buffer of your own in your own queue: sort_a_buffer [DEVICE [KEYS]]
 // DEVICE is the index of an OpenCL device, counted over all platforms (default 0); KEYS is how many (default 2^20).
-#include <CL/cl.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -11,47 +9,14 @@
 #include <random>
 #include <vector>
 
+#include "opencl_user.hpp"
 #include "wavetracer/kernels/sort.hpp"
 
-namespace {
-
-void check(cl_int code, const char* call) {
-  if (code == CL_SUCCESS) return;
-  std::fprintf(stderr, "%s failed with %d\n", call, code);
-  std::exit(1);
-}
-
-cl_device_id device_of(cl_uint index) {
-  cl_uint platform_count = 0;
-  check(clGetPlatformIDs(0, nullptr, &platform_count), "clGetPlatformIDs");
-  std::vector<cl_platform_id> platforms(platform_count);
-  check(clGetPlatformIDs(platform_count, platforms.data(), nullptr), "clGetPlatformIDs");
-  for (const cl_platform_id platform : platforms) {
-    cl_uint count = 0;
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS) continue;
-    std::vector<cl_device_id> devices(count);
-    check(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr), "clGetDeviceIDs");
-    if (index < count) return devices[index];
-    index -= count;
-  }
-  std::fprintf(stderr, "there is no such device\n");
-  std::exit(1);
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  const cl_device_id device = device_of(argc > 1 ? static_cast<cl_uint>(std::atoi(argv[1])) : 0);
-  const size_t n = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : size_t{1} << 20;
-
   // Everything here is the user's: context, queue, memory and events.
-  cl_int code = CL_SUCCESS;
-  const cl_context context = clCreateContext(nullptr, 1, &device, nullptr, nullptr, &code);
-  check(code, "clCreateContext");
-  const cl_command_queue queue = clCreateCommandQueueWithProperties(context, device, nullptr, &code);
-  check(code, "clCreateCommandQueueWithProperties");
-  const cl_mem memory = clCreateBuffer(context, CL_MEM_READ_WRITE, n * sizeof(uint32_t), nullptr, &code);
-  check(code, "clCreateBuffer");
+  const OpenClUser user(argc > 1 ? static_cast<unsigned>(std::atoi(argv[1])) : 0);
+  const size_t n = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : size_t{1} << 20;
+  const cl_mem memory = user.memory(n * sizeof(uint32_t));
   std::vector<uint32_t> keys(n);
   std::mt19937 random(1);
   for (uint32_t& key : keys) key = static_cast<uint32_t>(random());
@@ -59,14 +24,15 @@ int main(int argc, char** argv) {
   double seconds = 0;
   try {
     namespace kernels = wavetracer::kernels;
-    const kernels::Context suite(context, device, queue);
+    const kernels::Context suite(user.context, user.device, user.queue);
     const auto buffer = suite.wrap<uint32_t>(memory);  // no copy
     kernels::Sort sort(suite, {.key_bits = 32});
     sort.reserve(n);
     for (int round = 0; round < 3; ++round) {  // the first one may compile
       cl_event written = nullptr, sorted = nullptr;
-      check(clEnqueueWriteBuffer(queue, memory, CL_TRUE, 0, n * sizeof(uint32_t), keys.data(), 0, nullptr, &written),
-            "clEnqueueWriteBuffer");
+      check(
+          clEnqueueWriteBuffer(user.queue, memory, CL_TRUE, 0, n * sizeof(uint32_t), keys.data(), 0, nullptr, &written),
+          "clEnqueueWriteBuffer");
       const auto start = std::chrono::steady_clock::now();
       sort(buffer, n, {}, {.after = {&written, 1}, .done = &sorted});
       check(clWaitForEvents(1, &sorted), "clWaitForEvents");
@@ -79,19 +45,13 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  std::vector<uint32_t> sorted(n);
-  check(clEnqueueReadBuffer(queue, memory, CL_TRUE, 0, n * sizeof(uint32_t), sorted.data(), 0, nullptr, nullptr),
-        "clEnqueueReadBuffer");
+  const std::vector<uint32_t> sorted = user.read<uint32_t>(memory, n);
   std::sort(keys.begin(), keys.end());
-  char name[256] = "";
-  check(clGetDeviceInfo(device, CL_DEVICE_NAME, sizeof name, name, nullptr), "clGetDeviceInfo");
   clReleaseMemObject(memory);
-  clReleaseCommandQueue(queue);
-  clReleaseContext(context);
   if (sorted != keys) {
-    std::fprintf(stderr, "%s sorted %zu keys wrongly\n", name, n);
+    std::fprintf(stderr, "%s sorted %zu keys wrongly\n", user.name.c_str(), n);
     return 1;
   }
-  std::printf("%s sorted %zu keys as std::sort does, in %.3f ms\n", name, n, 1e3 * seconds);
+  std::printf("%s sorted %zu keys as std::sort does, in %.3f ms\n", user.name.c_str(), n, 1e3 * seconds);
   return 0;
 }
