@@ -94,13 +94,18 @@ void Context::finish() {
   }
 }
 
-Marker Context::marker() {
+Marker Context::mark() {
   cl_event event = nullptr;
   const cl_int code = clEnqueueMarkerWithWaitList(state_->queue(), 0, nullptr, &event);
   if (code != CL_SUCCESS) state_->fail(code, "marking a place in the queue");
   Marker out;
   out.event_ = std::shared_ptr<void>(event, [](void* done) { clReleaseEvent(static_cast<cl_event>(done)); });
   return out;
+}
+
+void* Marker::retained_event() const {
+  clRetainEvent(static_cast<cl_event>(event_.get()));
+  return event_.get();
 }
 
 void Context::wait(const Marker& marker) {

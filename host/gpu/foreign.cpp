@@ -102,12 +102,4 @@ void Context::wait_for(std::span<void* const> events) {
   if (code != CL_SUCCESS) state_->fail(code, fmt::format("waiting for {} events that were given", list.size()));
 }
 
-void* Context::mark() {
-  cl_event event = nullptr;
-  const cl_int code = clEnqueueMarkerWithWaitList(state_->queue(), 0, nullptr, &event);
-  if (code != CL_SUCCESS) state_->fail(code, "making an event");
-  clFlush(state_->queue());
-  return event;
-}
-
 }  // namespace wavetracer::gpu

@@ -91,6 +91,10 @@ class HostMemory {
 
 // A place in the queue: Context::wait() returns once all commands before it are done.
 class Marker {
+ public:
+  // Returns the cl_event that completes there, of which the caller owns a reference.
+  void* retained_event() const;
+
  private:
   friend class Context;
   std::shared_ptr<void> event_;  // a cl_event
@@ -225,8 +229,6 @@ class Context {
 
   // The commands that are enqueued from now on start after these cl_event.
   void wait_for(std::span<void* const> events);
-  // Returns a cl_event, which the caller owns, that completes with all commands enqueued so far; flushes the queue.
-  void* mark();
 
   // Throws BufferError that names the buffer, its size, the device's limit and what to lower.
   template <class T>
@@ -261,7 +263,7 @@ class Context {
 
   void finish();
   // Marks this place in the queue.
-  Marker marker();
+  Marker mark();
   void wait(const Marker& marker);
   // Hands enqueued commands to the device, without waiting for them.
   void flush();

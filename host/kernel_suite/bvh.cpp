@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* bvh_name = "Bvh";
 constexpr size_t most_triangles = size_t{1} << 27;  // leaves have 28 bits for a place (wavetracer/device/bvh.h)
-constexpr size_t most_in_packets = size_t{1} << 31;
 
 std::vector<AccelTriangle> triangles_of(std::span<const float> corners) {
   if (corners.size() % 9 != 0)
@@ -99,9 +98,7 @@ void Bvh::any(const Buffer<Ray>& rays, size_t n, const Buffer<uint32_t>& met, co
 void Bvh::nearest_in_packets(const Buffer<Ray>& rays, size_t n, const Buffer<Hit>& hits, const Call& call) {
   State& s = *state_;
   if (!s.trees.cpu) refuse(bvh_name, "packets of rays are for CPUs: call nearest() on this device");
-  if (n > most_in_packets)
-    refuse(bvh_name, fmt::format("{} rays in packets: at most {} at a time", n, most_in_packets));
-  const uint32_t count = count_of(bvh_name, n);
+  const uint32_t count = rays_count(bvh_name, n);
   const gpu::Buffer<wt_packed_ray> from = rays_of(s, bvh_name, "rays", rays, n);
   gpu::Buffer<wt_packed_hit> to = hits_of(s, bvh_name, "hits", hits, n);
   with_errors([&] {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The private half of Bvh, which RayCache reads, too.
 #pragma once
+#include <fmt/format.h>
+
 #include <optional>
 #include <span>
 
@@ -32,6 +34,13 @@ struct Bvh::State : PassState {
   TraceRays trace;
   std::optional<RayPackets> packets;  // made at their first use
 };
+
+// A number of rays as queues take it. Throws Error above 2^31, since queues are padded.
+inline uint32_t rays_count(const char* pass, size_t n) {
+  constexpr size_t most = size_t{1} << 31;
+  if (n > most) refuse(pass, fmt::format("{} rays: at most {} at a time", n, most));
+  return static_cast<uint32_t>(n);
+}
 
 // A public buffer of rays or hits as that of a pass, with room for `least`.
 inline gpu::Buffer<wt_packed_ray> rays_of(const PassState& state, const char* pass, const char* argument,

@@ -15,7 +15,7 @@ namespace wavetracer::kernels {
 namespace {
 
 constexpr const char* order_keys_name = "OrderKeys";
-constexpr size_t most_ordered = size_t{1} << 31, lanes = 16;
+constexpr size_t lanes = 16;
 
 OrderKey pass_key(RayOrder order) {
   switch (order) {
@@ -37,11 +37,6 @@ OrderOptions checked_options(const OrderOptions& options) {
   if (!(options.extent >= 0) || !std::isfinite(options.extent))
     refuse(order_keys_name, fmt::format("an extent of {}", options.extent));
   return options;
-}
-
-uint32_t rays_count(size_t n) {
-  if (n > most_ordered) refuse(order_keys_name, fmt::format("{} rays: at most {} at a time", n, most_ordered));
-  return static_cast<uint32_t>(n);
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ unsigned OrderKeys::bits() const { return state_->keys.queue_bits(); }
 
 void OrderKeys::operator()(const Buffer<Ray>& rays, size_t n, const Buffer<uint32_t>& keys, const Call& call) {
   State& s = *state_;
-  const uint32_t count = rays_count(n);
+  const uint32_t count = rays_count(order_keys_name, n);
   const gpu::Buffer<wt_packed_ray> from = rays_of(s, order_keys_name, "rays", rays, n);
   gpu::Buffer<uint32_t> to = buffer_of(s, order_keys_name, "keys", keys, n);
   enqueue(s, call, [&] {
@@ -89,7 +84,7 @@ void OrderKeys::operator()(const Buffer<Ray>& rays, size_t n, const Buffer<uint3
 void OrderKeys::operator()(const Buffer<float>& planes, size_t capacity, size_t n, const Buffer<uint32_t>& keys,
                            const Call& call) {
   State& s = *state_;
-  const uint32_t count = rays_count(n);
+  const uint32_t count = rays_count(order_keys_name, n);
   if (capacity < n || capacity % lanes != 0)
     refuse(order_keys_name,
            fmt::format("{} rays in planes of {}: planes hold all rays and a multiple of {}", n, capacity, lanes));

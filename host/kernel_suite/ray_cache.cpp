@@ -24,7 +24,6 @@ namespace wavetracer::kernels {
 namespace {
 
 constexpr const char* ray_cache_name = "RayCache";
-constexpr size_t most_cached = size_t{1} << 31;  // rays of a batch; queues are padded
 constexpr uint32_t all_static = ~0u;
 
 CacheConfig checked_config(const CacheConfig& config, uint32_t regions) {
@@ -181,7 +180,7 @@ const RayCache::Misses& RayCache::look_up(const Buffer<Ray>& rays, size_t n, con
                                           const Buffer<uint32_t>* left, const Buffer<uint32_t>* regions,
                                           const Call& call) {
   State& s = *state_;
-  if (n > most_cached) refuse(ray_cache_name, fmt::format("{} rays: at most {} at a time", n, most_cached));
+  const uint32_t count = rays_count(ray_cache_name, n);
   gpu::Buffer<wt_packed_ray> from = rays_of(s, ray_cache_name, "rays", rays, n);
   gpu::Buffer<wt_packed_hit> to = hits_of(s, ray_cache_name, "hits", hits, n);
   gpu::Buffer<uint32_t> left_of, region_of;
@@ -190,9 +189,9 @@ const RayCache::Misses& RayCache::look_up(const Buffer<Ray>& rays, size_t n, con
   with_errors([&] { s.reserve(n); });
   s.misses.count = 0;
   enqueue(s, call, [&] {
-    if (n > 0) s.answer(from, static_cast<uint32_t>(n), to, left ? &left_of : nullptr, regions ? &region_of : nullptr);
+    if (count > 0) s.answer(from, count, to, left ? &left_of : nullptr, regions ? &region_of : nullptr);
   });
-  s.rays.count = static_cast<uint32_t>(n);
+  s.rays.count = count;
   s.waiting = true;
   s.sums.look_ups += n;
   s.sums.hits += n - s.misses.count;

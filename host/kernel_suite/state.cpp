@@ -64,7 +64,9 @@ void begin(gpu::Context& context, const Call& call) {
 }
 
 void end(gpu::Context& context, const Call& call) {
-  if (call.done) *call.done = static_cast<cl_event>(context.mark());
+  if (!call.done) return;
+  *call.done = static_cast<cl_event>(context.mark().retained_event());
+  context.flush();
 }
 
 }  // namespace wavetracer::kernels

@@ -60,7 +60,7 @@ void PathGroups::begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& c
   shared_.begin_read(0, shared_read_, host_shared_, Stage::path_groups);
   shared_count_.begin_read(0, 1, host_shared_count_, Stage::path_groups);
   counters.begin_read(0, 1, host_counters_, Stage::path_groups);
-  being_read_ = context_.marker();
+  being_read_ = context_.mark();
 }
 
 void PathGroups::number() {
