@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/call_error.hpp"
 #include "gpu/device_info.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/kernel_time.hpp"
@@ -48,27 +49,6 @@ struct BufferName {
       : name(name_of_it), advice(advice_for_it) {}
   const char* name;
   const char* advice;
-};
-
-// A call of OpenCL failed, or a handle that was given is refused.
-class CallError : public DeviceError {
- public:
-  explicit CallError(const std::string& message, int opencl_code = 0, const std::string& kernel = {})
-      : DeviceError(message), opencl_code_(opencl_code), kernel_(kernel) {}
-  // The code that OpenCL returned; 0 if none of its calls failed.
-  int opencl_code() const noexcept { return opencl_code_; }
-  // "program/kernel" if a kernel was being built or launched; else empty.
-  const std::string& failed_kernel() const noexcept { return kernel_; }
-
- private:
-  int opencl_code_;
-  std::string kernel_;
-};
-
-// A buffer is larger than the device allows, or than its free memory.
-class BufferError : public CallError {
- public:
-  using CallError::CallError;
 };
 
 // OpenCL's handles: a cl_context, a cl_device_id of it, and a cl_command_queue of both.
