@@ -21,8 +21,8 @@ fail() {
   printf 'failed: %s\n' "$*" >&2
   exit 1
 }
-inside wavetracer --version | grep -q '^wavetracer [0-9]' || fail "--version"
-inside wavetracer devices | grep -q '^\*.* CPU ' || fail "devices: no CPU device is chosen"
+grep -q '^wavetracer [0-9]' <<<"$(inside wavetracer --version)" || fail "--version"
+grep -q '^\*.* CPU ' <<<"$(inside wavetracer devices)" || fail "devices: no CPU device is chosen"
 inside wavetracer run -c /usr/share/wavetracer/configs/city.toml --set trace.rays=20000 -o /root/out
 for file in paths.h5 links.csv summary.json; do [ -s "$root/root/out/$file" ] || fail "run wrote no $file"; done
 awk -F, 'NR > 1 { links += 1 } END { exit links == 0 }' "$root/root/out/links.csv" || fail "links.csv has no links"
@@ -33,7 +33,7 @@ for file in view.html out.npz; do [ -s "$root/root/$file" ] || fail "no $file"; 
 ls "$root"/root/plots/*.csv >/dev/null || fail "plot wrote no data"
 for page in wavetracer wavetracer.toml; do inside man -w "$page" >/dev/null || fail "man -w $page"; done
 inside bash -c 'source /usr/share/bash-completion/completions/wavetracer && complete -p wavetracer' >/dev/null || fail "completion"
-inside ldconfig -p | grep -q libwavetracer.so || fail "the library is not in the cache of the loader"
+grep -q libwavetracer.so <<<"$(inside ldconfig -p)" || fail "the library is not in the cache of the loader"
 inside apt-get remove -qq -y wavetracer >/dev/null
 [ ! -e "$root/usr/bin/wavetracer" ] || fail "the program stays after its removal"
 printf 'the package serves a clean system\n'

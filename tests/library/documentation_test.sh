@@ -70,9 +70,9 @@ for shell in zsh fish; do
 done
 
 # --- radio materials, by edition and frequency ---
-"$program" scene materials --frequency 140e9 | grep -Eq '^concrete +110 to 330 GHz +5.17 +3.16' || fail "scene materials"
-"$program" scene materials | grep -Eq '^concrete +1 to 100 GHz +5.24 +0.185' || fail "scene materials at 5.9 GHz"
-! "$program" scene materials --edition P.2040-3 | grep -q vinyl_tile || fail "scene materials --edition"
+grep -Eq '^concrete +110 to 330 GHz +5.17 +3.16' <<<"$("$program" scene materials --frequency 140e9)" || fail "scene materials"
+grep -Eq '^concrete +1 to 100 GHz +5.24 +0.185' <<<"$("$program" scene materials)" || fail "scene materials at 5.9 GHz"
+! grep -q vinyl_tile <<<"$("$program" scene materials --edition P.2040-3)" || fail "scene materials --edition"
 
 # --- the reference, and the library of materials ---
 "$program" documentation --reference -o "$folder/configuration.md"

@@ -33,8 +33,8 @@ start=$(date +%s)
 inside pip install -q "/wheel/$(basename "$wheel")[pocl]"
 printf 'installed in %s s, %s in the environment\n' "$(($(date +%s) - start))" "$(du -sh "$root/home/user/venv" | cut -f 1)"
 
-inside wavetracer --version | head -n 1 | grep '^wavetracer [0-9]' || fail "--version"
-inside wavetracer devices | grep '^\*.* CPU ' || fail "devices: no CPU device is chosen"
+grep '^wavetracer [0-9]' <<<"$(inside wavetracer --version)" || fail "--version"
+grep '^\*.* CPU ' <<<"$(inside wavetracer devices)" || fail "devices: no CPU device is chosen"
 inside sh -c 'cd && wavetracer init --minimal >my.toml && wavetracer run -c my.toml -o out/mine' || fail "the first configuration"
 rm -rf "$root/home/user/.cache"
 start=$(date +%s)
