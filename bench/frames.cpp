@@ -12,6 +12,7 @@ namespace {
 
 double run_one(Simulation& simulation, FrameResult& result) {
   const auto start = std::chrono::steady_clock::now();
+  simulation.give_back(result);
   result = simulation.run_frame(0);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

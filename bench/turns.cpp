@@ -34,7 +34,10 @@ std::vector<Turns> run_in_turn(const Config& common, const std::vector<Variant>&
   std::vector<std::vector<double>> seconds(variants.size()), costs(variants.size());
   for (size_t round = 0; round < rounds; round++)
     for (size_t i = 0; i < variants.size(); i++) {
-      seconds[i].push_back(wall_seconds([&] { turns[i].result = simulations[i].run_frame(0); }));
+      seconds[i].push_back(wall_seconds([&] {
+        simulations[i].give_back(turns[i].result);
+        turns[i].result = simulations[i].run_frame(0);
+      }));
       costs[i].push_back(seconds[i].back() / seconds[0].back());
     }
   for (size_t i = 0; i < variants.size(); i++) {

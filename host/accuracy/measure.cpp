@@ -40,6 +40,7 @@ bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32
     for (uint32_t timed = 0; timed < how.repeats;) {
       if (how.interrupted()) return false;
       simulation.forget();
+      simulation.give_back(result);
       result = simulation.run_frame(frame);
       const bool slow = result.seconds.at("frame") > slow_frame_s;
       if (warm || slow) {
@@ -63,7 +64,10 @@ bool measure_reuse(Simulation& simulation, Meter& meter, const std::vector<uint3
       if (how.interrupted()) return false;
       FrameResult result = simulation.run_frame(next);
       if (goes_on || next > lead || next == frame) meter.time(result);
-      if (next == frame) meter.keep(std::move(result));
+      if (next == frame)
+        meter.keep(std::move(result));
+      else
+        simulation.give_back(result);
     }
     last = frame;
   }

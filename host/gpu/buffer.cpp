@@ -111,10 +111,11 @@ HostMemory Context::host_memory(size_t bytes, const char* name) {
   return memory;
 }
 
-void Memory::read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, Stage stage) const {
-  if (bytes > to.bytes())
-    throw std::out_of_range(fmt::format("reading {} bytes into {} bytes of the host", bytes, to.bytes()));
-  read_bytes(to.data(), offset, bytes, stage, wait);
+void Memory::read_to(const HostMemory& to, size_t place, size_t offset, size_t bytes, bool wait, Stage stage) const {
+  if (place > to.bytes() || bytes > to.bytes() - place)
+    throw std::out_of_range(
+        fmt::format("reading {} bytes to byte {} of {} bytes of the host", bytes, place, to.bytes()));
+  read_bytes(static_cast<char*>(to.data()) + place, offset, bytes, stage, wait);
 }
 
 void Memory::read_bytes(void* to, size_t offset, size_t bytes, Stage stage, bool wait) const {

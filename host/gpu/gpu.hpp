@@ -96,7 +96,8 @@ class Memory {
   size_t bytes_ = 0;
   void read_bytes(void* to, size_t offset, size_t bytes, Stage stage, bool wait = true) const;
   void write_bytes(const void* from, size_t offset, size_t bytes, Stage stage);
-  void read_to(const HostMemory& to, size_t offset, size_t bytes, bool wait, Stage stage) const;
+  // place: the first byte of `to` that is written.
+  void read_to(const HostMemory& to, size_t place, size_t offset, size_t bytes, bool wait, Stage stage) const;
 };
 
 // A typed buffer of size() elements. Transfers are bounds checked (std::out_of_range), and do not use the host's memory
@@ -124,12 +125,16 @@ class Buffer : public Memory {
   }
   // Reads into pinned memory, which must be large enough. The elements are valid until the memory is used again.
   std::span<const T> read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
-    read_to(to, first * sizeof(T), count * sizeof(T), true, stage);
+    read_to(to, 0, first * sizeof(T), count * sizeof(T), true, stage);
     return {static_cast<const T*>(to.data()), count};
   }
   // Does the same without waiting: the elements are valid after the next read that waits.
   void begin_read(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
-    read_to(to, first * sizeof(T), count * sizeof(T), false, stage);
+    read_to(to, 0, first * sizeof(T), count * sizeof(T), false, stage);
+  }
+  // Does so for a part of a list: each element goes to the place in `to` that it has in the buffer.
+  void begin_read_part(size_t first, size_t count, const HostMemory& to, Stage stage = Stage::transfer) const {
+    read_to(to, first * sizeof(T), first * sizeof(T), count * sizeof(T), false, stage);
   }
   T read_one(size_t i, Stage stage = Stage::transfer) const {
     T out;

@@ -40,9 +40,10 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
   for (uint32_t repeat = 0; repeat + 1 < asked.repeat; ++repeat) {
     task.simulation.forget();
     for (uint64_t frame = unit.first; frame <= unit.last; ++frame) {
-      const std::optional<FrameResult> result = solve_repeat(task, unit, frame, repeat, progress);
+      std::optional<FrameResult> result = solve_repeat(task, unit, frame, repeat, progress);
       if (!result) return false;  // interrupted
       told[frame - unit.first].add(*result);
+      task.simulation.give_back(*result);
     }
   }
   // The last repeat is written.
@@ -62,6 +63,7 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
       explained = true;
     }
     writer.add(std::move(*result));
+    if (std::optional<FrameResult> written = writer.take_written()) task.simulation.give_back(*written);
     if (stop) return frame == unit.last;
   }
   return true;

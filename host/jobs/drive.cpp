@@ -60,7 +60,8 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
     std::optional<FrameResult> next = solve_frame(simulation, 0, repeats == 1, progress);
     if (!next) break;
     told.add(*next);
-    frame = std::move(*next);
+    std::swap(frame, *next);
+    simulation.give_back(*next);
   }
   if (told.count() == 0) return {};
   told.finish(frame, repeats_agree(simulation.config()));

@@ -49,6 +49,10 @@ void UnitWriter::begin(const Unit& unit) { request(Begin{unit}); }
 
 void UnitWriter::add(FrameResult frame) { request(std::move(frame)); }
 
+std::optional<FrameResult> UnitWriter::take_written() {
+  return mail_.with([](Mail& mail) { return std::exchange(mail.written, {}); });
+}
+
 void UnitWriter::end() {
   const auto none_ends = [](const Mail& mail) {
     return mail.news.failure || std::ranges::none_of(mail.requests, [](const Request& request) {
@@ -109,10 +113,13 @@ void UnitWriter::work() {
     if (std::holds_alternative<Quit>(first)) return;
     const size_t bytes = bytes_in(first);
     if (!failed) perform(first);
-    first = Look{};  // frees the memory of a frame
+    std::optional<FrameResult> written;
+    if (auto* frame = std::get_if<FrameResult>(&first)) written = std::move(*frame);
+    first = Look{};
     mail_.with([&](Mail& mail) {
       mail.requests.pop_front();
       mail.frame_bytes -= bytes;
+      if (written) std::swap(mail.written, written);  // the memory of an earlier frame is freed
     });
   }
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -38,6 +39,9 @@ class UnitWriter {
   void begin(const Unit& unit);
   // Waits while frames of more than some megabytes wait to be written.
   void add(FrameResult frame);
+  // Returns the last frame that was written since the call before, whose memory can be used again; nothing if there is
+  // none.
+  std::optional<FrameResult> take_written();
   // Ends the unit. Waits until the one before is on the disk, so that a process that is killed loses two at most.
   void end();
   // Drops the unit that was begun.
@@ -71,6 +75,7 @@ class UnitWriter {
   struct Mail {
     std::deque<Request> requests;  // those that are not done yet; the thread works on the first
     size_t frame_bytes = 0;        // the memory of all frames among them
+    std::optional<FrameResult> written;
     News news;
   };
   // The things that only one thread may use at a time.

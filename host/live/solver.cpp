@@ -15,12 +15,14 @@ Solve solve_with(Simulation& simulation, FrameSolved solved) {
     const FrameMessage& message = job.message;
     const Clock::time_point start = Clock::now();
     if (message.cold || afresh) simulation.forget();
-    const LiveFrame frame = message.between ? simulation.run_between(*job.traffic, message.time_s)
-                                            : simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
+    LiveFrame frame = message.between ? simulation.run_between(*job.traffic, message.time_s)
+                                      : simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
     if (solved) solved(simulation, frame);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
     const double frequency_hz = simulation.config().radio.frequency_hz;
-    return channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, frequency_hz);
+    std::string line = channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, frequency_hz);
+    simulation.give_back(frame.result);
+    return line;
   };
 }
 

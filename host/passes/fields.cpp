@@ -92,11 +92,42 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
 void Fields::begin_read(uint32_t frame, RowCounts expected) {
   read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())),
            static_cast<uint32_t>(std::min<size_t>(expected.vertices, vertices_.size()))};
-  rows_.begin_read(0, read_.rows, host_rows_, Stage::fields);
-  vertices_.begin_read(0, read_.vertices, host_vertices_, Stage::fields);
-  context_.flush();
+  parts_.clear();
+  filled_.reset();
   frame_ = frame;
-  room_ = sized_columns(read_.rows, read_.vertices, frame, ports_);
+  const uint32_t count = 1 + read_.rows / rows_of_part;
+  RowCounts from;
+  for (uint32_t part = 1; part <= count; ++part) {
+    const auto share = [&](uint32_t all) { return static_cast<uint32_t>(uint64_t{all} * part / count); };
+    const RowCounts to{share(read_.rows), share(read_.vertices)};
+    rows_.begin_read_part(from.rows, to.rows - from.rows, host_rows_, Stage::fields);
+    vertices_.begin_read_part(from.vertices, to.vertices - from.vertices, host_vertices_, Stage::fields);
+    if (count > 1) parts_.push_back({to, context_.mark()});
+    from = to;
+  }
+  context_.flush();
+}
+
+void Fields::size_room() { room_ = sized_columns(read_, ports_, std::exchange(room_, {})); }
+
+FrameRows Fields::rows_of(RowCounts count) const {
+  return {{static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},
+          {static_cast<const device::wt_vertex_row*>(host_vertices_.data()), count.vertices},
+          frame_};
+}
+
+void Fields::fill_arriving(RowCounts count) {
+  if (parts_.empty() || count.rows > read_.rows || count.vertices > read_.vertices) return;
+  size_columns(room_, count);
+  near_edges_ = 0;
+  RowCounts from;
+  for (const Part& part : parts_) {
+    context_.wait(part.read);
+    const RowCounts to{std::min(part.end.rows, count.rows), std::min(part.end.vertices, count.vertices)};
+    near_edges_ += fill_part(room_, rows_of(count), from, to);
+    from = to;
+  }
+  filled_ = count;
 }
 
 void Fields::begin_read_carrier(RowCounts expected) {
@@ -114,11 +145,11 @@ CarrierFields Fields::carrier(RowCounts count) {
 Paths Fields::columns(RowCounts count) {
   if (count.rows > read_.rows) rows_.read(0, count.rows, host_rows_, Stage::fields);
   if (count.vertices > read_.vertices) vertices_.read(0, count.vertices, host_vertices_, Stage::fields);
-  Paths paths = std::exchange(room_, {});
-  resize_columns(paths, count.rows, count.vertices, frame_);
-  near_edges_ = fill_columns(paths, {static_cast<const device::wt_path_row*>(host_rows_.data()), count.rows},
-                             {static_cast<const device::wt_vertex_row*>(host_vertices_.data()), count.vertices});
-  return paths;
+  if (std::exchange(filled_, {}) != count) {
+    size_columns(room_, count);
+    near_edges_ = fill_columns(room_, rows_of(count));
+  }
+  return std::exchange(room_, {});
 }
 
 }  // namespace wavetracer

@@ -4,6 +4,9 @@
 // same bits (radio/fields.hpp).
 #pragma once
 #include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "kernel_calls/fields.hpp"
 #include "passes/distinct.hpp"
@@ -13,10 +16,6 @@
 #include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
-
-struct RowCounts {
-  uint32_t rows = 0, vertices = 0;
-};
 
 class Fields {
  public:
@@ -33,11 +32,19 @@ class Fields {
   void set_materials(const std::vector<device::wt_material>& materials) {
     materials_.write(materials, 0, Stage::fields);
   }
-  // Begins to read the rows that were computed last, `expected` of them, and makes room for their columns while the
-  // device works.
+  // Begins to read the rows that were computed last, `expected` of them.
   void begin_read(uint32_t frame, RowCounts expected);
+  // Many rows are read in parts of so many, whose columns can be filled while later parts are on their way.
+  static constexpr uint32_t rows_of_part = 1 << 14;
+  // Makes room for the columns of these rows. It calls nothing of OpenCL, so that another thread may do so meanwhile.
+  void size_room();
+  // Fills the columns of the parts as they arrive, if there are several, and if all rows are read. count: the number of
+  // rows.
+  void fill_arriving(RowCounts count);
   // Returns their columns. count: the number of rows. The device must have finished.
   Paths columns(RowCounts count);
+  // Takes paths that are needed no more: the next columns use their memory.
+  void give_room(Paths paths) { room_ = std::move(paths); }
   // The number of the paths that columns() or carrier() gave last that are closer to an edge than the theory of
   // diffraction holds.
   uint32_t near_edges() const { return near_edges_; }
@@ -62,9 +69,17 @@ class Fields {
   gpu::Buffer<device::wt_path_row> rows_;
   gpu::Buffer<device::wt_vertex_row> vertices_;
   gpu::HostMemory host_rows_, host_vertices_;
-  RowCounts read_;  // rows and vertices that were read already
+  struct Part {
+    RowCounts end;
+    gpu::Marker read;
+  };
+  std::vector<Part> parts_;          // the parts that are being read; none if all is read at once
+  RowCounts read_;                   // rows and vertices that were read already
+  std::optional<RowCounts> filled_;  // those whose columns are filled already
   uint32_t frame_ = 0, near_edges_ = 0;
-  Paths room_;
+  Paths room_;  // the columns of the next rows, or memory for them
+
+  FrameRows rows_of(RowCounts count) const;
 };
 
 }  // namespace wavetracer

@@ -19,7 +19,6 @@ PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& plane
       arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
       planes_of_(context.buffer(planes_of, "planes of surfaces")) {
   make_room(context_, shared_count_, host_shared_count_, 1, "number of paths of several waves");
-  host_counters_ = context_.host_memory(sizeof(wt_counters), "counters beside paths");
   make_rows(1 << 12);
 }
 
@@ -53,23 +52,17 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
                                           .args = arguments_});
 }
 
-void PathGroups::begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& counters) {
+void PathGroups::begin_read(uint32_t expected) {
   read_ = std::min<size_t>(expected, waves_.size());
   shared_read_ = std::min(last_shared_ + last_shared_ / 16 + 16, shared_.size());
   waves_.begin_read(0, read_, host_waves_, Stage::path_groups);
   shared_.begin_read(0, shared_read_, host_shared_, Stage::path_groups);
   shared_count_.begin_read(0, 1, host_shared_count_, Stage::path_groups);
-  counters.begin_read(0, 1, host_counters_, Stage::path_groups);
-  being_read_ = context_.mark();
+  numbered_ = {};
 }
 
-void PathGroups::number() {
-  context_.flush();
-  room_.group.resize(read_);
-  room_.weight.resize(read_);
-  context_.wait(being_read_);
-  const size_t count = static_cast<const wt_counters*>(host_counters_.data())->rows;
-  numbered_ = count <= read_ ? numbered(count) : GroupColumns{};
+void PathGroups::number(size_t count) {
+  if (count <= read_) numbered_ = numbered(count);
 }
 
 void PathGroups::set(Paths& paths) {

@@ -2,6 +2,8 @@
 // path_groups: the geometrical waves that the paths of a frame belong to, on the device, and the groups of paths that
 // follow from them, on the host. wavetracer/device/path_groups.h says which waves these are.
 #pragma once
+#include <utility>
+
 #include "kernel_calls/path_groups.hpp"
 #include "passes/distinct.hpp"
 #include "passes/tuning.hpp"
@@ -19,13 +21,15 @@ class PathGroups {
   // diffracts. most: the most rows that there may be.
   void operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
                   const Distinct& distinct, const RowList& rows, uint32_t most);
-  // Begins to read the first `expected` rows. counters: the frame's, which have the number of rows by now.
-  void begin_read(uint32_t expected, const gpu::Buffer<wt_counters>& counters);
-  // Makes room for the columns, and numbers the groups as soon as the rows have been read, while the device goes on
-  // with what was enqueued after begin_read(). If there are more rows than expected, set() does it.
-  void number();
+  // Begins to read the first `expected` rows.
+  void begin_read(uint32_t expected);
+  // Numbers the groups of `count` rows, which must have been read: so the device can go on with what was enqueued after
+  // begin_read(). If there are more rows than expected, set() does it.
+  void number(size_t count);
   // Sets the columns of groups in `paths`, which are the paths of the rows. The device must have finished.
   void set(Paths& paths);
+  // Takes columns that are needed no more: the next ones use their memory.
+  void give_room(GroupColumns columns) { room_ = std::move(columns); }
 
  private:
   void make_rows(size_t most);
@@ -39,8 +43,7 @@ class PathGroups {
   gpu::Buffer<device::wt_path_wave> waves_;
   gpu::Buffer<device::wt_path_waves> shared_;  // the waves of paths that belong to several
   gpu::Buffer<uint32_t> shared_count_;
-  gpu::HostMemory host_waves_, host_shared_, host_shared_count_, host_counters_;
-  gpu::Marker being_read_;
+  gpu::HostMemory host_waves_, host_shared_, host_shared_count_;
   size_t read_ = 0, shared_read_ = 0;  // rows and records that were read already
   size_t last_shared_ = 0;             // records of the last frame
   GroupColumns room_;                  // memory for the columns of the next rows

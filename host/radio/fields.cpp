@@ -218,7 +218,7 @@ Paths FieldModel::compute(uint32_t frame, const PathGeometry& geometry, const Wo
       device::wt_write_row(&world, &rows, row, solved.solved[ordered.rows[row] / 2].quarters, scene_.origin_m,
                            first_vertex[row], &path_rows[row], vertex_rows.data());
   });
-  Paths paths = columns_of(path_rows, vertex_rows, frame, tables_.ports);
+  Paths paths = columns_of({path_rows, vertex_rows, frame}, tables_.ports);
   if (geometry.quarters.empty()) paths.quarters.clear();
   return paths;
 }

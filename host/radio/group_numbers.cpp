@@ -5,9 +5,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
+#include "radio/column_room.hpp"
 #include "wavetracer/device/path_groups.h"
 
 namespace wavetracer {
@@ -44,10 +46,17 @@ class KeyNumbers {
 using Waves = std::span<const device::wt_path_wave>;
 using SharedWaves = std::span<const device::wt_path_waves>;
 
+// Looks in larger and larger steps, then halves the last one: a link may have thousands of rows.
 size_t end_of_link(Waves waves, size_t first) {
-  size_t row = first + 1;
-  while (row < waves.size() && waves[row].tx == waves[first].tx && waves[row].rx == waves[first].rx) ++row;
-  return row;
+  const auto is_same = [&](size_t row) { return waves[row].tx == waves[first].tx && waves[row].rx == waves[first].rx; };
+  size_t step = 1;
+  while (step < waves.size() - first && is_same(first + step)) step *= 2;
+  size_t same = first + step / 2, other = std::min(first + step, waves.size());
+  while (same + 1 < other) {
+    const size_t middle = same + (other - same) / 2;
+    (is_same(middle) ? same : other) = middle;
+  }
+  return other;
 }
 
 // Numbers rows first to end - 1, which are of one link. numbers, straight: memory to work in.
@@ -81,8 +90,8 @@ void number_link(GroupColumns& out, size_t first, size_t end, Waves waves, Share
 
 GroupColumns number_groups(Waves waves, SharedWaves shared, GroupColumns out) {
   static_assert(most_groups == WT_MOST_GROUPS);
-  out.group.resize(waves.size());
-  out.weight.resize(waves.size());
+  size_column(out.group, waves.size());
+  size_column(out.weight, waves.size());
   std::vector<size_t> parts{0};  // each is whole links
   for (size_t row = 0; row < waves.size();) {
     row = end_of_link(waves, row);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All cores take part: most of the time is spent on pages that are touched first.
+// All cores take part. Values of new memory are set twice, since vectors set them to zero first.
 #include "radio/path_columns.hpp"
 
 #include <tbb/parallel_for.h>
@@ -7,27 +7,29 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
+
+#include "radio/column_room.hpp"
 
 namespace wavetracer {
 namespace {
 
-void resize_numbers(Paths& paths, size_t rows, uint32_t frame) {
-  for (auto* column : {&paths.tx, &paths.rx, &paths.depth}) column->resize(rows);
-  paths.frame.resize(rows, frame);
-  paths.quarters.resize(rows);
-  paths.vertex_offset.resize(rows + 1);
+void size_numbers(Paths& paths, size_t rows) {
+  for (auto* column : {&paths.frame, &paths.tx, &paths.rx, &paths.depth}) size_column(*column, rows);
+  size_column(paths.quarters, rows);
+  size_column(paths.vertex_offset, rows + 1);
 }
 
-void resize_values(Paths& paths, size_t rows) {
+void size_values(Paths& paths, size_t rows) {
   for (auto* column : {&paths.delay_s, &paths.gain_db, &paths.doppler_hz, &paths.aod_theta_rad, &paths.aod_phi_rad,
                        &paths.aoa_theta_rad, &paths.aoa_phi_rad})
-    column->resize(rows);
+    size_column(*column, rows);
 }
 
-void resize_vertices(Paths& paths, size_t vertices) {
-  paths.vertex_interaction.resize(vertices);
-  paths.vertex_surface.resize(vertices);
-  paths.vertex_instance.resize(vertices);
+void size_vertices(Paths& paths, size_t vertices) {
+  size_column(paths.vertex_interaction, vertices);
+  size_column(paths.vertex_surface, vertices);
+  size_column(paths.vertex_instance, vertices);
 }
 
 std::array<std::complex<double>, 4> port_matrix(const device::wt_path_row& from, Ports ports) {
@@ -38,7 +40,12 @@ std::array<std::complex<double>, 4> port_matrix(const device::wt_path_row& from,
   return a;
 }
 
-void take_row(Paths& paths, size_t row, const device::wt_path_row& from) {
+RowCounts counts_of(const FrameRows& of) {
+  return {static_cast<uint32_t>(of.rows.size()), static_cast<uint32_t>(of.vertices.size())};
+}
+
+void take_row(Paths& paths, size_t row, const device::wt_path_row& from, uint32_t frame) {
+  paths.frame[row] = frame;
   paths.tx[row] = from.tx;
   paths.rx[row] = from.rx;
   paths.vertex_offset[row] = from.first_vertex;
@@ -62,43 +69,51 @@ void take_vertex(Paths& paths, uint64_t at, const device::wt_vertex_row& from) {
 
 }  // namespace
 
-Paths sized_columns(size_t rows, size_t vertices, uint32_t frame, Ports ports) {
-  Paths paths;
+Paths sized_columns(RowCounts counts, Ports ports, Paths room) {
+  Paths paths = std::move(room);
   paths.tx_ports = ports.tx;
   paths.rx_ports = ports.rx;
-  tbb::parallel_invoke([&] { paths.a.resize(rows); }, [&] { resize_numbers(paths, rows, frame); },
-                       [&] { resize_values(paths, rows); }, [&] { paths.vertex_position_m.resize(vertices); },
-                       [&] { resize_vertices(paths, vertices); });
+  paths.group.clear();
+  paths.group_weight.clear();
+  size_columns(paths, counts);
   return paths;
 }
 
-void resize_columns(Paths& paths, size_t rows, size_t vertices, uint32_t frame) {
-  paths.a.resize(rows);
-  resize_numbers(paths, rows, frame);
-  resize_values(paths, rows);
-  paths.vertex_position_m.resize(vertices);
-  resize_vertices(paths, vertices);
+void size_columns(Paths& paths, RowCounts counts) {
+  tbb::parallel_invoke([&] { size_column(paths.a, counts.rows); }, [&] { size_numbers(paths, counts.rows); },
+                       [&] { size_values(paths, counts.rows); },
+                       [&] { size_column(paths.vertex_position_m, counts.vertices); },
+                       [&] { size_vertices(paths, counts.vertices); });
 }
 
-uint32_t fill_columns(Paths& paths, std::span<const device::wt_path_row> rows,
-                      std::span<const device::wt_vertex_row> vertices) {
-  paths.vertex_offset[rows.size()] = vertices.size();
+// The depth of a row is filled with the row after it, whose first vertex ends it.
+uint32_t fill_part(Paths& paths, const FrameRows& from, RowCounts first, RowCounts end) {
+  const std::span rows = from.rows;
+  const std::span vertices = from.vertices;
   std::atomic<uint32_t> near_edges = 0;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
+  const auto take_rows = [&](const tbb::blocked_range<uint32_t>& range) {
     uint32_t near = 0;
-    for (size_t row = range.begin(); row < range.end(); ++row) {
-      take_row(paths, row, rows[row]);
+    for (uint32_t row = range.begin(); row < range.end(); ++row) {
+      take_row(paths, row, rows[row], from.frame);
       near += (rows[row].quarters & WT_ROW_NEAR_EDGE) != 0;
-      const size_t end = row + 1 < rows.size() ? rows[row + 1].first_vertex : vertices.size();
-      paths.depth[row] = static_cast<uint32_t>(end - rows[row].first_vertex);
+      if (row > 0) paths.depth[row - 1] = rows[row].first_vertex - rows[row - 1].first_vertex;
     }
     if (near > 0) near_edges += near;
-  });
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, vertices.size(), 1024), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
-  });
+  };
+  const auto take_vertices = [&](const tbb::blocked_range<uint32_t>& range) {
+    for (uint32_t at = range.begin(); at < range.end(); ++at) take_vertex(paths, at, vertices[at]);
+  };
+  tbb::parallel_invoke(
+      [&] { tbb::parallel_for(tbb::blocked_range<uint32_t>(first.rows, end.rows, 256), take_rows); },
+      [&] { tbb::parallel_for(tbb::blocked_range<uint32_t>(first.vertices, end.vertices, 1024), take_vertices); });
+  if (end.rows == rows.size()) {
+    paths.vertex_offset[end.rows] = vertices.size();
+    if (end.rows > 0) paths.depth[end.rows - 1] = static_cast<uint32_t>(vertices.size()) - rows.back().first_vertex;
+  }
   return near_edges;
 }
+
+uint32_t fill_columns(Paths& paths, const FrameRows& from) { return fill_part(paths, from, {}, counts_of(from)); }
 
 uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row> rows, Ports ports) {
   std::atomic<uint32_t> near_edges = 0;
@@ -114,10 +129,9 @@ uint32_t fill_carrier(CarrierFields& fields, std::span<const device::wt_path_row
   return near_edges;
 }
 
-Paths columns_of(std::span<const device::wt_path_row> rows, std::span<const device::wt_vertex_row> vertices,
-                 uint32_t frame, Ports ports) {
-  Paths paths = sized_columns(rows.size(), vertices.size(), frame, ports);
-  fill_columns(paths, rows, vertices);
+Paths columns_of(const FrameRows& from, Ports ports) {
+  Paths paths = sized_columns(counts_of(from), ports);
+  fill_columns(paths, from);
   return paths;
 }
 

@@ -2,6 +2,10 @@
 // The passes run in their order; only the numbers of rows are read between them.
 #include "simulation/finished_paths.hpp"
 
+#include <tbb/task_group.h>
+
+#include <utility>
+
 #include "radio/carriers.hpp"
 #include "radio/constants.hpp"
 #include "radio/world_records.hpp"
@@ -23,7 +27,8 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
       distinct_(context, world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver),
       sort_(context),
       scan_(context),
-      carriers_hz_(carriers_hz(config.radio)) {
+      carriers_hz_(carriers_hz(config.radio)),
+      host_counters_(context.host_memory(sizeof(wt_counters), "counters beside paths")) {
   if (config.trace.diffraction)
     groups_.emplace(context, plane_records(scene, world.fleet.models, world.fleet.instances),
                     tracing_depth(config.trace).edges, speed_of_light_m_s / config.radio.frequency_hz);
@@ -55,13 +60,39 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     scan_.prefix(distinct_.rows().counts, 2 * places, Stage::distinct);                                    // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
-    if (groups_) groups_->begin_read(expected.rows, counters.buffer());
+    if (groups_) groups_->begin_read(expected.rows);
+    if (counts_ahead(expected)) begin_count(counters);
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
       fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
   }
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
   fields_[0].begin_read(frame, expected);
-  if (groups_ && most.rows > 0) groups_->number();
+  tbb::task_group room;  // another core makes it while the device works and groups are numbered
+  room.run([this] { fields_[0].size_room(); });
+  std::optional<RowCounts> count;
+  if (most.rows > 0 && counts_ahead(expected)) count = wait_for_counts();
+  if (count && groups_) groups_->number(count->rows);
+  room.wait();
+  if (count) fields_[0].fill_arriving(*count);
+}
+
+// Is the number of rows read before the device has finished? Frames of few paths have no use for it.
+bool FinishedPaths::counts_ahead(RowCounts expected) const { return groups_ || expected.rows > Fields::rows_of_part; }
+
+void FinishedPaths::begin_count(Counters& counters) {
+  counters.buffer().begin_read(0, 1, host_counters_, Stage::distinct);
+  counted_ = context_.mark();
+}
+
+RowCounts FinishedPaths::wait_for_counts() {
+  context_.wait(counted_);
+  const auto* const counted = static_cast<const wt_counters*>(host_counters_.data());
+  return {counted->rows, counted->row_vertices};
+}
+
+void FinishedPaths::give_room(Paths paths) {
+  if (groups_) groups_->give_room({std::exchange(paths.group, {}), std::exchange(paths.group_weight, {})});
+  fields_[0].give_room(std::move(paths));
 }
 
 Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers) {

@@ -35,6 +35,8 @@ class FinishedPaths {
   // have groups. left_out: gets the paths that are left out (radio/fields.hpp). carriers: gets the fields at the other
   // carriers, if they were started; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
+  // Takes paths that are needed no more: those that take() gives next use their memory.
+  void give_room(Paths paths);
   // Fields::near_edges() for the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
     std::vector<uint32_t> out;
@@ -51,6 +53,12 @@ class FinishedPaths {
   std::vector<Fields> fields_;            // one for each carrier; they only share the rows
   std::vector<double> carriers_hz_;
   std::optional<PathGroups> groups_;  // set with diffraction
+  gpu::HostMemory host_counters_;
+  gpu::Marker counted_;  // the counters have been read, and the waves of groups
+
+  bool counts_ahead(RowCounts expected) const;
+  void begin_count(Counters& counters);
+  RowCounts wait_for_counts();
 };
 
 // Replaces the visible paths of the list by paths that were found elsewhere.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "simulation/frame.hpp"
 #include "simulation/missing_paths.hpp"
@@ -127,6 +128,9 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch->set(std::move(observer)); }
 void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
+void Simulation::give_back(FrameResult& result) {
+  state_->setup.finish.give_room(std::exchange(result.paths, Paths()));
+}
 void Simulation::forget() { state_->frames.forget(); }
 uint64_t Simulation::frame_count() const { return state_->plan().world.clock.frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->plan().world.clock.time_s(frame); }

@@ -87,6 +87,10 @@ TEST_CASE("units that a thread writes count as finished after finish(); the open
   writer.drop();
   writer.finish();
   CHECK(shards.finished({3, 9}));
+  const std::optional<FrameResult> written = writer.take_written();
+  REQUIRE(written);
+  CHECK(written->frame == 21);
+  CHECK_FALSE(writer.take_written());
   CHECK_FALSE(shards.finished({20, 24}));
   CHECK_FALSE(writer.take_unfinished());
   CHECK(refused_elsewhere([&] { writer.finish(); }));

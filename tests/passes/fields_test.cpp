@@ -13,6 +13,7 @@
 #include "passes/wedges.hpp"
 #include "radio/fields.hpp"
 #include "reference/quads.hpp"
+#include "wavetracer/device/path_rows.h"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -78,6 +79,15 @@ struct FieldWorld {
 
 constexpr uint32_t no_path = WT_NO_ROW;
 
+bool same_columns(const Paths& a, const Paths& b) {
+  return a.frame == b.frame && a.tx == b.tx && a.rx == b.rx && a.depth == b.depth && a.delay_s == b.delay_s &&
+         a.gain_db == b.gain_db && a.a == b.a && a.aod_theta_rad == b.aod_theta_rad && a.aod_phi_rad == b.aod_phi_rad &&
+         a.aoa_theta_rad == b.aoa_theta_rad && a.aoa_phi_rad == b.aoa_phi_rad && a.doppler_hz == b.doppler_hz &&
+         a.quarters == b.quarters && a.vertex_offset == b.vertex_offset && a.vertex_position_m == b.vertex_position_m &&
+         a.vertex_interaction == b.vertex_interaction && a.vertex_surface == b.vertex_surface &&
+         a.vertex_instance == b.vertex_instance;
+}
+
 // Computes rows at their places on the device. numbers: twice the number of a path, plus one for its way back, or
 // no_path. receiver_of, transmitter_of: ends in one place.
 Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, const std::vector<uint32_t>& receiver_of,
@@ -111,8 +121,19 @@ Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, c
   Fields fields(context(), make_field_tables(world.scene, world.config), 1, world.scene.origin_m);
   fields(scene, &wedges.list().wedges, ends, world.state, visible, nullptr, distinct, list, count);
   fields.begin_read(5, {count.rows / 2, count.vertices / 2});  // the rest is read once their number is known
+  fields.size_room();
   context().finish();
-  return fields.columns(count);
+  Paths paths = fields.columns(count);
+  for (const uint32_t expected : {count.rows, count.rows + count.rows / 8}) {  // in parts, if there are many
+    fields.begin_read(5, {expected, count.vertices + 7});
+    fields.size_room();
+    fields.fill_arriving(count);
+    context().finish();
+    Paths again = fields.columns(count);
+    CHECK(same_columns(again, paths));
+    fields.give_room(std::move(again));
+  }
+  return paths;
 }
 
 Paths in_order(const FieldWorld& world) {
@@ -209,23 +230,30 @@ TEST_CASE("fields: every column is the host's to the last bit, for each kind of 
     }
     const Paths host = FieldModel(world.scene, world.config).compute(5, geometry, world.state);
     REQUIRE(paths.size() == host.size());
-    CHECK(paths.tx == host.tx);
-    CHECK(paths.depth == host.depth);
-    CHECK(paths.delay_s == host.delay_s);
-    CHECK(paths.gain_db == host.gain_db);
-    CHECK(paths.a == host.a);
-    CHECK(paths.aod_theta_rad == host.aod_theta_rad);
-    CHECK(paths.aod_phi_rad == host.aod_phi_rad);
-    CHECK(paths.aoa_theta_rad == host.aoa_theta_rad);
-    CHECK(paths.aoa_phi_rad == host.aoa_phi_rad);
-    CHECK(paths.doppler_hz == host.doppler_hz);
-    CHECK(paths.quarters == host.quarters);
-    CHECK(paths.vertex_offset == host.vertex_offset);
-    CHECK(paths.vertex_position_m == host.vertex_position_m);
-    CHECK(paths.vertex_surface == host.vertex_surface);
-    CHECK(paths.vertex_interaction == host.vertex_interaction);
-    CHECK(paths.vertex_instance == host.vertex_instance);
+    CHECK(same_columns(paths, host));
   }
+}
+
+TEST_CASE("fields: many rows are read in parts, and each has the columns of its path") {
+  const FieldWorld world(path_of_each_kind(), "isotropic");
+  const Paths kinds = in_order(world);
+  const auto count = static_cast<uint32_t>(kinds.size());
+  std::vector<uint32_t> numbers;
+  for (uint32_t i = 0; i < 3 * Fields::rows_of_part; ++i) numbers.push_back(2 * (i * i % count));
+  const std::vector<uint32_t> alone(count, WT_NONE);
+  const Paths paths = fields_of(world, numbers, alone, alone);
+  REQUIRE(paths.size() == numbers.size());
+  bool same = true;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const size_t kind = numbers[i] / 2;
+    same = same && paths.tx[i] == kind && paths.depth[i] == kinds.depth[kind] &&
+           paths.delay_s[i] == kinds.delay_s[kind] && paths.a[i] == kinds.a[kind] &&
+           paths.vertex_offset[i + 1] - paths.vertex_offset[i] == kinds.depth[kind];
+    for (uint32_t k = 0; same && k < kinds.depth[kind]; ++k)
+      same =
+          paths.vertex_position_m[paths.vertex_offset[i] + k] == kinds.vertex_position_m[kinds.vertex_offset[kind] + k];
+  }
+  CHECK(same);
 }
 
 TEST_CASE("fields: the way back of a path has its coefficients, transposed, and places without a path are left out") {

@@ -66,11 +66,9 @@ Paths on_device(const std::vector<PathRow>& rows, const std::vector<wt_wedge>& w
   const RadioEnds ends = ends_of(rows);
   const SolvedList visible = upload_rows(rows, deepest);
   groups(&edges, ends, visible, distinct, list, count);
-  wt_counters counted{};
-  counted.rows = count;
-  groups.begin_read(expected, context().buffer(std::vector{counted}, "counters"));
-  groups.number();
+  groups.begin_read(expected);
   context().finish();
+  groups.number(count);
   groups.set(paths);
   return paths;
 }

@@ -131,13 +131,19 @@ void check_counts(const FrameResult& frame, uint32_t number, const Config& confi
   if (in_street(number)) CHECK(frame.paths.size() >= 2);
 }
 
-// Computes the frames in this order; each number occurs once.
-std::map<uint32_t, FrameResult> frames_of(Simulation& simulation, const std::vector<uint32_t>& order) {
+// Computes the frames in this order; each number occurs once. give_back: their memory is used again.
+std::map<uint32_t, FrameResult> frames_of(Simulation& simulation, const std::vector<uint32_t>& order,
+                                          bool give_back = false) {
   REQUIRE(simulation.frame_count() == frame_count);
   std::map<uint32_t, FrameResult> out;
   for (const uint32_t number : order) {
-    const auto at = out.emplace(number, simulation.run_frame(number)).first;
-    check_counts(at->second, number, simulation.config());
+    FrameResult frame = simulation.run_frame(number);
+    check_counts(frame, number, simulation.config());
+    out.emplace(number, frame);
+    if (give_back) {
+      simulation.give_back(frame);
+      CHECK(frame.paths.size() == 0);
+    }
   }
   REQUIRE(out.size() == frame_count);
   return out;
@@ -175,9 +181,15 @@ TEST_CASE("drives whose frames are empty at first, and at last, with each featur
     config.trace.reuse = false;
     config.trace.discover_every_s = 0;
     Simulation before(config), after(config);
-    const std::map<uint32_t, FrameResult> whole = frames_of(before, empty_first), again = frames_of(after, full_first);
+    const std::map<uint32_t, FrameResult> whole = frames_of(before, empty_first),
+                                          again = frames_of(after, full_first, true);
     if (!varies(config))
-      for (const auto& [number, frame] : whole) CHECK(identical(frame.paths, again.at(number).paths));
+      for (const auto& [number, frame] : whole) {
+        CHECK(identical(frame.paths, again.at(number).paths));
+        CHECK(frame.paths.quarters == again.at(number).paths.quarters);
+        CHECK(frame.paths.group == again.at(number).paths.group);
+        CHECK(frame.paths.group_weight == again.at(number).paths.group_weight);
+      }
     check_blocks(after, whole);
   }
 }
