@@ -11,7 +11,7 @@ namespace suite = wavetracer::kernels;
 using suite::c_face::call_of;
 using suite::c_face::given;
 using suite::c_face::guarded;
-using SharedContext = std::shared_ptr<const suite::Context>;
+using suite::c_face::SharedContext;
 
 }  // namespace
 

@@ -22,6 +22,8 @@ struct wavetracer_kernels_context {
 
 namespace wavetracer::kernels::c_face {
 
+using SharedContext = std::shared_ptr<const Context>;
+
 // Stores an error, unless the caller wants none or there is no memory for it.
 inline void store(wavetracer_kernels_error** error, cl_int code, const char* message,
                   const std::string& kernel) noexcept {

@@ -62,11 +62,13 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
               .count = rays.count, .missed = missed, .table = numbers_, .places = representatives_});
 }
 
-void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
+void CacheGroups::share(const CacheSurfaces& world, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
                         gpu::Buffer<float>& refused, CacheTable& table, uint32_t now,
                         gpu::Buffer<uint32_t>* receivers) {
   if (table.config.holds_all() && !receivers)
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
+  if (table.config.own_points() && !table.config.exact() && !world.surfaces)
+    throw std::invalid_argument("cache_groups: no surfaces for cache.hit_point = \"own\"");
   share_(work_.range(rays.count), stage,
          calls::cache_groups::cache_share{.rays = rays.planes,
                                           .hits = hits.planes,
@@ -78,7 +80,7 @@ void CacheGroups::share(const DeviceScene& scene, RayQueue& rays, HitList& hits,
                                           .used = table.used,
                                           .regions = table.device_regions,
                                           .counters = table.counters,
-                                          .surfaces = scene.surfaces,
+                                          .surfaces = world.surfaces,
                                           .receivers = receivers,
                                           .args = wt_cache_lookup_arguments{.capacity = rays.capacity,
                                                                             .count = rays.count,

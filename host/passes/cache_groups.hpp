@@ -3,8 +3,8 @@
 // a labelled queue, see label_rays, and room for it.
 #pragma once
 #include "kernel_calls/cache_groups.hpp"
+#include "passes/cache_surfaces.hpp"
 #include "passes/cache_table.hpp"
-#include "passes/device_scene.hpp"
 #include "passes/ray_queue.hpp"
 #include "passes/tuning.hpp"
 
@@ -22,9 +22,9 @@ class CacheGroups {
              uint32_t static_surfaces);
   // Call this after elect(), once the hits of the first rays are known: those that follow get the same hits, by the
   // rules of a look-up (hit_point, precision). refused[i], and missed[i], become i for those that must be traced
-  // themselves; all others have WT_NONE in refused[i]. now: the frame. receivers: needed with scope = "all"; [i]
-  // becomes the receiver of the first ray.
-  void share(const DeviceScene& scene, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
+  // themselves; all others have WT_NONE in refused[i]. world: as CacheLookup takes it. now: the frame. receivers:
+  // needed with scope = "all"; [i] becomes the receiver of the first ray.
+  void share(const CacheSurfaces& world, RayQueue& rays, HitList& hits, gpu::Buffer<float>& missed,
              gpu::Buffer<float>& refused, CacheTable& table, uint32_t now, gpu::Buffer<uint32_t>* receivers = nullptr);
   // After elect(): the ray that each ray follows, WT_NONE where it follows none.
   const gpu::Buffer<uint32_t>& representatives() const { return representatives_; }

@@ -27,7 +27,7 @@ NOTHING = 0xFFFFFFFF
 """The word that compact() leaves out."""
 
 _Handle, _Size, _Unsigned = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_uint
-_ERROR = ctypes.POINTER(_Handle)
+_ERROR, _FLOATS = ctypes.POINTER(_Handle), ctypes.POINTER(ctypes.c_float)
 _EVENTS = [_Unsigned, ctypes.POINTER(_Handle), ctypes.POINTER(_Handle), _ERROR]
 _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("error_code", ctypes.c_int, [_Handle]), ("error_message", ctypes.c_char_p, [_Handle]),
@@ -38,7 +38,10 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("scan_make", _Handle, [_Handle, _ERROR]), ("scan_free", None, [_Handle]),
     ("scan_run", ctypes.c_int, [_Handle, _Handle, _Size, _Handle, *_EVENTS]),
     ("compact_make", _Handle, [_Handle, _ERROR]), ("compact_free", None, [_Handle]),
-    ("compact_run", ctypes.c_int, [_Handle, _Handle, _Size, _Handle, _Handle, *_EVENTS]))
+    ("compact_run", ctypes.c_int, [_Handle, _Handle, _Size, _Handle, _Handle, *_EVENTS]),
+    ("curve_keys_make", _Handle, [_Handle, ctypes.c_int, _Unsigned, _ERROR]), ("curve_keys_free", None, [_Handle]),
+    ("curve_keys_run", ctypes.c_int, [_Handle, _Handle, _Size, _Size, _FLOATS, _FLOATS, ctypes.c_uint64, _Handle, *_EVENTS]))
+_CURVES = {"morton2": 2, "morton3": 3, "morton5": 5, "hilbert2": 2, "hilbert3": 3}  # by their numbers; dimensions
 _PAYLOADS = {"none": 0, "words": 1, "index": 2}
 _METHODS = {"automatic": 0, "radix": 1, "bitonic": 2}
 
@@ -159,6 +162,28 @@ class Suite:
         memory, places = _memory(words, "words", ("uint32", "int32", "float32")), _memory(indices, "indices", ("uint32",))
         return self._run("compact", (), (memory, words.size, places, _memory(total, "total", ("uint32",))), wait_for)
 
+    def curve_keys(self, points: Any, keys: Any, curve: str, lower: Sequence[float], upper: Sequence[float], cells: int, *,
+                   wait_for: Sequence[Any] | None = None) -> Any:
+        dimensions = _dimensions(curve)
+        if points.ndim != 2 or points.shape[1] != dimensions or not points.flags.c_contiguous:
+            raise ValueError(f"points: the shape is {points.shape}, and must be (n, {dimensions}) for {curve}, row by row")
+        if keys.size < points.shape[0]:
+            raise ValueError(f"keys: {keys.size} elements for {points.shape[0]} points")
+        if not len(lower) == len(upper) == dimensions:
+            raise ValueError(f"lower and upper: {len(lower)} and {len(upper)} numbers, {curve} takes {dimensions} each")
+        if cells < 1:
+            raise ValueError(f"cells: {cells} is no number of cells")
+        corners = ((ctypes.c_float * dimensions)(*lower), (ctypes.c_float * dimensions)(*upper))
+        memory, to = _memory(points, "points", ("float32",)), _memory(keys, "keys", ("uint32", "uint64"))
+        return self._run("curve_keys", (list(_CURVES).index(curve), 8 * keys.dtype.itemsize),
+                         (memory, points.shape[0], dimensions, *corners, cells, to), wait_for)
+
+
+def _dimensions(curve: str) -> int:
+    if curve not in _CURVES:
+        raise ValueError(f"curve: {curve!r} is none of {', '.join(_CURVES)}")
+    return _CURVES[curve]
+
 
 @functools.lru_cache(maxsize=8)
 def _suite(queue: Any) -> Suite:
@@ -195,3 +220,18 @@ def compact(words: Any, indices: Any, total: Any, *, wait_for: Sequence[Any] | N
     """Writes the indices of words that are not NOTHING to indices, ascending, and their number to total[0]. indices has
     room for as many as there are words."""
     return _suite_of(words).compact(words, indices, total, wait_for=wait_for)
+
+
+def curve_keys(points: Any, keys: Any, curve: str, lower: Sequence[float], upper: Sequence[float], cells: int, *,
+               wait_for: Sequence[Any] | None = None) -> Any:
+    """Writes the keys of points (float32, shape (n, d)) along a space-filling curve to keys (n of uint32 or uint64).
+
+    curve: "morton2", "morton3", "morton5", "hilbert2" or "hilbert3", whose number is d. A key is the code of the cell of
+    the box from lower to upper (d numbers each) in which the point lies; there are `cells` of them in each dimension.
+    Points outside go to the nearest cell. A sort by curve_bits(curve, cells) bits puts near points side by side."""
+    return _suite_of(points).curve_keys(points, keys, curve, lower, upper, cells, wait_for=wait_for)
+
+
+def curve_bits(curve: str, cells: int) -> int:
+    """The number of the lowest bits of keys that count in a box of so many cells in each dimension."""
+    return _dimensions(curve) * max(cells - 1, 0).bit_length()

@@ -1,51 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The C face of the kernel suite from C99, with a context and a queue of this program's own. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "wavetracer/kernels/kernels.h"
-
-#define EXPECT(condition)                                                                         \
-  do {                                                                                            \
-    if (!(condition)) {                                                                           \
-      printf("line %d: %s: %s\n", __LINE__, #condition, wavetracer_kernels_error_message(error)); \
-      exit(1);                                                                                    \
-    }                                                                                             \
-  } while (0)
+#include "c_user.h"
 
 enum { n = 3000 };
 
 static int by_size(const void* a, const void* b) {
   const uint32_t x = *(const uint32_t*)a, y = *(const uint32_t*)b;
   return (x > y) - (x < y);
-}
-
-/* The first device of the platform that WAVETRACER_TEST_PLATFORM names, else of the first platform that has one. */
-static cl_device_id first_device(void) {
-  cl_platform_id platforms[16];
-  cl_uint count = 0;
-  const char* expected = getenv("WAVETRACER_TEST_PLATFORM");
-  clGetPlatformIDs(16, platforms, &count);
-  for (cl_uint i = 0; i < count && i < 16; ++i) {
-    char name[256] = "";
-    cl_device_id device = NULL;
-    clGetPlatformInfo(platforms[i], CL_PLATFORM_NAME, sizeof name, name, NULL);
-    if (expected && strcmp(name, expected) != 0) continue;
-    if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 1, &device, NULL) == CL_SUCCESS) return device;
-  }
-  printf("no OpenCL device\n");
-  exit(1);
-}
-
-static cl_mem memory_of(cl_context context, const void* data, size_t bytes) {
-  return clCreateBuffer(context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, bytes, (void*)data, NULL);
-}
-
-static void read_words(cl_command_queue queue, cl_mem memory, uint32_t* to, size_t count, cl_event after) {
-  if (clEnqueueReadBuffer(queue, memory, CL_TRUE, 0, 4 * count, to, after ? 1 : 0, after ? &after : NULL, NULL) !=
-      CL_SUCCESS)
-    exit(1);
 }
 
 static uint32_t data[n], sorted[n], order[n], out[n];

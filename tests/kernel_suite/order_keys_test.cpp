@@ -151,7 +151,66 @@ TEST_CASE("a launch is its parts, of unit length, from its origin, evenly in all
   }
 }
 
-TEST_CASE("faults of a user of OrderKeys and GenerateRays") {
+TEST_CASE("keys of launch indices are those of the rays that the launch would make") {
+  const User user;
+  const kernels::Context context(user.context, user.device, user.queue);
+  using kernels::LaunchMap;
+  constexpr size_t launched_rays = 3000, first = 55, n = 333;
+  const auto keys_of_launch = [&](RayOrder order, LaunchMap map) {
+    kernels::LaunchKeys keys_of(context, order, map, launched_rays, 5);
+    const auto keys = context.buffer<uint32_t>(n + 1);
+    keys.write(std::vector<uint32_t>(n + 1, 7));
+    keys_of(first, n, keys);
+    std::vector<uint32_t> out = keys.read();
+    CHECK(out.back() == 7);
+    out.pop_back();
+    for (const uint32_t key : out) REQUIRE(uint64_t{key} < uint64_t{1} << keys_of.bits());
+    return out;
+  };
+  for (const LaunchMap map : {LaunchMap::hilbert, LaunchMap::horizon, LaunchMap::fibonacci, LaunchMap::random}) {
+    CAPTURE(static_cast<int>(map));
+    kernels::GenerateRays launch(context, map, launched_rays, 5);
+    const std::vector<kernels::Ray> rays = launched(context, launch, first, n);
+    const std::vector<uint32_t> z = keys_of_launch(RayOrder::z, map), hz = keys_of_launch(RayOrder::hz, map);
+    size_t wrong = 0;
+    for (size_t i = 0; i < n; ++i)
+      wrong += z[i] != interleaved(rays[i].direction, 1024) || hz[i] != interleaved(rays[i].direction, 16);
+    CHECK(wrong == 0);
+    CHECK(keys_of_launch(RayOrder::h3dh, map) == keys_by(context, RayOrder::h3dh, {}, rays));
+    // Cells of directions nest: a fourth of their sides makes those of queues, which have the cell of the origin below.
+    std::vector<uint32_t> coarse = keys_of_launch(RayOrder::direction_origin, map),
+                          queued = keys_by(context, RayOrder::direction_origin, {.extent = 10}, rays);
+    for (uint32_t& key : coarse) key >>= 4;
+    for (uint32_t& key : queued) key >>= 12;
+    CHECK(coarse == queued);
+  }
+}
+
+TEST_CASE("a launch in an order of the user's is that of its rays") {
+  const User user;
+  const kernels::Context context(user.context, user.device, user.queue);
+  constexpr size_t n = 333, first = 100;
+  kernels::GenerateRays launch(context, kernels::LaunchMap::random, 500, 5);
+  const std::vector<kernels::Ray> straight = launched(context, launch, first, n);
+  std::vector<uint32_t> list(n);
+  for (uint32_t i = 0; i < n; ++i) list[i] = i * 100 % n;
+  const auto order = context.buffer<uint32_t>(n);
+  const auto rays = context.buffer<kernels::Ray>(n + 1);
+  order.write(list);
+  rays.write(std::vector<kernels::Ray>(n + 1, {{7, 7, 7}, 7, {7, 7, 7}, 7}));
+  launch({1, 2, 3}, first, order, n, rays);
+  const std::vector<kernels::Ray> ordered = rays.read();
+  size_t wrong = ordered[n].t_min != 7;
+  for (size_t i = 0; i < n; ++i) wrong += !same(ordered[i], straight[list[i]]);
+  CHECK(wrong == 0);
+  CHECK(contains(message_of<kernels::Error>([&] {
+                   launch({0, 0, 0}, 400, order, 101, rays);
+                 }),
+                 "rays 400 to 501 of a launch of 500"));
+  CHECK(contains(message_of<kernels::Error>([&] { launch({0, 0, 0}, 0, order, n + 1, rays); }), "GenerateRays: order"));
+}
+
+TEST_CASE("faults of a user of OrderKeys, LaunchKeys and GenerateRays") {
   const User user;
   const kernels::Context context(user.context, user.device, user.queue);
   const auto made = [&](const kernels::OrderOptions& options) {
@@ -169,4 +228,10 @@ TEST_CASE("faults of a user of OrderKeys and GenerateRays") {
   kernels::GenerateRays launch(context, kernels::LaunchMap::random, 10);
   const auto rays = context.buffer<kernels::Ray>(10);
   CHECK(contains(message_of<kernels::Error>([&] { launch({0, 0, 0}, 5, 6, rays); }), "rays 5 to 11 of a launch of 10"));
+  kernels::LaunchKeys launch_keys(context, RayOrder::z, kernels::LaunchMap::hilbert, 20);
+  CHECK(contains(message_of<kernels::Error>([&] { launch_keys(0, 17, keys); }), "LaunchKeys: keys: the buffer has 64"));
+  CHECK(contains(message_of<kernels::Error>([&] { launch_keys(4, 17, keys); }), "rays 4 to 21 of a launch of 20"));
+  CHECK(contains(
+      message_of<kernels::Error>([&] { kernels::LaunchKeys(context, RayOrder::z, kernels::LaunchMap::hilbert, 0); }),
+      "LaunchKeys: a launch of 0 rays"));
 }

@@ -229,9 +229,6 @@ TEST_CASE("faults of a user of RayCache: tables, batches, order of calls") {
   CHECK(contains(made(config, 1, 1), "needs the Bvh"));
   config.kind = "none";
   CHECK(contains(made(config, 1, 1), "is no table"));
-  config = table_of("open", "exact");
-  config.scope = "all";
-  CHECK(contains(made(config, 1, 1), "a world that moves"));
   kernels::RayCache cache(context, table_of("open", "exact"), 1);
   const Buffers b(context);
   CHECK(contains(message_of<kernels::Error>([&] { cache.store(b.traced, b.hits); }), "without a look_up()"));

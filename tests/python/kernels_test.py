@@ -69,11 +69,37 @@ kernels.compact(words, indices, total)
 expected = np.flatnonzero(data != kernels.NOTHING)
 assert total.get()[0] == len(expected) and np.array_equal(indices.get()[:len(expected)], expected)
 
+# Morton keys are the bits of cells in turn; a number of cells that is no power of two makes a histogram.
+for curve, cells, dtype in (("morton2", 1 << 16, np.uint32), ("morton3", 7, np.uint32), ("morton5", 1 << 12, np.uint64)):
+    d = int(curve[-1])
+    cell = random.integers(0, cells, (2000, d), np.uint64)
+    points = cl.array.to_device(queue, ((cell + 0.5) / cells * 4 - 1).astype(np.float32))
+    keys = cl.array.zeros(queue, 2000, dtype)
+    kernels.curve_keys(points, keys, curve, d * [-1], d * [3], cells).wait()
+    expected = sum((cell[:, k] >> np.uint64(bit) & np.uint64(1)) << np.uint64(bit * d + k)
+                   for k in range(d) for bit in range(16))
+    assert np.array_equal(keys.get(), expected), curve
+    assert expected.max() < 1 << kernels.curve_bits(curve, cells)
+
+# Along a Hilbert curve each step goes from a cell to one beside it.
+for curve, side in (("hilbert2", 16), ("hilbert3", 8)):
+    d = int(curve[-1])
+    cell = np.stack(np.unravel_index(random.permutation(side**d), d * (side,)), axis=1)
+    points = cl.array.to_device(queue, (cell + 0.5).astype(np.float32))
+    keys, order = cl.array.zeros(queue, side**d, np.uint64), cl.array.zeros(queue, side**d, np.uint32)
+    kernels.curve_keys(points, keys, curve, d * [0], d * [side], side)
+    kernels.argsort(keys, order, end_bit=kernels.curve_bits(curve, side))
+    assert (np.abs(np.diff(cell[order.get()], axis=0)).sum(axis=1) == 1).all(), curve
+
 # Wrong arguments are refused with advice; errors are those of the package.
 refused(ValueError, "elements are float32", kernels.sort, cl.array.to_device(queue, weights))
 refused(ValueError, "array.copy()", kernels.sort, words[1:])
 refused(ValueError, "method: 'quick' is none of", kernels.sort, words, method="quick")
 refused(ValueError, "values: 10 elements for 5000 keys", kernels.sort, words, values[:10])
+refused(ValueError, "must be (n, 2)", kernels.curve_keys, points, keys, "hilbert2", [0, 0], [1, 1], 4)
+refused(ValueError, "curve: 'peano' is none of", kernels.curve_keys, points, keys, "peano", [0, 0], [1, 1], 4)
+refused(ValueError, "keys: 10 elements for 512 points", kernels.curve_keys, points, keys[:10], "hilbert3", [0] * 3, [1] * 3, 4)
+refused(wavetracer.DeviceError, "4194304 cells", kernels.curve_keys, points, keys, "hilbert3", [0] * 3, [1] * 3, 1 << 22)
 error = refused(wavetracer.DeviceError, "bits 9 to 4", kernels.sort, words, first_bit=9, end_bit=4)
 assert isinstance(error, kernels.KernelError) and error.opencl_code == 0 and error.kernel == ""
 unordered = cl.CommandQueue(context, properties=cl.command_queue_properties.OUT_OF_ORDER_EXEC_MODE_ENABLE)

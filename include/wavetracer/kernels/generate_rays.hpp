@@ -19,8 +19,8 @@ namespace wavetracer::kernels {
 
 enum class LaunchMap { hilbert, horizon, fibonacci, random };
 
-// Cost: two launches, which move 96 bytes for each ray. It needs neither double precision nor 64-bit atomics. The
-// object keeps 32 bytes of temporary memory for each ray of the largest call.
+// Cost: two launches, which move 96 bytes for each ray, and 12 more in an order. It needs neither double precision nor
+// 64-bit atomics. The object keeps 32 bytes of temporary memory for each ray of the largest call, and 4 for its order.
 class GenerateRays {
  public:
   struct State;  // the suite alone knows it
@@ -35,6 +35,11 @@ class GenerateRays {
   // if the buffer is too short or of another context.
   void operator()(const std::array<float, 3>& origin, uint64_t first, size_t n, const Buffer<Ray>& rays,
                   const Call& call = {});
+  // The same in an order of the caller's, such as that of LaunchKeys (order_keys.hpp): rays[i] becomes ray
+  // first + order[i] of the launch, for i < n. Elements of order are below the rays of the launch minus first; others
+  // make rays that are not of the launch.
+  void operator()(const std::array<float, 3>& origin, uint64_t first, const Buffer<uint32_t>& order, size_t n,
+                  const Buffer<Ray>& rays, const Call& call = {});
 
  private:
   std::unique_ptr<State> state_;
