@@ -2,15 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verdicts on the claims of A. Zhdanov's thesis on each device.
 
-Usage: verdicts.py THESIS_MD...; each file is the thesis.md that `wavetracer thesis all` has written. Its verdicts replace
-those of the same device in bench/results/verdicts.csv; report.py makes docs/thesis_verdicts.md of that file.
+Usage: verdicts.py [--instead-of DEVICE] [--note TEXT] THESIS_MD...
+
+Each file is a thesis.md that `wavetracer thesis` has written, for all experiments or for some. The files of one device
+are put together, and replace all verdicts of that device in bench/results/verdicts.csv; report.py makes
+docs/thesis_verdicts.md of that file. --instead-of also removes the verdicts of another device, by the name that the page gives it. The note is
+printed behind the date: it says what else one must know of these runs.
 """
+import argparse
 import csv
 import pathlib
 import re
 import sys
 
-COLUMNS = ("device", "date", "command", "figure", "claim", "origin", "verdict", "measured")
+import rows as results
+
+COLUMNS = ("device", "date", "command", "note", "figure", "claim", "origin", "verdict", "measured")
 ORIGINS = ("thesis", "other author", "repetition")
 WORDS = ("exceeded", "reproduced", "in part", "refuted", "undecided", "not measured there", "not judged")
 FILE = pathlib.Path(__file__).parent / "results" / "verdicts.csv"
@@ -22,11 +29,23 @@ def read(path):
         return list(csv.DictReader(file))
 
 
-def of_run(text):
+def shown(device):
+    """A device as the pages call it. All processors that PoCL names are two cores of this project's machines."""
+    return "two cores" if device.startswith("pthread") else results.device_name(device)
+
+
+def place(row):
+    """Sorts rows as `wavetracer thesis` lists experiments: the figures by number, then others by name."""
+    number = re.fullmatch(r"figure-6\.(\d+)", row["figure"])
+    return (0, int(number[1]), "") if number else (1, 0, row["figure"])
+
+
+def of_run(text, note=""):
     """Rows of the table of verdicts of one thesis.md."""
     head = {key: re.search(rf"^- {key}: `?([^`\n]*)", text, re.M)[1] for key in ("device", "date", "command")}
     head["device"] = head["device"].split(" (")[0]
     head["date"] = head["date"].split(",")[0]
+    head["note"] = note
     section = re.search(r"^## Verdicts\n(.*?)^## ", text, re.M | re.S)[1]
     for line in section.splitlines():
         cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
@@ -38,9 +57,17 @@ def of_devices(rows):
     """{name of the device: its rows}, two cores first."""
     devices = {}
     for row in rows:
-        name = "two cores" if row["device"].startswith("pthread") else row["device"]
-        devices.setdefault(name, []).append(row)
+        devices.setdefault(shown(row["device"]), []).append(row)
     return dict(sorted(devices.items(), key=lambda item: item[0] != "two cores"))
+
+
+def origin_of(own):
+    """The commands of a device's rows, with the date. Commands that differ in experiments and folders alone are one."""
+    commands = dict.fromkeys(row["command"] for row in own)
+    if len(commands) > 1:
+        commands = dict.fromkeys(re.sub(r"( thesis)( (?!-)\S+)+", r"\1 NAME...", re.sub(r" -o \S+", "", one)) for one in commands)
+    parts = [f"`{one}`" for one in commands] + sorted({row["date"] for row in own})
+    return ", ".join(parts + sorted({row["note"] for row in own if row.get("note")}))
 
 
 def counts(rows):
@@ -51,7 +78,7 @@ def counts(rows):
         for origin in ORIGINS:
             found = [row["verdict"] for row in own if row["origin"] == origin]
             numbers = " | ".join(str(number) for number in [len(found)] + [found.count(word) for word in WORDS])
-            lines.append(f"| {name} | {origin} | {numbers} | `{own[0]['command']}`, {own[0]['date']} |")
+            lines.append(f"| {name} | {origin} | {numbers} | {origin_of(own)} |")
     return lines
 
 
@@ -74,17 +101,32 @@ def page(rows):
     return "\n".join(lines) + "\n"
 
 
+def merged(rows, texts, note="", instead_of=None):
+    """`rows` with those of new runs in place of all others of their devices. Two runs of one device must not have the
+    same figure."""
+    new = []
+    for text in texts:
+        run = list(of_run(text, note))
+        figures = {(row["device"], row["figure"]) for row in run}
+        twice = figures & {(row["device"], row["figure"]) for row in new}
+        if not run or twice:
+            sys.exit(f"{sorted(twice)}: two files have it" if twice else "a file has no table of verdicts")
+        new += run
+    gone = {shown(row["device"]) for row in new} | {instead_of}
+    return sorted([row for row in rows if shown(row["device"]) not in gone] + new,
+                  key=lambda row: (shown(row["device"]) != "two cores", row["device"], place(row)))
+
+
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    rows = read(FILE) if FILE.exists() else []
-    for name in sys.argv[1:]:
-        new = list(of_run(pathlib.Path(name).read_text(encoding="utf-8")))
-        if not new:
-            sys.exit(f"{name}: it has no table of verdicts")
-        rows = [row for row in rows if row["device"] != new[0]["device"]] + new
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+", type=pathlib.Path)
+    parser.add_argument("--instead-of")
+    parser.add_argument("--note", default="")
+    options = parser.parse_args()
+    rows = merged(read(FILE) if FILE.exists() else [], [path.read_text(encoding="utf-8") for path in options.files], options.note,
+                  options.instead_of)
     with open(FILE, "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         writer.writeheader()
         writer.writerows(rows)
 

@@ -3,6 +3,7 @@
 // The programs of bench/ measure the speed of single parts.
 #include "study/thesis.hpp"
 #include <fmt/format.h>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "study/run.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -19,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ThesisOptions {
-  std::string experiment, file, directory, device, rays;
-  std::vector<std::string> sets;
+  std::string file, directory, device, rays;
+  std::vector<std::string> experiments, sets;
   uint32_t repeats = 5;
   uint64_t frames = 0;
   bool quick = false;
@@ -50,14 +52,26 @@ std::string listed() {
   return study::experiment_list() + fmt::format("  {:<18} {}\n", all_figures, "all figures, as one page: thesis.html");
 }
 
+// Throws ConfigError for a name that no experiment has, or that is given twice.
+std::vector<const study::Experiment*> wanted(const std::vector<std::string>& names) {
+  if (names.size() == 1 && names.front() == all_figures) return study::thesis_experiments();
+  std::vector<const study::Experiment*> out;
+  for (const std::string& name : names) {
+    if (name == all_figures) throw ConfigError("thesis: \"all\" has every figure; give no other name beside it");
+    out.push_back(&study::find_experiment(name));
+    if (std::ranges::count(names, name) > 1) throw ConfigError(fmt::format("thesis: \"{}\" is given twice", name));
+  }
+  return out;
+}
+
 void study_thesis(const ThesisOptions& options, Invocation& invocation) {
-  if (options.experiment.empty()) {
+  if (options.experiments.empty()) {
     std::cout << "Experiments, run by `wavetracer thesis NAME -o FOLDER`:\n" << listed();
     return;
   }
-  const bool all = options.experiment == all_figures;
-  const study::Experiment& experiment =
-      all ? *study::thesis_experiments().front() : study::find_experiment(options.experiment);
+  const std::vector<const study::Experiment*> experiments = wanted(options.experiments);
+  const bool all = experiments.size() > 1;  // with a page of all of them
+  const study::Experiment& experiment = *experiments.front();
   const study::Request asked = request(options, experiment, invocation.command_line);
   check_inputs(asked.config);
   check_output_folder(asked.config.output.directory);
@@ -65,7 +79,8 @@ void study_thesis(const ThesisOptions& options, Invocation& invocation) {
   Progress progress;
   const study::Host host = study_host(progress);
   const study::Report report =
-      all ? run_thesis([&](const auto& one) { return request(options, one, invocation.command_line); }, host)
+      all ? run_thesis(
+                experiments, [&](const auto& one) { return request(options, one, invocation.command_line); }, host)
           : run_experiment(experiment, asked, host);
   if (interrupted()) {
     invocation.code = ExitCode::interrupted;
@@ -84,10 +99,12 @@ void study_thesis(const ThesisOptions& options, Invocation& invocation) {
 }  // namespace
 
 void add_thesis(CLI::App& program, Invocation& invocation) {
-  CLI::App* command = program.add_subcommand(
-      "thesis", "Run an experiment of the thesis by its name; without a name, list the experiments");
+  CLI::App* command =
+      program.add_subcommand("thesis", "Run experiments of the thesis by their names; without a name, list them");
   const auto options = std::make_shared<ThesisOptions>();
-  command->add_option("experiment", options->experiment, "Name of the experiment");
+  command->add_option("experiment", options->experiments,
+                      "Name of the experiment; several are measured together where they share a measurement, and have "
+                      "one page");
   command->add_option("-c,--config", options->file,
                       "Config file whose scene, transmitters and receivers are used instead of a generated city; "
                       "the experiment sets rays, directions, order and launch shape itself");

@@ -33,11 +33,12 @@ std::vector<Value> distinct(const std::vector<CacheRow>& rows, Get get) {
   return out;
 }
 
-// Appends what the sort of rays takes, and the times with the sort counted once.
-Columns<CacheRow> with_sort(Columns<CacheRow> columns) {
+// Appends the time of the sort of rays, the times with the sort counted once, and look-ups of a cold frame.
+Columns<CacheRow> with_parts(Columns<CacheRow> columns) {
   columns.emplace_back("order_s", &CacheRow::order_s);
   columns.emplace_back("warm_once_s", warm_once_s);
   columns.emplace_back("saved_once_percent", &CacheRow::saved_once_percent);
+  columns.emplace_back("empty_lookup_ns", empty_lookup_ns);
   return columns;
 }
 
@@ -64,12 +65,6 @@ CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(
   return out;
 }
 
-CacheTimes operator-(const CacheTimes& a, const CacheTimes& b) {
-  CacheTimes out;
-  for (double CacheTimes::*stage : stages) out.*stage = a.*stage - b.*stage;
-  return out;
-}
-
 double hit_rate(const CacheRow& row) {
   return row.counts.lookups > 0 ? row.counts.hits / row.counts.lookups : undefined;
 }
@@ -77,6 +72,7 @@ double write_ns(const CacheRow& row) { return a_segment_ns(row.cold.store_s, row
 double read_ns(const CacheRow& row) { return a_segment_ns(row.warm.lookup_s, row.counts.lookups); }
 double gather_ns(const CacheRow& row) { return a_segment_ns(row.cold.gather_s, row.cold_counts.traced()); }
 double trace_ns(const CacheRow& row) { return a_segment_ns(row.cold.trace_s, row.cold_counts.traced()); }
+double empty_lookup_ns(const CacheRow& row) { return a_segment_ns(row.cold.lookup_s, row.cold_counts.lookups); }
 
 Measured measured_write_ns(const CacheRow& row) {
   return with_noise(write_ns(row), row.cold, row.cold_error, &CacheTimes::store_s);
@@ -89,6 +85,9 @@ Measured measured_gather_ns(const CacheRow& row) {
 }
 Measured measured_trace_ns(const CacheRow& row) {
   return with_noise(trace_ns(row), row.cold, row.cold_error, &CacheTimes::trace_s);
+}
+Measured measured_empty_lookup_ns(const CacheRow& row) {
+  return with_noise(empty_lookup_ns(row), row.cold, row.cold_error, &CacheTimes::lookup_s);
 }
 
 uint64_t entries_used(const CacheRow& row) {
@@ -117,7 +116,7 @@ double value_of(const CacheRow& row, const std::string& column) {
 
 const Columns<CacheRow>& cache_columns() {
   using R = CacheRow;
-  static const Columns<R> all = with_sort({
+  static const Columns<R> all = with_parts({
       {"study", &R::study},
       {"drive", &R::drive},
       {"setting", &R::setting},

@@ -28,7 +28,6 @@ struct CacheTimes {
 CacheTimes cache_times(const StageSeconds& seconds);
 // Summarises stage by stage, for example by median().
 CacheTimes summarised(const std::vector<CacheTimes>& samples, double (*summary)(std::vector<double>));
-CacheTimes operator-(const CacheTimes& a, const CacheTimes& b);
 
 // Times that were not measured.
 constexpr CacheTimes unknown_times = {undefined, undefined, undefined, undefined, undefined, undefined, undefined};
@@ -52,7 +51,7 @@ struct CacheRow {
   uint64_t rays = 0;  // per transmitter
   uint32_t division = 0;
   double position_step_m = 0;
-  uint32_t depth = 0;         // 0: all segments; else those of this depth
+  uint32_t depth = 0;         // 0: all segments; 1: frames that end at this depth
   uint32_t region = 0;        // 0: rays of all transmitters; else of this one alone, counted from 1
   std::string transmitter{};  // name of that transmitter
   uint64_t frames = 0;        // number of frames after the cold one, which are averaged
@@ -82,11 +81,14 @@ double write_ns(const CacheRow& row);
 double read_ns(const CacheRow& row);
 double gather_ns(const CacheRow& row);
 double trace_ns(const CacheRow& row);
+// Returns nanoseconds of a look-up of the cold frame. In a row of depth 1 the table is empty, so that none is answered.
+double empty_lookup_ns(const CacheRow& row);
 // Return the same with their noise.
 Measured measured_write_ns(const CacheRow& row);
 Measured measured_read_ns(const CacheRow& row);
 Measured measured_gather_ns(const CacheRow& row);
 Measured measured_trace_ns(const CacheRow& row);
+Measured measured_empty_lookup_ns(const CacheRow& row);
 
 // Returns the entries of the table that hold a segment, as cache.statistics counts them.
 uint64_t entries_used(const CacheRow& row);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures point by point: settings in groups that share the device, then the same by depth or by transmitter.
+// Measures point by point: settings in groups that share the device, then the same at depth 1 or by transmitter.
 // Each group drives a drive once; its first frame is cold.
 #include "study/cache_study.hpp"
 #include <fmt/format.h>
@@ -102,30 +102,19 @@ std::vector<CacheRow> measure_point(const Point& at) {
   return rows;
 }
 
-// Adds a row per depth: the difference between a frame that ends there and one that ends before. No clock runs inside a
-// kernel, so a frame cannot be divided more finely. Returns false if it was stopped.
-bool add_depths(const Point& at, std::vector<CacheRow>& rows) {
+// Adds a row of depth 1 per setting: of frames that end there. Errors are left out: deeper paths are missing. Returns
+// false if it was stopped.
+bool add_first_depth(const Point& at, std::vector<CacheRow>& rows) {
   const std::vector<Setting> settings = cut_settings(at.study);
-  std::vector<CacheTimes> cold_before(settings.size()), warm_before(settings.size());
-  for (uint32_t depth = 1; depth <= at.config.trace.max_depth; ++depth) {
-    Config cut = at.config;
-    cut.trace.max_depth = depth;
-    const std::vector<CacheSubject> subjects = at.measured(settings, cut);
-    if (subjects.empty()) return false;
-    for (size_t i = 0; i < subjects.size(); ++i) {
-      CacheRow row = row_of(at.study, settings[i], subjects[i], at.drive, at.rays);
-      row.depth = depth;
-      const CacheTimes cold = row.cold, warm = row.warm;
-      row.cold = cold - cold_before[i];
-      row.warm = warm - warm_before[i];
-      row.cold_counts = counts_of(subjects[i].first, depth);
-      row.counts = counts_of(subjects[i].last, depth);
-      cold_before[i] = cold;
-      warm_before[i] = warm;
-      rows.push_back(std::move(row));
-    }
+  Config cut = at.config;
+  cut.trace.max_depth = cut.cache.first_depth = 1;
+  const std::vector<CacheSubject> subjects = at.measured(settings, cut);
+  for (size_t i = 0; i < subjects.size(); ++i) {
+    rows.push_back(row_of(at.study, settings[i], subjects[i], at.drive, at.rays));
+    rows.back().depth = 1;
+    rows.back().error = {};
   }
-  return true;
+  return !subjects.empty();
 }
 
 // Adds a row per transmitter: its rays alone, in its region of the same table. Regions alternate, so that a slow phase
@@ -218,16 +207,14 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
   const std::vector<std::string> transmitters = wanted_transmitters(probe.config());
   StudyWatch watch{host, study.name};
   for (const uint64_t rays : counts)
-    watch.all +=
-        rays * drives.size() *
-        frames_of_point(study, {request.config.trace.max_depth, transmitters.size()}, out.frames + 1, request.repeats);
+    watch.all += rays * drives.size() * frames_of_point(study, transmitters.size(), out.frames + 1, request.repeats);
   for (const std::string& drive : drives) {
     const Config config = own || !moves ? request.config : with_traffic(request.config, drive, out.frames);
     for (const uint64_t rays : counts) {
       watch.rays = rays;
       const Point at{study, config, drive, rays, out.frames + 1, request, watch};
       std::vector<CacheRow> point = measure_point(at);
-      if (!point.empty() && study.by_depth && !add_depths(at, point)) point.clear();
+      if (!point.empty() && study.first_depth && !add_first_depth(at, point)) point.clear();
       if (!point.empty() && study.by_transmitter && !add_regions(at, transmitters, point)) point.clear();
       if (point.empty()) return out;  // it was stopped
       host.say(point_line(study, point));

@@ -24,14 +24,16 @@ struct CacheStudy {
   std::vector<std::string> drives = {"still"};
   size_t at_once = 16;         // number of settings that share a device besides the first, which is then measured again
   uint64_t most_frames = 500;  // limit of a drive, unless the request gives the number
-  bool by_depth = false;       // adds a row per depth
+  // Adds rows of frames that end at depth 1, where look-ups of a cold frame ask an empty table: lookup_parts() needs
+  // them.
+  bool first_depth = false;
   // Adds a row per transmitter, which has a region of the table; for the first few of them.
   bool by_transmitter = false;
   bool empty_tables = false;  // every frame finds the table empty: it only saves time within itself
   bool centroids = false;     // rows keep the error of every frame
 };
 
-// Returns the settings that are also measured by depth or by transmitter.
+// Returns the settings that are also measured at depth 1 or by transmitter.
 std::vector<Setting> cut_settings(const CacheStudy& study);
 
 struct CacheMeasurement {

@@ -19,28 +19,6 @@ LinePlot by_rays(const CacheMeasurement& measured, const std::vector<LinePanel>&
           .panels = panels_of(measured.rows, panels)};
 }
 
-NumberTable operations_table(const std::vector<CacheRow>& rows, const std::vector<std::string>& settings,
-                             bool with_trace) {
-  NumberTable table{.caption = fmt::format("Nanoseconds per segment, at {} rays:", grouped(rows.front().rays)),
-                    .heads = {"setting", "write", "read", "gather"},
-                    .rows = {}};
-  if (with_trace) table.heads.emplace_back("trace");
-  for (const std::string& setting : settings) {
-    const CacheRow* row = find_cached(rows, setting, rows.front().rays, rows.front().drive);
-    if (!row) continue;
-    table.rows.push_back({setting, plain(write_ns(*row)), plain(read_ns(*row)), plain(gather_ns(*row))});
-    if (with_trace) table.rows.back().push_back(plain(trace_ns(*row)));
-  }
-  return table;
-}
-
-constexpr const char* operations_note =
-    "rays are traced in packets, so that no ray has a time of its own and a segment's depth stands for the entry: "
-    "a depth is what a frame that ends there takes more than one that ends before, which for the few segments "
-    "of deep paths is a small difference of large numbers and can come out negative; "
-    "a row of depth 0 is all of a frame. The hash is part of both read and write. The thesis' buffer call, "
-    "the address of an entry, has no counterpart; what a table costs besides is the gathering of missed rays";
-
 // Returns, among the rows of a drive and number of rays, the one that saves most and loses at most `lost_power`; null
 // if there is none.
 const CacheRow* best_within(const std::vector<CacheRow>& rows, const std::string& drive, uint64_t rays,
@@ -93,23 +71,6 @@ std::vector<std::string> summary_row(const CacheRow& row) {
 }
 
 }  // namespace
-
-CacheView operations(std::vector<std::string> settings, bool with_trace) {
-  return [=](const CacheMeasurement& measured) -> CacheShown {
-    std::vector<LinePanel> panels = {{"write (cache_store)", "write_ns", "ns per segment", "", with_trace},
-                                     {"read (cache_lookup)", "read_ns", "ns per segment", "", with_trace},
-                                     {"gather missed rays", "gather_ns", "ns per segment", "", with_trace}};
-    if (with_trace) panels.push_back({"trace", "trace_ns", "ns per segment", "", true});
-    return {.plot = {.settings = settings,
-                     .x = "depth",
-                     .x_label = "depth of the segment in its path",
-                     .depths = true,
-                     .panels_a_row = with_trace ? 2u : 3u,
-                     .panels = panels_of(measured.rows, panels)},
-            .numbers = operations_table(measured.rows, settings, with_trace),
-            .notes = {operations_note}};
-  };
-}
 
 CacheShown times_by_rays(const CacheMeasurement& measured) {
   return {by_rays(measured, {{"time, table warm", "warm_s", "s per frame", "", true},

@@ -19,8 +19,6 @@ struct CacheShown {
 };
 using CacheView = std::function<CacheShown(const CacheMeasurement&)>;
 
-// Shows nanoseconds per segment to write, to read, to gather (and to trace) of these settings, depth by depth.
-CacheView operations(std::vector<std::string> settings, bool with_trace = false);
 // Against the number of rays: times with a warm table and with an empty one; time and saved time; errors.
 CacheShown times_by_rays(const CacheMeasurement& measured);
 CacheShown savings_by_rays(const CacheMeasurement& measured);

@@ -86,6 +86,12 @@ Measured of_sample(double ratio, double n) { return {ratio, ratio * std::sqrt(2 
 
 EntrySummary summary_of(const CacheEntryRows& rows) {
   EntrySummary out;
+  const size_t samples = std::min<size_t>(rows.size(), entry_samples);
+  for (size_t sample = 0; sample < samples; ++sample) {
+    const size_t i = rows.size() * sample / samples;
+    out.samples.push_back(
+        {rows.slot[i], rows.region[i], rows.depth[i], rows.hits[i], rows.read_cycles[i], rows.write_cycles[i]});
+  }
   out.by_depth = grouped_by(rows, rows.depth, 1);
   out.by_region = grouped_by(rows, rows.region, 0);
   RunningMean all, means;

@@ -25,9 +25,15 @@ struct SlotRun {
   double hits = 0;  // average over the entries
 };
 
+// One entry. Cycles are 0 where it has not answered, or without a clock.
+struct EntrySample {
+  uint32_t slot = 0, region = 0, depth = 0, hits = 0, read_cycles = 0, write_cycles = 0;
+};
+
 struct EntrySummary {
   std::vector<EntryGroup> by_depth, by_region;  // ascending; entries that no search finds are left out of by_depth
   std::vector<SlotRun> runs;                    // runs of entries that hold a segment, along the table
+  std::vector<EntrySample> samples = {};        // entries at equal distances in the list of all, along the table
   // The variance of the entries' hits over their mean: 1 if every entry is equally likely to be asked (Poisson), less
   // if hits are more even than that. NaN without hits.
   double dispersion = 0;
@@ -36,7 +42,8 @@ struct EntrySummary {
   double clustering = 0;
 };
 
-constexpr uint32_t slot_runs = 50;  // runs have about equal numbers of entries
+constexpr uint32_t slot_runs = 50;       // runs have about equal numbers of entries
+constexpr uint32_t entry_samples = 400;  // fewer if the table has fewer entries
 
 EntrySummary summary_of(const CacheEntryRows& rows);
 

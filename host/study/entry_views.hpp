@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures about the entries of a cache's table: figures 6.2, 6.4 and 6.6 of the thesis.
+// Settings whose tables keep their entries, and figure 6.4 of the thesis.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,9 +13,6 @@ namespace wavetracer::study {
 Setting counted(Setting setting);
 std::string counted_name(const std::string& setting);
 
-// Shows cycles of reads and writes by the depth of an entry in the tree of its bucket, for the counted twins of these
-// settings, beside the nanoseconds per segment of the settings themselves.
-CacheView operations_by_tree_depth(std::vector<std::string> settings);
 // Shows hits of entries along the table, for the counted twins of these settings.
 CacheView hits_along_table(std::vector<std::string> settings);
 

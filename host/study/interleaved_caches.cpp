@@ -78,15 +78,6 @@ CacheCounts counts_of(const FrameResult& frame) {
           static_cast<double>(frame.cache.shared)};
 }
 
-CacheCounts counts_of(const FrameResult& frame, uint32_t depth) {
-  const auto at = [depth](const std::vector<uint64_t>& counts) {
-    return depth <= counts.size() ? static_cast<double>(counts[depth - 1]) : 0.0;
-  };
-  CacheCounts counts{at(frame.segments_per_depth), at(frame.cache.lookups_per_depth), at(frame.cache.hits_per_depth)};
-  counts.shared = at(frame.cache.shared_per_depth);
-  return counts;
-}
-
 std::vector<CacheSubject> make_subjects(const std::vector<Setting>& settings, const Config& config, uint64_t rays,
                                         const std::string& device) {
   std::vector<CacheSubject> subjects;

@@ -26,9 +26,8 @@ struct CacheSubject {
   FrameResult first, last;
 };
 
-// Count segments of a frame, and of one depth of it.
+// Counts segments of a frame.
 CacheCounts counts_of(const FrameResult& frame);
-CacheCounts counts_of(const FrameResult& frame, uint32_t depth);
 
 // Makes subjects of a config with this number of rays. Throws ConfigError if a setting contradicts it.
 std::vector<CacheSubject> make_subjects(const std::vector<Setting>& settings, const Config& config, uint64_t rays,

@@ -16,12 +16,12 @@ using Names = std::vector<std::string>;
 std::string line_text(const LinePlot& plot, const Names& names, const LinePanel& panel, const std::string& setting,
                       size_t index) {
   const size_t y = column_of(names, panel.y);
-  std::string condition = fmt::format("strcol({}) eq '{}'", column_of(names, "setting"), quoted(setting));
+  std::string condition = fmt::format("strcol({}) eq '{}'", column_of(names, plot.line_column), quoted(setting));
   if (!panel.drive.empty())
-    condition += fmt::format(" && strcol({}) eq '{}'", column_of(names, "drive"), quoted(panel.drive));
+    condition += fmt::format(" && strcol({}) eq '{}'", column_of(names, plot.panel_column), quoted(panel.drive));
   if (plot.only_rays > 0) condition += fmt::format(" && column({}) == {}", column_of(names, "rays"), plot.only_rays);
   if (std::ranges::find(names, "depth") != names.end())
-    condition += fmt::format(" && column({}) {} 0", column_of(names, "depth"), plot.depths ? ">" : "==");
+    condition += fmt::format(" && column({}) == 0", column_of(names, "depth"));
   const std::string value = panel.log_y && panel.least > 0
                                 ? fmt::format("column({}) > {:g} ? column({}) : {:g}", y, panel.least, y, panel.least)
                                 : fmt::format("column({})", y);
@@ -29,10 +29,11 @@ std::string line_text(const LinePlot& plot, const Names& names, const LinePanel&
   const std::string place =
       plot.least_x ? fmt::format("(column({}) > {:g} ? column({}) : {:g})", x, *plot.least_x, x, *plot.least_x)
                    : std::to_string(x);
+  const bool points = plot.points && std::ranges::find(plot.joined, setting) == plot.joined.end();
   return fmt::format(
-      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 pointtype 7 pointsize 0.6 title '{}'",
-      plot.name, place, condition, value, plot.points ? "points" : "linespoints", colours[index % colours.size()],
-      quoted(setting));
+      "'{}.csv' using {}:({} ? ({}) : NaN) with {} linecolor '{}' linewidth 1.5 pointtype 7 pointsize {:g} title '{}'",
+      plot.name, place, condition, value, points ? "points" : "linespoints", colours[index % colours.size()],
+      plot.point_size, quoted(setting));
 }
 
 // Computes ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an
@@ -70,7 +71,7 @@ std::string panel_text(const LinePlot& plot, const Names& names, size_t index,
 std::string x_axis(const LinePlot& plot) {
   if (plot.log_x) return "set logscale x\nset format x '10^{%T}'\nset xrange [x_min / 1.25 : 1.25 * x_max]\n";
   if (plot.least_x) return fmt::format("set xrange [{:g} : (x_max > 0 ? 1.05 * x_max : 0) + 5]\n", *plot.least_x - 5);
-  return plot.depths ? "set xtics 1\nset xrange [0.5 : x_max + 0.5]\n" : "set xrange [x_min - 0.5 : x_max + 0.5]\n";
+  return std::string(plot.x_in_thousands ? "set format x '%.0s%c'\n" : "") + "set xrange [x_min - 0.5 : x_max + 0.5]\n";
 }
 
 // For correlations and shares: every axis ends at 1 and begins a little below 0, or at the smallest value.

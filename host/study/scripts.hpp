@@ -27,10 +27,11 @@ plots::Figure experiment_figure(const std::string& name, const Csv& table, const
 plots::Figure order_figure(const std::string& name, const std::string& title, const std::vector<Series>& series,
                            const Csv& table);
 
-// Panels with a line per setting, or its points, of tables in which every row has a drive and a setting.
+// Panels with a line per setting, or its points, of tables in which every row has a drive and a setting; or other
+// columns in place of these two.
 struct LinePanel {
   std::string title, y, y_label;  // y: a column
-  std::string drive;              // only rows of this drive; empty: all
+  std::string drive;              // only rows of this drive, or of this value of `panel_column`; empty: all
   bool log_y = false;
   // Values below this count as nothing: a logarithmic axis begins there; a linear one begins at 0 and ends no lower. 0:
   // any range.
@@ -40,12 +41,15 @@ struct LinePanel {
 struct LinePlot {
   std::string name{}, title{};  // name: of the files NAME.csv and NAME.svg; title: of the plot
   std::vector<std::string> settings{};
+  std::string line_column = "setting", panel_column = "drive";  // they say to which line and panel a row belongs
   std::string x{}, x_label{};
   bool log_x = false;
-  std::optional<double> least_x{};  // smaller values are drawn here
-  bool points = false;              // without lines
-  uint64_t only_rays = 0;           // only rows of this number of rays; 0: all
-  bool depths = false;  // true: only rows of single depths; false: only rows of all depths (column depth is 0)
+  bool x_in_thousands = false;        // numbers along the axis are "50k"
+  std::optional<double> least_x{};    // smaller values are drawn here
+  bool points = false;                // without lines, but for those of `joined`
+  std::vector<std::string> joined{};  // settings
+  double point_size = 0.6;
+  uint64_t only_rays = 0;  // only rows of this number of rays; 0: all
   uint32_t panels_a_row = 2;
   std::vector<LinePanel> panels{};
 };

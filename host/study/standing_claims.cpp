@@ -2,6 +2,7 @@
 // The claims of figures 6.2 to 6.9, each with its predicate and the numbers of rays that it is about.
 // Times of operations are nanoseconds of a segment.
 #include "study/standing_claims.hpp"
+#include "study/lookup_parts.hpp"
 #include "study/table_regions.hpp"
 
 namespace wavetracer::study {
@@ -16,6 +17,7 @@ Names printed_names(Names names) {
   return names;
 }
 
+constexpr const char* short_calls = "calls of the buffer take next to nothing: less than a tenth of a write";
 constexpr const char* no_time_of_a_ray = "rays are traced in packets and groups, so that no ray has a time of its own";
 // Answers whether a is less than b; the value is b over a.
 Answered shorter(const Measured& a, const Measured& b) {
@@ -27,9 +29,6 @@ Answered writes_longer_than_reads(const CacheRow& row) {
 Answered writes_as_three_reads(const CacheRow& row) {
   const Measured reads = quotient(measured_write_ns(row), measured_read_ns(row));
   return {between(reads, 2.5, 3.5), reads.value};
-}
-Answered gathers_quickly(const CacheRow& row) {
-  return {less(measured_gather_ns(row), 0.1 * measured_write_ns(row)), gather_ns(row) / write_ns(row)};
 }
 Judge<CacheRow> traces_longer_than(const Names& settings, Measured (*operation)(const CacheRow&),
                                    const std::string& name, double times = 1) {
@@ -87,8 +86,7 @@ Claims<CacheRow> window_claims_of(const Names& tables, const std::string& prefix
 Claims<CacheRow> write_claims() {
   return {{"writes take longer than reads",
            of_each(all_chained, writes_longer_than_reads, ratio_form("a write", "a read"))},
-          {"the rest takes next to nothing: gathering less than a tenth of a write",
-           of_each(all_chained, gathers_quickly, ratio_form("gathering", "a write"))},
+          {short_calls, buffer_calls_are_short(all_chained)},
           {"writes take longer in buckets than in other nodes",
            of_entries([](const EntrySummary& entries) { return longer_in_buckets(write_levels(entries)); })},
           {"reads take longer in buckets than in other nodes",
@@ -121,10 +119,10 @@ Claims<CacheRow> lock_claims() {
            of_each(all_mutexes, writes_longer_than_reads, ratio_form("a write", "a read"))},
           {"writes take three times as long as reads",
            of_each(all_mutexes, writes_as_three_reads, ratio_form("a write", "a read"))},
-          {"the rest takes next to nothing: gathering less than a tenth of a write",
-           of_each(all_mutexes, gathers_quickly, ratio_form("gathering", "a write"))},
-          {"busier regions take longer to write", across_entries(counted, &EntryGroup::write_cycles)},
-          {"busier regions take longer to read", across_entries(counted, &EntryGroup::read_cycles)},
+          {short_calls, buffer_calls_are_short(all_mutexes)},
+          {"busier regions take longer to write", across_entries(counted, entry_hits, entry_writes)},
+          {"busier regions take longer to read", across_entries(counted, entry_hits, entry_reads)},
+          {"writes and reads have their peaks in the same regions", across_entries(counted, entry_reads, entry_writes)},
           {"writes take less than in the chained table, with the mixed hash",
            is_less(measured_write_ns, "mutex mixed", "chained mixed")},
           {"reads take less than in the chained table, with the mixed hash",

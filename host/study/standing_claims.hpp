@@ -21,9 +21,7 @@ inline Names with_printed(Names names) {
 inline const Names chained_tables = {"chained uniform", "chained Morton", "chained mixed"},
                    mutexes = {"mutex uniform", "mutex Morton", "mutex mixed"},
                    readers = {"readers uniform", "readers Morton", "readers mixed"},
-                   all_chained = with_printed(chained_tables), all_mutexes = with_printed(mutexes),
-                   mutexes_and_chained =
-                       with_printed({"mutex uniform", "mutex Morton", "mutex mixed", "chained mixed"});
+                   all_chained = with_printed(chained_tables), all_mutexes = with_printed(mutexes);
 
 Claims<CacheRow> write_claims();    // figure 6.2
 Claims<CacheRow> bucket_claims();   // figure 6.3

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures 6.1 to 6.9: orders, and the chained and the open table, in a scene without motion.
 // Claims: A. Zhdanov, TU Munich, 2014, sections 6.2.3 and 6.3.1.
+#include "study/buffer_views.hpp"
 #include "study/entry_views.hpp"
 #include "study/experiment.hpp"
 #include "study/order_claims.hpp"
@@ -12,9 +13,7 @@ namespace {
 
 constexpr uint64_t operation_rays = 50000;
 constexpr uint64_t large_buffer = 10 * thesis_chained_buffer;
-constexpr const char* operations_caption =
-    "Time per segment of the cache's operations against the depth of the segment";
-constexpr const char* regions_caption = "Time per segment of the cache's operations in each region of the table";
+constexpr const char* buffer_caption = "Times of the cache's operations, entry by entry along the buffer";
 constexpr const char* times_caption = "Time of a frame against the number of rays";
 std::shared_ptr<const CacheStudy> shared(CacheStudy study) {
   return std::make_shared<const CacheStudy>(std::move(study));
@@ -27,13 +26,24 @@ std::vector<Setting> with_counted(std::vector<Setting> settings) {
   return settings;
 }
 
-// Makes a study of one number of rays, depth by depth, or transmitter by transmitter.
+// The chained tables are there for comparison, and because their look-ups tell the hash from the rest.
+std::vector<Setting> mutexes_beside_chained() {
+  std::vector<Setting> out =
+      with_counted({no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), as_printed(open_mutex(1)),
+                    as_printed(open_mutex(2)), as_printed(open_mutex(3))});
+  for (const uint32_t hash_method : {1u, 2u, 3u})
+    for (const Setting& table : {chained(hash_method), as_printed(chained(hash_method))}) out.push_back(table);
+  return out;
+}
+
+// Makes a study of one number of rays, also at depth 1, or also transmitter by transmitter.
 CacheStudy operations_study(const std::string& name, std::vector<Setting> settings, bool by_transmitter) {
   return {.name = name,
           .settings = std::move(settings),
           .rays = {operation_rays},
           .few_rays = {operation_rays},
-          .by_depth = !by_transmitter,
+          .at_once = 20,
+          .first_depth = true,
           .by_transmitter = by_transmitter};
 }
 
@@ -89,11 +99,7 @@ const auto chained_operations =
                             with_counted({no_cache(), chained(1), chained(2), chained(3), as_printed(chained(1)),
                                           as_printed(chained(2)), as_printed(chained(3))}),
                             false));
-const auto open_operations = shared(operations_study(
-    "open-operations",
-    with_counted({no_cache(), open_mutex(1), open_mutex(2), open_mutex(3), chained(3), as_printed(open_mutex(1)),
-                  as_printed(open_mutex(2)), as_printed(open_mutex(3)), as_printed(chained(3))}),
-    true));
+const auto open_operations = shared(operations_study("open-operations", mutexes_beside_chained(), true));
 const auto chained_rays =
     shared(rays_study("chained-rays", {no_cache(), chained(1), chained(2), chained(3), chained(1, large_buffer),
                                        chained(2, large_buffer), chained(3, large_buffer), as_printed(chained(1)),
@@ -118,26 +124,24 @@ const std::vector<Experiment> standing = {
                   "(figure 6.18). Measured on {device}.{reason} Rays born in order need no sort.",
      .figure = all_orders()},
     {.name = "figure-6.2",
-     .doc = "chained cache: what a write and a read of a segment take, by hash",
+     .doc = "chained cache: writes, calls of the buffer and reads along the buffer, by hash",
      .title = "Operations of the chained table",
-     .caption = operations_caption,
+     .caption = buffer_caption,
      .paragraph = "The thesis finds writes to the chained table to take longer than reads (at most 120 ms against "
                   "50 ms in its buckets, 80 against 40 in other nodes), and calls of the buffer next "
-                  "to nothing (section 6.3.1, figure 6.2). Measured on {device} at {rays} rays. "
-                  "What the table adds besides is the gathering of missed rays.",
-     .figure =
-         CacheFigure{
-             .study = chained_operations, .view = operations_by_tree_depth(all_chained), .claims = write_claims()}},
+                  "to nothing (section 6.3.1, figure 6.2). Measured on {device} at {rays} rays.",
+     .figure = CacheFigure{.study = chained_operations, .view = along_buffer({all_chained}), .claims = write_claims()}},
     {.name = "figure-6.3",
-     .doc = "chained cache: writes and reads against tracing",
+     .doc = "chained cache: the same with tracing",
      .title = "Operations of the chained table and tracing",
-     .caption = operations_caption,
+     .caption = buffer_caption,
      .paragraph = "The thesis finds almost no tracing operation to exceed 2 s, and draws writes "
                   "and reads far below it (section 6.3.1, figure 6.3; writes take 120 ms at most in figure 6.2). "
                   "Measured on {device} at {rays} rays. "
                   "A cache can only save time where a read is cheaper than tracing.",
      .figure =
-         CacheFigure{.study = chained_operations, .view = operations(all_chained, true), .claims = bucket_claims()}},
+         CacheFigure{
+             .study = chained_operations, .view = along_buffer({all_chained, true}), .claims = bucket_claims()}},
     {.name = "figure-6.4",
      .doc = "chained cache: hits per entry",
      .title = "Hits of the chained table's entries",
@@ -157,21 +161,24 @@ const std::vector<Experiment> standing = {
          CacheFigure{
              .study = chained_rays, .view = times_by_rays, .claims = window_claims(), .settings = chained_tables}},
     {.name = "figure-6.6",
-     .doc = "open cache: what a write and a read of a segment take, by hash",
+     .doc = "open cache: writes, calls of the buffer and reads along the buffer, by hash",
      .title = "Operations of the open table",
-     .caption = regions_caption,
+     .caption = buffer_caption,
      .paragraph = "The thesis finds most writes to the open table to take three times as long as most reads (60 ms "
                   "against 20 ms), and both to take less than in the chained table (section 6.3.1, figure 6.6). "
                   "Measured on {device} at {rays} rays.",
-     .figure = CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained), .claims = lock_claims()}},
+     .figure =
+         CacheFigure{
+             .study = open_operations, .view = along_buffer({all_mutexes, false, true}), .claims = lock_claims()}},
     {.name = "figure-6.7",
-     .doc = "open cache: writes and reads against tracing",
+     .doc = "open cache: the same with tracing",
      .title = "Operations of the open table and tracing",
-     .caption = regions_caption,
+     .caption = buffer_caption,
      .paragraph = "The thesis finds operations of the open table much faster than tracing, "
                   "1 to 2.5 s against some 0.06 s (section 6.3.1, figure 6.7). Measured on {device} at {rays} rays.",
      .figure =
-         CacheFigure{.study = open_operations, .view = regions(mutexes_and_chained, true), .claims = region_claims()}},
+         CacheFigure{
+             .study = open_operations, .view = along_buffer({all_mutexes, true, true}), .claims = region_claims()}},
     {.name = "figure-6.8",
      .doc = "open cache with two locks against none, 1,000 to 20,480,000 rays, by hash",
      .title = "Frames with the open table",

@@ -22,18 +22,12 @@ struct StudyWatch {
   }
 };
 
-// The parts that are measured at a point besides the whole.
-struct PointCuts {
-  uint32_t depths;
-  size_t transmitters;
-};
-
 // Returns the frames of all settings at a point.
-inline uint64_t frames_of_point(const CacheStudy& study, const PointCuts& cuts, uint64_t frames, uint32_t repeats) {
+inline uint64_t frames_of_point(const CacheStudy& study, size_t transmitters, uint64_t frames, uint32_t repeats) {
   const size_t cut = cut_settings(study).size();
   const uint64_t groups = (study.settings.size() - 1 + study.at_once - 1) / study.at_once,
-                 settings = study.settings.size() - 1 + groups + (study.by_depth ? cuts.depths * cut : 0) +
-                            (study.by_transmitter ? std::min(cuts.transmitters, most_regions) * cut : 0);
+                 settings = study.settings.size() - 1 + groups + (study.first_depth ? cut : 0) +
+                            (study.by_transmitter ? std::min(transmitters, most_regions) * cut : 0);
   return settings * (frames <= 1 ? 1 + 2 * uint64_t{repeats} : frames);
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 #include "study/cache_claims.hpp"
-#include "study/cache_views.hpp"
+#include "study/cache_rows.hpp"
 
 namespace wavetracer::study {
 
-// Shows nanoseconds per segment to write, to read, to gather (and to trace) of these settings, region by region.
-CacheView regions(std::vector<std::string> settings, bool with_trace = false);
+// Returns the rows of a setting's regions, at the first number of rays in the first world.
+std::vector<const CacheRow*> regions_of(const CacheRows& rows, const std::string& setting);
 
 double region_lookups(const CacheRow& row);  // a measure of how busy it is
 double access_ns(const CacheRow& row);       // a write and a read
@@ -21,9 +21,14 @@ using RegionValue = double (*)(const CacheRow&);
 // minus a half if they are claimed to be opposite. The noise is that of a coefficient of so few pairs (R. A. Fisher,
 // Metron 1921); with three regions or fewer nothing is decided.
 Judge<CacheRow> across_regions(std::vector<std::string> settings, RegionValue value, RegionValue with, bool opposite);
-// Answers in the same way for the entries of each region, whose hits measure how busy it is, in one frame of all
-// transmitters.
-Judge<CacheRow> across_entries(std::vector<std::string> settings, double EntryGroup::*cycles);
+// A number of the entries of a region.
+using EntryValue = double (*)(const EntryGroup&);
+double entry_hits(const EntryGroup& region);  // a measure of how busy it is
+double entry_reads(const EntryGroup& region);
+double entry_writes(const EntryGroup& region);
+
+// Answers in the same way for two values of the entries of each region, in one frame of all transmitters.
+Judge<CacheRow> across_entries(std::vector<std::string> settings, EntryValue value, EntryValue with);
 
 // Answers whether a coefficient of `pairs` pairs is at least a half.
 Answer correlates(double coefficient, size_t pairs);

@@ -7,6 +7,7 @@
 #include <span>
 #include "base/output_place.hpp"
 #include "base/pending_file.hpp"
+#include "base/stopwatch.hpp"
 #include "study/scripts.hpp"
 #include "wavetracer/error.hpp"
 
@@ -44,8 +45,11 @@ Section figure_of(const Experiment& experiment, const Request& request, const Ho
   Section figure = unmeasured(experiment);
   if (host.interrupted()) return figure;
   figure.problem.clear();
+  Stopwatch watch;
   try {
-    const Findings found = findings(experiment, request, host, studies);
+    Findings found = findings(experiment, request, host, studies);
+    found.notes.push_back(
+        fmt::format("it took {:.1f} s, without measurements that figures before it share", watch.lap()));
     write_report(experiment, request, found, host);
     report.points += found.points > 0 && found.points == found.planned;
     figure = section_of(experiment, found);
@@ -103,8 +107,8 @@ std::vector<const Experiment*> thesis_experiments() {
   return out;
 }
 
-Report run_thesis(const std::function<Request(const Experiment&)>& request_for, const Host& host) {
-  const std::vector<const Experiment*> figures = thesis_experiments();
+Report run_thesis(const std::vector<const Experiment*>& figures,
+                  const std::function<Request(const Experiment&)>& request_for, const Host& host) {
   std::vector<Request> requests;  // all of them before hours of measuring, since each may contain a mistake of the user
   for (const Experiment* experiment : figures) requests.push_back(request_for(*experiment));
   const Request& first = requests.front();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer thesis all`: all figures of the thesis in one page, and the error that a cache's speed costs. Figures
-// that share a study share its measurement. If a figure fails, the page says so, and has the others.
+// `wavetracer thesis all`, or with several names: figures of the thesis in one page, and the error that a cache's speed
+// costs. Figures that share a study share its measurement. If a figure fails, the page says so, and has the others.
 #pragma once
 #include <functional>
 #include <string>
@@ -33,8 +33,10 @@ std::string thesis_html(const ThesisPage& page);
 // Returns the verdicts, then every figure's words and plot, which is NAME.svg beside it.
 std::string thesis_markdown(const ThesisPage& page);
 
-// request_for: returns the config of an experiment with its scene; throws for a mistake of the user. Writes the files
-// of every figure and thesis.{csv,gp,svg,html,md}.
-Report run_thesis(const std::function<Request(const Experiment&)>& request_for, const Host& host);
+// Runs experiments in this order; the first one's request decides folder and device. request_for: returns the config of
+// an experiment with its scene; throws for a mistake of the user. Writes the files of every figure and
+// thesis.{csv,gp,svg,html,md}.
+Report run_thesis(const std::vector<const Experiment*>& figures,
+                  const std::function<Request(const Experiment&)>& request_for, const Host& host);
 
 }  // namespace wavetracer::study

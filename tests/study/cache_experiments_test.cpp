@@ -297,22 +297,11 @@ TEST_CASE("figures 6.11 and 6.12: claims by number of rays, errors in metres and
   CHECK(contains(errors, "| none | none | none | undefined | right |\n"));
 }
 
-TEST_CASE("figures 6.2 and 6.4: entries by their depth, and along the table") {
+TEST_CASE("figure 6.4: entries along the table") {
   const auto same = [](const std::string&, uint64_t) { return std::pair{1.0, 0.0}; };
-  const auto findings = [&](const char* name) {
-    const Experiment& experiment = find_experiment(name);
-    return show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
-  };
-  const Findings depths = findings("figure-6.2"), along = findings("figure-6.4");
-  const std::string depth_table = depths.figure.data.front().text, along_table = along.figure.data.front().text;
-  CHECK(
-      depth_table.starts_with("drive,setting,tree_depth,entries,hits,write_cycles,read_cycles\n"
-                              "still,chained uniform,1,700,1500,160,130\nstill,chained uniform,2,300,500,260,180\n"));
-  const std::string cycles = squeezed(words_text(depths.words));
-  CHECK(contains(cycles, "| chained Morton | 0 | 0 | 0 | 160 | 260 | 130 | 180 |"));
-  CHECK(contains(
-      cycles,
-      "| reads take longer in buckets than in other nodes | refuted | \"chained uniform counted\": no (buckets over other nodes: 0.72); "));
+  const Experiment& experiment = find_experiment("figure-6.4");
+  const Findings along = show(experiment, made_measurement(*experiment.study(), {50000}, same), {});
+  const std::string along_table = along.figure.data.front().text;
   CHECK(along_table.starts_with("drive,setting,first_slot,entries,hits\nstill,chained uniform,0,500,2.5\n"));
   CHECK(contains(along_table, "still,printed chained mixed,500,500,1.5\n"));
   const std::string text = squeezed(words_text(along.words));

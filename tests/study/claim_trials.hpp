@@ -28,6 +28,25 @@ struct Trial {
 
 using CacheChange = std::function<void(CacheRow&)>;
 
+// Nanoseconds of a look-up of an empty table: each hash, and the rest.
+struct EmptyLookup {
+  double rest, uniform, morton;
+};
+
+// Adds rows of depth 1 for all settings that end in the name of a hash. Those whole rows have 100 look-ups.
+inline CacheRows with_empty_lookups(CacheRows rows, const EmptyLookup& takes) {
+  for (CacheRow row : CacheRows(rows)) {
+    if (row.region > 0) continue;
+    double ns = takes.rest;
+    if (row.setting.ends_with(" uniform") || row.setting.ends_with(" mixed")) ns += takes.uniform;
+    if (row.setting.ends_with(" Morton") || row.setting.ends_with(" mixed")) ns += takes.morton;
+    row.depth = 1;
+    row.cold.lookup_s = 100e-9 * ns;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 // Returns the rows of a figure's study at all its numbers of rays.
 inline CacheRows rows_of(const std::string& figure, const CacheCost& cost, const CacheChange& change = {}) {
   const CacheStudy& study = *find_experiment(figure).study();

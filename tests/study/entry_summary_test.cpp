@@ -63,6 +63,21 @@ TEST_CASE("groups by depth and region: what no search finds is in no depth, what
   CHECK(write_levels(found).bucket.error == doctest::Approx(10));  // 50 and 70
 }
 
+TEST_CASE("samples lie at equal distances along the table, and are all entries of a small one") {
+  const EntrySummary few = summary_of(rows_of({{3, 0, 1, 4, 100, 50}, {7, 1, 2, 0, 0, 70}}));
+  REQUIRE(few.samples.size() == 2);
+  CHECK(few.samples[1].slot == 7);
+  CHECK(few.samples[1].region == 1);
+  CHECK(few.samples[1].depth == 2);
+  CHECK(few.samples[0].hits == 4);
+  CHECK(few.samples[0].read_cycles == 100);
+  CHECK(few.samples[1].write_cycles == 70);
+  const EntrySummary many = spread([](uint32_t slot) { return slot; });
+  REQUIRE(many.samples.size() == entry_samples);
+  for (uint32_t i = 0; i < entry_samples; ++i) CHECK(many.samples[i].slot == 50 * i);
+  CHECK(summary_of({}).samples.empty());
+}
+
 TEST_CASE("averages of buckets and of what is below them, and tables that have none") {
   const auto with = [](uint32_t bucket, uint32_t below) {
     return summary_of(rows_of({{0, 0, 1, 1, bucket, bucket}, {1, 0, 2, 1, below, below}}));

@@ -42,6 +42,7 @@ inline wavetracer::study::CacheMeasurement made_measurement(const wavetracer::st
           row.entries = {.by_depth = {{1, 700, 1500, 130, 160, 1, 1}, {2, 300, 500, 180, 260, 1, 1}},
                          .by_region = {{0, 1000, 2000, 150, 190}},
                          .runs = {{0, 500, 2.5}, {500, 500, 1.5}},
+                         .samples = {{0, 0, 1, 3, 75, 95}, {40, 0, 2, 0, 0, 380}},
                          .dispersion = 0.8,
                          .clustering = 6};
         point.push_back(row);
