@@ -13,7 +13,8 @@
 namespace wavetracer::study {
 namespace {
 
-constexpr const char *write = "write", *read = "read", *call = "call of the buffer", *hash = "hash", *trace = "trace";
+constexpr const char *of_write = "write", *of_read = "read", *of_call = "call of the buffer", *of_hash = "hash",
+                     *of_trace = "trace";
 
 // An operation that took this many times the mean was interrupted.
 constexpr double interrupted = 1000;
@@ -95,11 +96,11 @@ void add_setting(const CacheRows& rows, const CacheRow& whole, bool traces, Csv&
   BufferTable out{table, whole};
   for (const Part& part : parts_of(rows, whole, entries)) {
     const EntryGroup group = part.group ? *part.group : EntryGroup{};
-    out.add_entries(write, part, entries, group.write_cycles, &EntrySample::write_cycles, write_ns(part.row));
-    out.add_entries(read, part, entries, group.read_cycles, &EntrySample::read_cycles, read_ns(part.row));
-    out.add_line(call, part, lookup.buffer_call.value);
-    out.add_line(hash, part, lookup.hash.value);
-    if (traces) out.add_line(trace, part, trace_ns(part.row));
+    out.add_entries(of_write, part, entries, group.write_cycles, &EntrySample::write_cycles, write_ns(part.row));
+    out.add_entries(of_read, part, entries, group.read_cycles, &EntrySample::read_cycles, read_ns(part.row));
+    out.add_line(of_call, part, lookup.buffer_call.value);
+    out.add_line(of_hash, part, lookup.hash.value);
+    if (traces) out.add_line(of_trace, part, trace_ns(part.row));
   }
 }
 
@@ -132,8 +133,8 @@ NumberTable numbers_of(const CacheRows& rows, const BufferFigure& figure) {
       .heads = {"setting"},
       .rows = {}};
   if (figure.by_region) append(out.heads, {"transmitter", "look-ups", "answered"});
-  append(out.heads, {write, read, call, hash});
-  if (figure.traces) out.heads.emplace_back(trace);
+  append(out.heads, {of_write, of_read, of_call, of_hash});
+  if (figure.traces) out.heads.emplace_back(of_trace);
   const bool levels = !figure.by_region && !figure.traces;
   if (levels) append(out.heads, {"cycles of a write: bucket", "below", "of a read: bucket", "below"});
   for (const std::string& setting : figure.settings) {
@@ -163,19 +164,19 @@ CacheView along_buffer(const BufferFigure& figure) {
   return [=](const CacheMeasurement& measured) {
     const CacheRows& rows = measured.rows;
     CacheShown out{
-        .plot = {.settings = {write, read, call, hash},
+        .plot = {.settings = {of_write, of_read, of_call, of_hash},
                  .line_column = "operation",
                  .panel_column = "setting",
                  .x = "slot",
                  .x_label = "place in the table",
                  .x_in_thousands = true,
                  .points = true,
-                 .joined = {call, hash, trace},
+                 .joined = {of_call, of_hash, of_trace},
                  .point_size = 0.25},
         .table = Csv({"drive", "setting", "operation", "slot", "region", "tree_depth", "hits", "cycles", "ns"}),
         .numbers = numbers_of(rows, figure),
         .notes = {buffer_note, parts_note}};
-    if (figure.traces) out.plot.settings.emplace_back(trace);
+    if (figure.traces) out.plot.settings.emplace_back(of_trace);
     for (const std::string& setting : figure.settings) {
       const CacheRow* whole = find_cached(rows, setting, rows.front().rays, rows.front().drive);
       if (!whole) continue;

@@ -96,7 +96,7 @@ def killed_in_the_middle(client, config, folder, expected):
     assert len(workers) == 2
     futures, whole = wd.submit(job, client=client)
     wait_until("both workers have begun", lambda: len(list(job.folder.glob(".*"))) == 2)
-    assert len(processes_of(job.folder)) == 2
+    wait_until("both programs run", lambda: len(processes_of(job.folder)) == 2)
     os.kill(next(iter(workers.values())), signal.SIGKILL)
     wait_until("the program of the killed worker has ended with it", lambda: len(processes_of(job.folder)) <= 1)
     assert not any(future.done() for future in futures)

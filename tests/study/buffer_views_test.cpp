@@ -138,8 +138,9 @@ TEST_CASE("along the buffer: no entry is known, and no operation") {
   for (CacheRow& row : rows) row.entries = {};
   CHECK(contains(figure_of("figure-6.2", rows).figure.data.front().text,
                  "still,chained uniform,write,0,0,0,0,0,30\nstill,chained uniform,write,49999,0,0,0,0,30\n"));
+  CHECK(contains(figure_of("figure-6.2", rows).figure.commands, "\nplot "));
   for (CacheRow& row : rows) row.cold = row.warm = {};
   const Findings none = figure_of("figure-6.2", rows);
   CHECK_FALSE(contains(none.figure.data.front().text, "still"));
-  CHECK_FALSE(contains(none.figure.commands, "plot "));
+  CHECK_FALSE(contains(none.figure.commands, "\nplot "));
 }
