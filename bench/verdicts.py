@@ -103,15 +103,17 @@ def page(rows):
 
 def merged(rows, texts, note="", instead_of=None):
     """`rows` with those of new runs in place of all others of their devices. Two runs of one device must not have the
-    same figure."""
+    same figure. Files without a claim add nothing."""
     new = []
     for text in texts:
         run = list(of_run(text, note))
         figures = {(row["device"], row["figure"]) for row in run}
         twice = figures & {(row["device"], row["figure"]) for row in new}
-        if not run or twice:
-            sys.exit(f"{sorted(twice)}: two files have it" if twice else "a file has no table of verdicts")
+        if twice:
+            sys.exit(f"{sorted(twice)}: two files have it")
         new += run
+    if not new:
+        sys.exit("no file has a table of verdicts with a claim")
     gone = {shown(row["device"]) for row in new} | {instead_of}
     return sorted([row for row in rows if shown(row["device"]) not in gone] + new,
                   key=lambda row: (shown(row["device"]) != "two cores", row["device"], place(row)))

@@ -38,7 +38,9 @@ def check_merging():
     assert any(line.startswith("| two cores | thesis | 4 | 1 | 1 | 1 | 1 | 0 | 0 | 0 |") for line in lines), lines
     assert any(line.endswith("| `wavetracer thesis NAME... --frames 3`, 2026-11-27, a note |") for line in lines), lines
     assert any(line.endswith("| `old`, 2026-11-01 |") for line in lines), lines
-    for texts in ([first, first], ["# Title\n\n- device: A\n- date: B\n- command: `C`\n\n## Verdicts\n\n## Speed\n"]):
+    no_claims = "# Title\n\n- device: A\n- date: B\n- command: `C`\n\n## Verdicts\n\n## Speed\n"
+    assert verdicts.merged(old, [no_claims, first, second], note="a note", instead_of="GPU 1") == rows
+    for texts in ([first, first], [no_claims]):
         try:
             verdicts.merged(old, texts)
         except SystemExit:
