@@ -9,6 +9,7 @@ namespace {
 
 namespace suite = wavetracer::kernels;
 using suite::c_face::call_of;
+using suite::c_face::done_or_error;
 using suite::c_face::given;
 using suite::c_face::guarded;
 using suite::c_face::SharedContext;
@@ -86,7 +87,7 @@ void wavetracer_kernels_sort_free(wavetracer_kernels_sort* self) { delete self; 
 int wavetracer_kernels_sort_run(wavetracer_kernels_sort* self, cl_mem keys, cl_mem values, size_t n, unsigned first_bit,
                                 unsigned end_bit, cl_uint after_count, const cl_event* after, cl_event* done,
                                 wavetracer_kernels_error** error) {
-  return guarded(error, 0, [&] {
+  return done_or_error(error, [&] {
     const suite::Context& context = *given(self).context;
     const suite::Call call = call_of(after_count, after, done);
     const suite::BitRange bits{first_bit, end_bit};
@@ -100,7 +101,6 @@ int wavetracer_kernels_sort_run(wavetracer_kernels_sort* self, cl_mem keys, cl_m
       with_keys(context.wrap<uint64_t>(keys));
     else
       with_keys(context.wrap<uint32_t>(keys));
-    return 1;
   });
 }
 
@@ -109,18 +109,14 @@ size_t wavetracer_kernels_sort_temporary_words(const wavetracer_kernels_sort* se
 }
 
 int wavetracer_kernels_sort_reserve(wavetracer_kernels_sort* self, size_t n, wavetracer_kernels_error** error) {
-  return guarded(error, 0, [&] {
-    given(self).sort.reserve(n);
-    return 1;
-  });
+  return done_or_error(error, [&] { given(self).sort.reserve(n); });
 }
 
 int wavetracer_kernels_sort_use_temporary(wavetracer_kernels_sort* self, cl_mem memory,
                                           wavetracer_kernels_error** error) {
-  return guarded(error, 0, [&] {
+  return done_or_error(error, [&] {
     const suite::Context& context = *given(self).context;
     self->sort.use_temporary(memory ? context.wrap<uint32_t>(memory) : suite::Buffer<uint32_t>());
-    return 1;
   });
 }
 
@@ -136,7 +132,7 @@ void wavetracer_kernels_scan_free(wavetracer_kernels_scan* self) { delete self; 
 int wavetracer_kernels_scan_run(wavetracer_kernels_scan* self, cl_mem words, size_t n, cl_mem total,
                                 cl_uint after_count, const cl_event* after, cl_event* done,
                                 wavetracer_kernels_error** error) {
-  return guarded(error, 0, [&] {
+  return done_or_error(error, [&] {
     const suite::Context& context = *given(self).context;
     const suite::Call call = call_of(after_count, after, done);
     const auto wrapped = context.wrap<uint32_t>(words);
@@ -144,7 +140,6 @@ int wavetracer_kernels_scan_run(wavetracer_kernels_scan* self, cl_mem words, siz
       self->scan(wrapped, n, context.wrap<uint32_t>(total), call);
     else
       self->scan(wrapped, n, call);
-    return 1;
   });
 }
 
@@ -160,11 +155,10 @@ void wavetracer_kernels_compact_free(wavetracer_kernels_compact* self) { delete 
 int wavetracer_kernels_compact_run(wavetracer_kernels_compact* self, cl_mem words, size_t n, cl_mem indices,
                                    cl_mem total, cl_uint after_count, const cl_event* after, cl_event* done,
                                    wavetracer_kernels_error** error) {
-  return guarded(error, 0, [&] {
+  return done_or_error(error, [&] {
     const suite::Context& context = *given(self).context;
     const suite::Call call = call_of(after_count, after, done);
     self->compact(context.wrap<uint32_t>(words), n, context.wrap<uint32_t>(indices), context.wrap<uint32_t>(total),
                   call);
-    return 1;
   });
 }

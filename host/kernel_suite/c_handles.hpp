@@ -51,6 +51,15 @@ Result guarded(wavetracer_kernels_error** error, Result failed, const Function& 
   return failed;
 }
 
+// Runs what returns nothing. Returns 1, or 0 with an error.
+template <class Function>
+int done_or_error(wavetracer_kernels_error** error, const Function& function) noexcept {
+  return guarded(error, 0, [&] {
+    function();
+    return 1;
+  });
+}
+
 // Returns the object that a caller gave. Throws Error if it is null.
 template <class Object>
 Object& given(Object* object) {

@@ -13,6 +13,7 @@ namespace {
 
 namespace suite = wavetracer::kernels;
 using suite::c_face::call_of;
+using suite::c_face::done_or_error;
 using suite::c_face::given;
 using suite::c_face::guarded;
 using suite::c_face::SharedContext;
@@ -97,15 +98,6 @@ wavetracer::CacheConfig config_of(const wavetracer_kernels_cache_options& option
 std::optional<suite::Buffer<uint32_t>> words_of(const suite::Context& context, cl_mem memory) {
   if (!memory) return {};
   return context.wrap<uint32_t>(memory);
-}
-
-// Runs what returns nothing. Returns 1, or 0 with an error.
-template <class Function>
-int done_or_error(wavetracer_kernels_error** error, const Function& function) {
-  return guarded(error, 0, [&] {
-    function();
-    return 1;
-  });
 }
 
 }  // namespace
