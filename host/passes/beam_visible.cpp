@@ -24,7 +24,7 @@ void BeamVisible::operator()(const BeamTree& tree, const DeviceScene& scene, Bea
                                         .count = chunks,
                                         .capacity = static_cast<uint32_t>(lists.next.size()),
                                         .trie_mask = static_cast<uint32_t>(set.table.size() - 1),
-                                        .last = step.last,
+                                        .last = step.depth == step.max_depth,
                                         .only_opaque = step.only_opaque}});
 }
 

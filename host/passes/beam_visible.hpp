@@ -13,8 +13,8 @@ namespace wavetracer {
 
 // The way that a depth is looked at.
 struct BeamStep {
-  bool last = false;         // no apertures are made
-  bool only_opaque = false;  // waves pass surfaces that are not opaque
+  uint32_t depth = 1, max_depth = 1;  // at the last depth no apertures are made
+  bool only_opaque = false;           // waves pass surfaces that are not opaque
 };
 
 class BeamVisible {

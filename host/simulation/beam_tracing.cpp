@@ -11,7 +11,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint32_t most_chunks = 1 << 17;         // in one block
-constexpr uint32_t apertures_together = 1 << 16;  // in one block
+constexpr uint32_t apertures_together = 1 << 13;  // in one block
 constexpr uint32_t faces = 6;                     // a cube has so many
 constexpr uint32_t least_apertures = 1 << 12;
 
@@ -70,7 +70,7 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launche
   for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
     if (watch_) watch_->tell("rays", depth - 1, max_depth);
     counts_.apertures += apertures;
-    if (!look(scene, apertures, {.last = depth == max_depth, .only_opaque = only_opaque_}, set)) {
+    if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .only_opaque = only_opaque_}, set)) {
       set.regrow(max_depth);
       start(ends);
       apertures = static_cast<uint32_t>(faces * ends.size());
@@ -96,6 +96,7 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
     return (*gather_)(tree_, scene, lists_, first, end - first, step.only_opaque, most_chunks);
   };
   const auto take = [&](uint32_t chunks) {
+    if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped
     counts_.targets += uint64_t{chunks} * WT_CHUNK;
     see(scene, chunks, step, set.trie());
   };
