@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: a part of a run from elsewhere, as `wavetracer merge` reads it. The HDF5 library may crash in a separate
 // process: see LimitedChild. To fork one for each input takes most of the time, so 200 inputs share a process, in which
-// they are read as own parts are. After a fault there, the input is merged again as the program does it.
+// they are read as own parts are. After a fault there, the input is merged again as the program does it. An input that
+// fails among others is given to libFuzzer as the next one, so that libFuzzer keeps it.
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <thread>
 #include <vector>
 #include "base/hash.hpp"
@@ -76,25 +78,34 @@ Function of_libstdcxx(const char* name) {
 class Merges {
  public:
   Merges() = default;
-  ~Merges() { finish(); }
+  ~Merges() {
+    finish();
+    if (failing_) keep(*failing_);
+  }
   Merges(const Merges&) = delete;
   Merges& operator=(const Merges&) = delete;
 
   // Merges the input at once, or later together with others.
   void run(std::string_view input) {
     waiting_.emplace_back(input);
+    if (std::exchange(failed_before_, false)) fail_again();
     if (std::exchange(at_once_, always_at_once_) || waiting_.size() == fuzz::Worker::most_inputs) finish();
   }
-  // Returns an input that reached something new while it was merged with others, if there is one. It must be the next
-  // one, since libFuzzer takes the coverage of the last input of a call for that of all.
-  std::string take_new() {
+  // Returns the input that must be the next one, if there is one, of `most` bytes at most: it failed, or it reached
+  // something new, while it was merged with others. libFuzzer takes the last input of a call for the one that did it.
+  std::string take_next(size_t most) {
     always_at_once_ = false;
-    if (new_.empty()) return "";
+    if (!failing_ && new_.empty()) return "";
     finish();
     at_once_ = true;
+    if (failing_) {
+      if (failing_->size() > most) keep(*failing_);
+      failed_before_ = true;
+      return *std::exchange(failing_, {});
+    }
     std::string input = std::move(new_.back());
     new_.pop_back();
-    return input;
+    return input.size() > most ? "" : input;
   }
   void finish() {
     std::vector<std::string> inputs = std::exchange(waiting_, {});
@@ -103,23 +114,35 @@ class Merges {
       const size_t tried = together_.tried();
       for (size_t i = 0; i < tried && inputs.size() > 1; ++i)
         if (together_.is_new(i)) new_.push_back(rest[i]);
-      if (end != End::answer && end != End::remains) judge(rest.first(tried), end);
+      if (end != End::answer && end != End::remains && !holds(rest.first(tried), end) && inputs.size() == 1)
+        std::abort();
       rest = rest.subspan(tried);
     }
   }
 
  private:
-  // inputs: those of a process that ended by the last of them.
-  void judge(std::span<const std::string> inputs, End end) {
+  // Tells whether a process that ended so by the last of these inputs is no finding.
+  bool holds(std::span<const std::string> inputs, End end) {
     if (inputs.empty()) std::abort();
-    require(inputs.back(), as_program_.run(inputs.back()) == End::answer);
-    if (end != End::elsewhere) return;
-    for (const std::string& input : inputs) require(input, alone_.run(input) != End::elsewhere);
+    if (as_program_.run(inputs.back()) != End::answer) return fails(inputs.back());
+    if (end != End::elsewhere) return true;
+    for (const std::string& input : inputs)
+      if (alone_.run(input) == End::elsewhere) return fails(input);
     // The library has damaged the memory of the process before.
     std::cerr << fmt::format("{} inputs ended a process that one alone does not end\n", inputs.size());
+    return true;
   }
-  void require(std::string_view input, bool holds) const {
-    if (holds) return;
+  bool fails(const std::string& input) {
+    if (!failing_) failing_ = input;
+    return false;
+  }
+  void fail_again() {
+    if (as_program_.run(waiting_.back()) == End::answer && alone_.run(waiting_.back()) != End::elsewhere)
+      keep(waiting_.back());
+    std::abort();
+  }
+  // For an input that libFuzzer cannot keep.
+  [[noreturn]] static void keep(std::string_view input) {
     const std::string file = fmt::format("/dev/shm/wavetracer-fuzz-merge-{}.h5", getpid());
     std::ofstream(file, std::ios::binary) << input;
     std::cerr << "the input that fails: " << file << '\n';
@@ -132,6 +155,8 @@ class Merges {
 
   Part part_;
   std::vector<std::string> waiting_, new_;
+  std::optional<std::string> failing_;
+  bool failed_before_ = false;                   // the next input is one that has failed among others
   bool always_at_once_ = true, at_once_ = true;  // until libFuzzer asks for an input: it begins with its corpus
   const void* library_ = reinterpret_cast<const void*>(&H5open);
   fuzz::Worker::Try try_ = [this](std::string_view input) {
@@ -173,8 +198,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 extern "C" __attribute__((weak)) size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned) {
-  const std::string input = merges().take_new();
-  if (input.empty() || input.size() > most) return LLVMFuzzerMutate(data, size, most);
+  const std::string input = merges().take_next(most);
+  if (input.empty()) return LLVMFuzzerMutate(data, size, most);
   std::memcpy(data, input.data(), input.size());
   return input.size();
 }

@@ -15,7 +15,6 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <functional>
 #include <span>
@@ -33,8 +32,8 @@ std::span<uint8_t> counters();
 // whose highest bit it never had. Both have the size of the counters.
 bool note_coverage(uint8_t* last, uint8_t* seen);
 
-// How a try ended: with an answer; with one that leaves things behind, so that the process must not go on; with an
-// exception that is no Error; with a fault or too much time in the library, or elsewhere.
+// A try ends with an answer; with one that leaves things behind, so that the process must not go on; with an exception
+// that is no Error; with a fault or too much time in the library, or elsewhere.
 enum class End : uint8_t { answer, remains, exception, library, elsewhere };
 
 // The code of a shared library.
@@ -124,7 +123,7 @@ class Worker {
     for (size_t i = 0; i < inputs.size() && end == End::answer; ++i) {
       limit_time();
       shared_->tried = i + 1;
-      std::memset(counters().data(), 0, counters().size());
+      std::ranges::fill(counters(), uint8_t{0});
       end = try_one(inputs[i]);
       shared_->is_new[i] = note_coverage(last(), seen());
     }
