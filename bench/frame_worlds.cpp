@@ -89,6 +89,11 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.trace.directions = "random";
   });
   add("refined", [](Config& c) { c.trace.rays.reset(); });
+  add("beams", [](Config& c) {
+    c.trace.discovery = "beams";
+    c.trace.max_depth = 3;
+    c.transmitters.resize(1);
+  });
   add("transmission", [](Config& c) { c.trace.transmission = true; });
   add("vegetation", plant);
   add("scattering", [](Config& c) {

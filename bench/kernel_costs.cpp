@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wavetracer/device/beams.h"
 #include "wavetracer/device/cache.h"
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/waypoints.h"
@@ -120,6 +121,11 @@ constexpr KernelCost costs[] = {
     {"distinct/mark_rows", "reflections", "rows", items_of<"distinct/mark_rows">, solved_bytes, nothing},
     {"distinct/order_rows", "reflections", "rows", items_of<"distinct/order_rows">, always<40>, nothing},
     {"fields/fields", "reflections", "paths", path_rows, row_bytes, field_operations, true},
+
+    {"beam_gather/beam_gather", "beams", "apertures", items_of<"beam_gather/beam_gather">, always<sizeof(wt_aperture)>,
+     scene_operations},
+    {"beam_visible/beam_visible", "beams", "candidates", items_of<"beam_visible/beam_visible">,
+     always<sizeof(wt_beam_candidate)>, nothing},
 
     {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},

@@ -30,6 +30,12 @@ std::set<uint64_t> ray_steps(std::optional<uint64_t> own, study::RayRange range)
   return steps;
 }
 
+// Beams take the place of the reference of rays. Then all other settings of the axis must ask for rays.
+void certify_axis(Axis& axis) {
+  axis.reference = {"rays", "beams", {"trace.discovery=beams"}};
+  for (Setting& setting : axis.settings) setting.keys.push_back("trace.discovery=rays");
+}
+
 Axis ray_axis(const Config& own, bool drive, study::RayRange range) {
   const std::set<uint64_t> steps = ray_steps(own.trace.rays, range);
   Axis axis{of_rays(10 * *steps.rbegin()), {}};
@@ -85,8 +91,9 @@ const std::vector<Mechanism>& mechanisms() {
   return all;
 }
 
-std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays) {
+std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
+  if (certify || own.trace.by_beams()) certify_axis(all.front());
   if (const auto listeners = listener_axis(own)) all.push_back(*listeners);
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(

@@ -26,8 +26,9 @@ struct Axis {
 
 constexpr study::RayRange default_rays{10000, 1000000};
 
-// drive: there are frames that may reuse results of earlier ones. The reference has ten times the most rays.
-std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays);
+// drive: there are frames that may reuse results of earlier ones. The reference of rays has ten times the most rays, or
+// with `certify`, or where the user's own settings ask for beams, it is found by beams, which miss nothing.
+std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify = false);
 
 // Features that keys switch on or off, and their names at the start of a sentence.
 struct Mechanism {

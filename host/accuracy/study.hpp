@@ -14,6 +14,7 @@ struct Request {
   std::string file;               // file of the configuration
   std::vector<std::string> sets;  // in the form of --set
   study::RayRange rays = default_rays;
+  bool certify = false;  // rays are compared with beams, which miss nothing
   std::string device;
   uint32_t frames = 5, repeats = 3;
   std::string command_line;  // printed on the page

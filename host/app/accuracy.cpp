@@ -115,6 +115,8 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
   command->add_option(
       "--rays", options->rays,
       "Smallest and largest number of rays, A:B; default 1e4:1e6. The reference launches ten times the largest number");
+  command->add_flag("--certify", request.certify,
+                    "Compare rays with beams, which find all paths (trace.discovery), instead of with more rays");
   command->add_option("--frames", request.frames, "Number of frames of a drive to measure, spread evenly over it")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

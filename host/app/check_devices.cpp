@@ -18,6 +18,7 @@ std::vector<CheckedFeatures> features_of_runs() {
           {.instances = true, .reuse = true},
           {.diffractions = 3},
           {.instances = true, .transmission = true, .scattering = true, .diffractions = 1, .reuse = true},
+          {.instances = true, .beams = true},
           {.instances = true, .cache = cache}};
 }
 

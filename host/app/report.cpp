@@ -121,6 +121,16 @@ std::string missed_line(const Run& run, const Totals& totals) {
                                              : ": a higher trace.recall finds more of them");
 }
 
+// Says what beams have not followed; empty without beams.
+std::string certificate_line(const Totals& totals) {
+  const Certificate& of = totals.certificate;
+  if (of.frames == 0) return "";
+  return fmt::format(
+      "complete   every path of up to {} reflections, but for beams of {:.2g} sr in all, {:.2g} of the "
+      "directions\n",
+      of.depth, of.left_out_sr, of.left_out_share());
+}
+
 // Says what tracing did, for users who tune it.
 std::string tracing_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
@@ -230,9 +240,9 @@ std::string report(const Run& run, const Results& results, bool verbose) {
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);
   if (verbose) out += tracing_lines(run, totals);
-  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) + late_line(run, totals) +
-         link_lines(results.links, totals.frames > 1) + grid_lines(results.links) + compile_line(run) +
-         frame_line(run, totals);
+  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) + certificate_line(totals) +
+         late_line(run, totals) + link_lines(results.links, totals.frames > 1) + grid_lines(results.links) +
+         compile_line(run) + frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";
   out += "written    ";
   for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();

@@ -91,6 +91,25 @@ void check_discoveries(const Config& config, Found& out) {
            fmt::format("output.waypoints = {} writes rays of every frame", config.output.waypoints));
 }
 
+// Beams find sequences without rays, so nothing can be taken from rays.
+void check_beams(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  if (!trace.by_beams()) return;
+  const auto refuse = [&](const char* key, const std::string& value, const char* why) {
+    out.push_back({{"trace.discovery", key},
+                   fmt::format("trace.discovery = \"beams\" launches no rays, but {} = {} {}: "
+                               "remove {}, or use trace.discovery = \"rays\"",
+                               key, value, why, key)});
+  };
+  const auto quoted = [](std::string_view word) { return fmt::format("\"{}\"", word); };
+  if (trace.by_spheres()) refuse("trace.reception", quoted("sphere"), "receives rays");
+  if (config.cache.on()) refuse("cache.kind", quoted(config.cache.kind.word()), "keeps what rays met");
+  if (config.output.waypoints > 0)
+    refuse("output.waypoints", std::to_string(config.output.waypoints), "writes points of rays");
+  if (trace.discover_every_s > 0)
+    refuse("trace.discover_every_s", fmt::format("{}", trace.discover_every_s), "spares frames their rays");
+}
+
 // Reception by spheres counts each ray as one sample of the directions that reach a receiver.
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
@@ -225,6 +244,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_launch(config, out);
   check_rays(config, out);
   check_discoveries(config, out);
+  check_beams(config, out);
   check_reception(config, out);
   check_features(config, out);
   check_link_budget(config.radio, out);

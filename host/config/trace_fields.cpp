@@ -11,6 +11,12 @@ Table trace_table() {
       .name = "trace",
       .doc = "The search of rays for the surfaces that paths may touch.",
       .fields = {
+          {.name = "discovery",
+           .slot = t(&TraceConfig::discovery),
+           .doc = "The way that the sequences of surfaces are found. rays: many rays sample them, which misses some. "
+                  "beams: what each end sees is followed as a whole, mirror by mirror; this misses nothing but what "
+                  "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
+                  "the keys about rays, such as trace.rays, and keep nothing from frame to frame."},
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays per transmitter",

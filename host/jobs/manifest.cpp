@@ -47,6 +47,17 @@ Json encode_missed(const MissedCounts& missed) {
           {"power", missed.power}};
 }
 
+Json encode_certificate(const Certificate& of) {
+  return {{"frames", of.frames}, {"depth", of.depth}, {"ends", of.ends}, {"left_out_sr", of.left_out_sr}};
+}
+
+Certificate decode_certificate(const Json& json) {
+  return {.frames = whole_at<uint64_t>(json, "frames"),
+          .depth = whole_at<uint32_t>(json, "depth"),
+          .ends = whole_at<uint64_t>(json, "ends"),
+          .left_out_sr = json.at("left_out_sr")};
+}
+
 MissedCounts decode_missed(const Json& json) {
   MissedCounts out;
   out.frames = whole_at<uint64_t>(json, "frames");
@@ -100,6 +111,7 @@ Shard decode(const Json& json, ManifestOf what) {
     t.left_out = {whole_at<uint64_t>(gone, "paths"), gone.at("power"), gone.at("all")};
   }
   if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
+  if (json.contains("certificate")) t.certificate = decode_certificate(json.at("certificate"));
   if (json.contains("late")) {
     const Json& late = json.at("late");
     t.late = {whole_at<uint64_t>(late, "discoveries"), whole_at<uint64_t>(late, "paths"), late.at("power"),
@@ -148,6 +160,7 @@ std::string encode_manifest_line(const Shard& shard) {
   if (t.left_out.all > 0)
     json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
   if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
+  if (t.certificate.frames > 0) json["certificate"] = encode_certificate(t.certificate);
   if (t.late.discoveries > 0)
     json["late"] = {{"discoveries", t.late.discoveries},
                     {"paths", t.late.paths},

@@ -251,6 +251,13 @@ wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self) {
           missed.power_share.estimate, missed.power_share.low, missed.power_share.high};
 }
 
+wavetracer_certificate wavetracer_frame_certificate(const wavetracer_frame* self) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!self || self->result.certificate.frames == 0) return {0, unknown, unknown};
+  const wavetracer::Certificate& of = self->result.certificate;
+  return {of.depth, of.left_out_sr, of.left_out_share()};
+}
+
 const char* wavetracer_frame_warnings(const wavetracer_frame* self) { return self ? self->warnings.c_str() : nullptr; }
 
 int wavetracer_write(const wavetracer_simulation* self, const char* folder, const wavetracer_frame* const* frames,

@@ -143,6 +143,9 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
     const Missed missed = estimate_missed(totals.missed);
     json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
   }
+  if (const Certificate& of = totals.certificate; of.frames > 0)
+    json["certificate"] = {
+        {"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share()}};
   if (totals.late.discoveries > 0)
     json["late"] = {{"discoveries", totals.late.discoveries},
                     {"paths", totals.late.paths},

@@ -67,6 +67,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.counts = frame.counts;
   totals.kinds = count_path_kinds(frame.paths);
   totals.missed = frame.missed;
+  totals.certificate = frame.certificate;
   totals.late = frame.late;
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
@@ -100,6 +101,7 @@ void add(Totals& sum, const Totals& later) {
   add(sum.counts, later.counts);
   add(sum.kinds, later.kinds);
   add(sum.missed, later.missed);
+  add(sum.certificate, later.certificate);
   sum.late.add(later.late);
   add(sum.left_out, later.left_out);
   add(sum.segments_per_depth, later.segments_per_depth);
@@ -114,6 +116,8 @@ void add_block(Totals& sum, const Totals& more) {
   const bool empty = sum.frames == 0;
   MissedCounts missed = sum.missed;
   add_part(missed, more.missed);
+  Certificate certificate = sum.certificate;
+  add_part(certificate, more.certificate);
   std::map<std::string, std::vector<double>> seconds = sum.seconds;
   for (const auto& [stage, values] : more.seconds) {
     std::vector<double>& all = seconds[stage];
@@ -125,6 +129,7 @@ void add_block(Totals& sum, const Totals& more) {
   add(sum, more);
   if (!empty) sum.frames -= more.frames;
   sum.missed = missed;
+  sum.certificate = certificate;
   sum.seconds = std::move(seconds);
   sum.missing = std::move(missing);
 }

@@ -20,6 +20,7 @@ struct Totals {
   FrameCounts counts;
   PathKindCounts kinds{};  // adds up to counts.paths
   MissedCounts missed;
+  Certificate certificate;
   LateCounts late;
   LeftOutPaths left_out;  // part of counts.paths, which counts paths that were found; all 0 if no path may be left out
   std::vector<uint64_t> segments_per_depth;

@@ -94,6 +94,7 @@ Config check_config(const CheckedFeatures& features) {
   trace.scattering = features.scattering;
   trace.tile_m = 8;
   trace.reuse = features.reuse;
+  if (features.beams) trace.discovery = "beams";
   config.cache = features.cache;
   config.cache.key = "exact";
   config.cache.buffer_size = 1u << 19;  // in a small one rays may take all places from each other

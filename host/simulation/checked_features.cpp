@@ -12,6 +12,7 @@ std::string CheckedFeatures::words() const {
   if (scattering) out += ", scattering";
   if (instances) out += ", vehicles";
   if (reuse) out += ", frames that follow each other";
+  if (beams) out += ", beams";
   if (cache.on()) out += ", a ray cache (" + cache.kind.text() + ")";
   return out;
 }

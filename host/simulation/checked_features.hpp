@@ -8,12 +8,13 @@
 
 namespace wavetracer {
 
-// Reflection is always one of them. Frames that reuse sequences and ray caches have kernels of their own, but the same
-// paths.
+// Reflection is always one of them. Frames that reuse sequences, ray caches and discovery by beams have kernels of
+// their own, but the same paths.
 struct CheckedFeatures {
   bool instances = false, transmission = false, scattering = false;
   uint32_t diffractions = 0;  // most of a path: 0, 1, 2, or 3 for three and more
   bool reuse = false;
+  bool beams = false;
   CacheConfig cache = {};  // kind "none": no cache
 
   // Names them in words: "reflection, diffraction at two edges, vehicles".

@@ -36,7 +36,8 @@ CheckedFeatures features_to_check(const Setup& setup) {
       .transmission = setup.plan->trace.transmission,
       .scattering = setup.plan->trace.scattering,
       .diffractions = setup.plan->trace.diffraction ? std::min(setup.plan->trace.max_diffractions, 3u) : 0,
-      .reuse = setup.plan->reuse};
+      .reuse = setup.plan->reuse,
+      .beams = setup.plan->trace.by_beams()};
   if (setup.cache && !setup.cache->as_printed()) out.cache = setup.plan->asked.cache;
   return out;
 }

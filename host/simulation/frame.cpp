@@ -7,6 +7,7 @@
 #include "radio/path_power.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
+#include "simulation/tracing_depth.hpp"
 
 namespace wavetracer {
 namespace {
@@ -106,7 +107,7 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   if (!task.only_compiles()) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
   const bool spheres = plan_.trace.by_spheres();
-  if (s_.cache || spheres) out.paths.quarters.clear();  // their quarters do not estimate misses
+  if (s_.cache || spheres || s_.beams) out.paths.quarters.clear();  // their quarters do not estimate misses
   const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
   if (few) account.warn(*few);
   if (found.rays > 0 && !few) out.missed = missed_counts(out.paths, 0, out.paths.size());
@@ -135,7 +136,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
   const auto passes = [&] {
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
     besides = plan_.trace.by_spheres() ? receive_paths(ends, account)
-                                       : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches,
+                                       : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches && !s_.beams,
                                                      *s_.frame_watch, account);  // sequences to visible
     account.end_stage(Stage::paths);
     finish_paths(task.frame(), world, ends, block ? &block->own : nullptr, true);  // distinct to fields
@@ -188,8 +189,22 @@ Counters::Zeroed FrameLoop::begin_sequences(Sequences& set, bool searches) {
   return searches && warm_frames_ == 0 ? set.clear() : set.counters().zero();
 }
 
+DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
+  std::vector<Launcher> ends = sending(world);
+  if (plan_.trace.diffraction) std::ranges::copy(listening(world, plan_.origins), std::back_inserter(ends));
+  if (block) ends = launchers_of(*block, ends);
+  const Fleet& fleet = plan_.world.fleet;
+  if (!fleet.instances.empty()) s_.beams->set_world(fleet.instances, world.instances);
+  DiscoveryCounts out;
+  const uint32_t depth = tracing_depth(plan_.trace).sequences;
+  out.beams = s_.beams->find(s_.device_scene, ends, task.only_compiles() ? std::min(depth, 2u) : depth,
+                             s_.discovery->sequences());  // beam_gather, beam_visible
+  return out;
+}
+
 // With diffraction listeners launch, too, and prefixes of both ends meet at the edge.
 DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
+  if (s_.beams) return follow_beams(task, world, block);
   std::vector<Launcher> transmitters = sending(world), listeners;
   if (plan_.trace.diffraction) listeners = listening(world, plan_.origins);
   SlopeTables tables;

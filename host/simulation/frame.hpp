@@ -31,6 +31,8 @@ class FrameLoop {
                    bool searches, bool alike, FrameAccount& account);
   void next_frame(Sequences& set);
   Counters::Zeroed begin_sequences(Sequences& set, bool searches);
+  // The same by beams.
+  DiscoveryCounts follow_beams(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,

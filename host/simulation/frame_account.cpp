@@ -23,6 +23,9 @@ void FrameAccount::discovered(const DiscoveryCounts& found) {
   result.counts.rays = found.rays;
   result.counts.hits = found.hits;
   for (const uint64_t segments : found.segments_per_depth) result.counts.segments += segments;
+  if (found.beams)
+    result.certificate = {
+        .frames = 1, .depth = found.beams->depth, .ends = found.beams->ends, .left_out_sr = found.beams->left_out_sr};
 }
 
 void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides) {

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "passes/generate_rays.hpp"
@@ -37,6 +38,16 @@ inline std::vector<Launcher> launchers(const std::vector<glm::dvec3>& transmitte
 // its cells are as small as possible; or none of its last rays met anything rare, so that nothing is left to refine.
 enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 
+// The counts of a discovery by beams.
+struct BeamCounts {
+  uint32_t depth = 0;       // reflections
+  uint64_t ends = 0;        // ends that were looked from
+  uint64_t apertures = 0;   // parts of mirrors that were looked through, ends included
+  uint64_t targets = 0;     // facets that were looked at
+  uint64_t kept_whole = 0;  // pieces that something hides in part, but that were followed whole
+  double left_out_sr = 0;   // solid angle of beams that were not followed, a bound of the sum over all ends
+};
+
 // The counts that discovery adds to FrameCounts.
 struct DiscoveryCounts {
   uint64_t rays = 0, hits = 0;
@@ -45,6 +56,7 @@ struct DiscoveryCounts {
   // For a refined launch: the share of sequences that a single sample met, and why the launch ended.
   double share_once = 0;
   LaunchEnd end = LaunchEnd::recall;
+  std::optional<BeamCounts> beams = {};  // set by a discovery by beams, which launches no rays
 
   // Adds the segments of `alive` rays. ended: the number of them that ended after each number of hits.
   void add_ended(uint64_t alive, const wt_uint* ended) {

@@ -77,6 +77,7 @@ void add_counts(FrameResult& to, const FrameResult& from) {
   for (auto count : {&FrameCounts::rays, &FrameCounts::segments, &FrameCounts::hits, &FrameCounts::sequences,
                      &FrameCounts::candidates, &FrameCounts::solved, &FrameCounts::paths, &FrameCounts::receptions})
     to.counts.*count += from.counts.*count;
+  add_part(to.certificate, from.certificate);
   for (const auto& [stage, seconds] : from.seconds) to.seconds[stage] += seconds;
   for (const auto& [name, kernel] : from.kernels) {
     to.kernels[name].seconds += kernel.seconds;

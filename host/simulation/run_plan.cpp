@@ -18,7 +18,8 @@ Config with_all_ends(Config config, const World& world) {
 
 // A sphere receives what this frame's rays meet.
 bool reuses(const TraceConfig& trace, const World& world, bool frames_follow) {
-  return trace.reuse && !trace.by_spheres() && (world.clock.frame_count() > 1 || world.live || frames_follow);
+  return trace.reuse && !trace.by_spheres() && !trace.by_beams() &&
+         (world.clock.frame_count() > 1 || world.live || frames_follow);
 }
 
 }  // namespace

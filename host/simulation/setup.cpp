@@ -73,6 +73,15 @@ std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan,
                                     choose_shape(context.info(), plan.trace, order), order.launch, reception);
 }
 
+// The triangles of the first frame are those of all frames where nothing moves.
+std::unique_ptr<BeamTracing> make_beams(gpu::Context& context, const RunPlan& plan, const FrameWatch& watch) {
+  if (!plan.trace.by_beams()) return nullptr;
+  const Fleet& fleet = plan.world.fleet;
+  auto out = std::make_unique<BeamTracing>(context, plan.scene, fleet.models, plan.trace.transmission, &watch);
+  out->set_world(fleet.instances, plan.world.state(0).instances);
+  return out;
+}
+
 // Is the ground many surfaces? A street of a few patches is not, the coarsest of terrains is.
 bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
 
@@ -105,6 +114,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
                                                                 .follower = trails.get(),
                                                                 .watch = watch.get(),
                                                                 .hilly = !trace.rays && is_hilly(scene)});
+  auto beams = make_beams(context, *plan, *watch);
   ExactPaths exact(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse);
   FinishedPaths finish(context, scene, plan->computed(), world);
   ElementOutputs elements(config, scene, world);
@@ -126,6 +136,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
           .cache = std::move(cache),
           .frame_watch = std::move(watch),
           .discovery = std::move(discovery),
+          .beams = std::move(beams),
           .exact_paths = std::move(exact),
           .finish = std::move(finish),
           .elements = std::move(elements)};

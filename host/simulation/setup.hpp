@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stopwatch.hpp"
+#include "simulation/beam_tracing.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/element_outputs.hpp"
 #include "simulation/exact_paths.hpp"
@@ -58,6 +59,7 @@ struct Setup {
   std::unique_ptr<RayCache> cache;  // with cache.kind, else null
   std::unique_ptr<FrameWatch> frame_watch;
   std::unique_ptr<Discovery> discovery;
+  std::unique_ptr<BeamTracing> beams;  // with trace.discovery = "beams", else null
   ExactPaths exact_paths;
   FinishedPaths finish;
   ElementOutputs elements;

@@ -184,14 +184,17 @@ constexpr bool at_random(Directions directions) { return directions == "random";
 
 using Reception = Choice<"exact", "sphere">;
 
+// The way that sequences are found: sampled by rays, or followed by beams, which miss none.
+using DiscoveryWay = Choice<"rays", "beams">;
+
 struct TraceConfig {
+  DiscoveryWay discovery = "rays";
   std::optional<uint64_t> rays = 200000;      // per transmitter; not set ("auto"): what recall needs, at most max_rays
   double recall = 0.99;                       // with rays = "auto": share of the paths to find
   uint64_t max_rays = 10000000;               // with rays = "auto"
   bool reuse = true;                          // sequences of earlier frames of a drive are kept and solved again
   std::optional<uint64_t> refresh_rays = {};  // per transmitter, in a frame that reuses; not given: a tenth of rays
-  // Time between frames that launch rays, if frames reuse sequences; 0: all frames launch rays.
-  double discover_every_s = 0;
+  double discover_every_s = 0;  // time between frames that launch rays, if frames reuse sequences; 0: all launch rays
   uint32_t forget_frames = 50;  // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
@@ -210,6 +213,7 @@ struct TraceConfig {
 
   // Receivers get the rays that pass through their spheres, instead of exact paths.
   bool by_spheres() const { return reception == "sphere"; }
+  bool by_beams() const { return discovery == "beams"; }
 };
 
 // Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the given word.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "wavetracer/cache_entries.hpp"
+#include "wavetracer/certificate.hpp"
 #include "wavetracer/kernel_time.hpp"
 #include "wavetracer/late.hpp"
 #include "wavetracer/missed.hpp"
@@ -97,10 +98,11 @@ struct FrameResult {
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook
   FrameCounts counts;
-  MissedCounts missed;   // frames = 0 with a ray cache or trace.reception = "sphere", and if no rays were launched
-  LateCounts late;       // set in a frame that launches rays after frames that did not, with trace.discover_every_s
-  StageSeconds seconds;  // device stages only in frames that were profiled (Simulation::profile_every)
-  KernelTimes kernels;   // for the device stages, in the same frames
+  MissedCounts missed;      // frames = 0 with a ray cache or trace.reception = "sphere", and if no rays were launched
+  Certificate certificate;  // with trace.discovery = "beams", else of no frames
+  LateCounts late;          // set in a frame that launches rays after frames that did not, with trace.discover_every_s
+  StageSeconds seconds;     // device stages only in frames that were profiled (Simulation::profile_every)
+  KernelTimes kernels;      // for the device stages, in the same frames
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
   WaypointRows waypoints;        // waypoints of output.waypoints samples per transmitter

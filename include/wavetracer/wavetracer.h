@@ -109,13 +109,23 @@ typedef struct wavetracer_missed {
   double power_share, power_share_low, power_share_high; /* relative to the power that was found */
 } wavetracer_missed;
 
+/* The certificate of a frame with trace.discovery = "beams": it has every path of at most `depth` reflections, unless a
+   point of the path lies in one of the beams that were too thin to follow. Without beams the last two values are NaN.
+ */
+typedef struct wavetracer_certificate {
+  uint32_t depth;
+  double left_out_sr;    /* a bound of the solid angle of these beams, over all ends */
+  double left_out_share; /* the same, of all directions of all ends */
+} wavetracer_certificate;
+
 /* 0 for null */
 uint32_t wavetracer_frame_number(const wavetracer_frame* self);
 double wavetracer_frame_time_s(const wavetracer_frame* self);     /* NaN for null */
 uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 if any receiver has two */
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
-wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self); /* all 0 for null */
-wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self); /* all NaN for null */
+wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self);           /* all 0 for null */
+wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self);           /* all NaN for null */
+wavetracer_certificate wavetracer_frame_certificate(const wavetracer_frame* self); /* 0 and NaN for null */
 const char* wavetracer_frame_warnings(const wavetracer_frame* self); /* as wavetracer_warnings; lives as the frame */
 
 /* Results are columns with the names of the datasets in paths.h5. */

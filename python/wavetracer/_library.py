@@ -36,6 +36,10 @@ class Missed(ctypes.Structure):
     _fields_ = [(what + bound, ctypes.c_double) for what in ("paths", "power_share") for bound in ("", "_low", "_high")]
 
 
+class Certificate(ctypes.Structure):
+    _fields_ = [("depth", ctypes.c_uint32), ("left_out_sr", ctypes.c_double), ("left_out_share", ctypes.c_double)]
+
+
 class Column(ctypes.Structure):
     _fields_ = [("data", ctypes.c_void_p), ("rows", ctypes.c_size_t), ("width", ctypes.c_size_t),
                 ("type", ctypes.c_int)]
@@ -55,7 +59,8 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("frame_free", None, [Handle]), ("forget", None, [Handle]), ("observe", None, [Handle, Observer, Handle]),
     ("frame_number", ctypes.c_uint32, [Handle]), ("frame_time_s", ctypes.c_double, [Handle]),
     ("frame_rx_ports", ctypes.c_uint32, [Handle]), ("frame_tx_ports", ctypes.c_uint32, [Handle]),
-    ("frame_counts", Counts, [Handle]), ("frame_missed", Missed, [Handle]), ("frame_warnings", Text, [Handle]),
+    ("frame_counts", Counts, [Handle]), ("frame_missed", Missed, [Handle]),
+    ("frame_certificate", Certificate, [Handle]), ("frame_warnings", Text, [Handle]),
     ("frame_column", ctypes.c_int, [Handle, Text, ctypes.POINTER(Column), _ERROR]),
     ("transmitter_elements", ctypes.c_size_t, [Handle, ctypes.c_size_t]),
     ("receiver_elements", ctypes.c_size_t, [Handle, ctypes.c_size_t]),

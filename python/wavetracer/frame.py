@@ -116,6 +116,17 @@ class Frame(Unique):
         return {what: {"estimate": getattr(of, what), "low": getattr(of, what + "_low"),
                        "high": getattr(of, what + "_high")} for what in ("paths", "power_share")}
 
+    @property
+    def certificate(self) -> dict[str, float] | None:
+        """With trace.discovery = "beams": the frame has every path of at most certificate["depth"] reflections, unless a
+        point of the path lies in one of the beams that were too thin to follow. certificate["left_out_sr"] is a bound of
+        the solid angle of these beams, over all ends, and certificate["left_out_share"] is the same of all directions
+        of all ends. None without beams."""
+        of = library.wavetracer_frame_certificate(self._handle)
+        if np.isnan(of.left_out_sr):
+            return None
+        return {"depth": of.depth, "left_out_sr": of.left_out_sr, "left_out_share": of.left_out_share}
+
     def __repr__(self) -> str:
         return f"<wavetracer.Frame {self.number} at {self.time_s:.15g} s: {len(self):,} paths of {len(self.links):,} links>"
 

@@ -82,6 +82,12 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
   CHECK(still[1].reference.keys == std::vector<std::string>{"trace.max_depth=3"});
   CHECK(still[1].settings.size() == 3);
   CHECK(still.size() == 2 + mechanisms().size());
+  // Beams take the place of the reference of rays, and only there.
+  const std::vector<Axis> certified = axes(own, false, default_rays, true);
+  CHECK(certified[0].reference.keys == std::vector<std::string>{"trace.discovery=beams"});
+  CHECK(certified[0].reference.axis == "rays");
+  CHECK(certified[0].settings[0].keys == std::vector<std::string>{"trace.rays=10000", "trace.discovery=rays"});
+  CHECK(certified[1].reference.keys == still[1].reference.keys);
   // With diffraction receivers launch rays, too.
   own.trace.diffraction = true;
   own.trace.diffraction_rays = 2000;

@@ -114,6 +114,16 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   CHECK(contains(report(), ": a higher trace.recall finds more of them\n"));
 }
 
+TEST_CASE("with beams the report says to which depth it is complete, and but for what") {
+  const SampleRun sample;
+  Results results{totals_of(sample.frames()), {}, {}};
+  CHECK_FALSE(contains(app::report(sample.run(), results, false), "\ncomplete "));
+  results.totals.certificate = {.frames = 3, .depth = 5, .ends = 6, .left_out_sr = 1.6e-9};
+  CHECK(contains(app::report(sample.run(), results, false),
+                 "\ncomplete   every path of up to 5 reflections, but for beams of 1.6e-09 sr in all, 2.1e-11 of the "
+                 "directions\n"));
+}
+
 TEST_CASE("the report says what frames without rays may lack") {
   SampleRun sample;
   sample.config.trace.discover_every_s = 0.1;

@@ -86,6 +86,7 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "trace.reuse",
                           "trace.refresh_rays",
                           "trace.discover_every_s",
+                          "trace.discovery",
                           "trace.forget_frames",
                           "output.shard_frames",
                           "trace.rays",

@@ -227,6 +227,22 @@ TEST_CASE("frames that reuse launch no more rays than those that do not, and for
   CHECK(error_of(scene + "trace.forget_frames = 1\n" + ends) == "no error");
 }
 
+TEST_CASE("discovery by beams is refused where something needs rays") {
+  const std::string beams = scene + "trace.discovery = \"beams\"\n";
+  CHECK(error_of(beams + ends) == "no error");
+  CHECK(error_of(beams + "trace.rays = \"auto\"\n" + ends) == "no error");  // it is not used
+  const auto refused = [&](const std::string& line, const std::string& words) {
+    CAPTURE(line);
+    check_contains(error_of(beams + line + "\n" + ends), "trace.discovery = \"beams\" launches no rays, but " + words);
+    CHECK(error_of(scene + line + "\n" + ends) == "no error");
+  };
+  refused("trace.reception = \"sphere\"", "trace.reception = \"sphere\" receives rays: remove trace.reception, or use");
+  refused("cache.kind = \"open\"", "cache.kind = \"open\" keeps what rays met: remove cache.kind");
+  refused("output.waypoints = 5", "output.waypoints = 5 writes points of rays: remove output.waypoints");
+  refused("trace.discover_every_s = 0.1", "trace.discover_every_s = 0.1 spares frames their rays: remove");
+  check_contains(error_of(scene + "trace.discovery = \"beam\"\n" + ends), "did you mean \"beams\"");
+}
+
 TEST_CASE("frames without rays are refused where something needs the rays of every frame") {
   const std::string spared = scene + "trace.discover_every_s = 0.1\n";
   CHECK(error_of(spared + ends) == "no error");

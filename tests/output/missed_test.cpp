@@ -29,13 +29,15 @@ std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t
                     .amplitude = 3e-3,
                     .power = 3e-6 + 1e-8 * frame.frame};
   for (FrameResult& frame : frames)
+    frame.certificate = {.frames = 1, .depth = 5 - frame.frame % 2, .ends = 2, .left_out_sr = 0x1p-30 * frame.frame};
+  for (FrameResult& frame : frames)
     if (frame.frame % 2 == 0) frame.late = {1, frame.frame, 1e-9 * frame.frame, 2e-6, 5e-4 * frame.frame};
   return frames;
 }
 
 Json missed_of(const std::vector<std::filesystem::path>& written) {
   const Json summary = Json::parse(slurp(written[2]));
-  return {{"missed", summary.at("missed")}, {"late", summary.at("late")}};
+  return {{"missed", summary.at("missed")}, {"late", summary.at("late")}, {"certificate", summary.at("certificate")}};
 }
 
 }  // namespace
@@ -58,6 +60,10 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   CHECK(late["paths"] == 40);
   CHECK(late["power_share"] == doctest::Approx(40e-9 / 10e-6));
   CHECK(late["largest_power_share"] == doctest::Approx(6e-3));
+  // Frames 3 to 12 have two ends each, and the odd ones are complete to a smaller depth.
+  CHECK(both["certificate"]["depth"] == 4);
+  CHECK(both["certificate"]["left_out_sr"] == 75 * 0x1p-30);
+  CHECK(both["certificate"]["left_out_share"] == doctest::Approx(75 * 0x1p-30 / (80 * 3.14159265358979)));
   {
     Shards killed(folder.path(), sample_identity(12));
     killed.write(sample.run(), drive(sample, 3, 6));
@@ -78,12 +84,17 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   CHECK(sum.missed.paths == std::array<uint64_t, 4>{0, 12, 21, 300});
   CHECK(sum.missed.powers[3] == doctest::Approx(3e-7));
   CHECK(sum.missed.amplitude == doctest::Approx(9e-3));
+  CHECK(sum.certificate.frames == 1);
+  CHECK(sum.certificate.ends == 6);
+  CHECK(sum.certificate.left_out_sr == 9 * 0x1p-30);
   add(sum, totals_of({&frames[1], 1}));
+  CHECK(sum.certificate.frames == 2);
   CHECK(sum.missed.frames == 2);
   const TemporaryFolder folder;
   const auto written = write_outputs(folder.path(), sample.run(), sample.drive(3, 2));
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("missed"));
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("late"));
+  CHECK_FALSE(Json::parse(slurp(written[2])).contains("certificate"));
 }
 
 TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {

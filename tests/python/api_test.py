@@ -360,7 +360,12 @@ def main():
     with wavetracer.Simulation(DRIVE, trace={"reception": "sphere"}) as simulation:
         assert (unknown := simulation.run_frame(0)).missed is None
         assert np.all(np.isnan(unknown["link_missed_power_share"])) and len(unknown["link_missed_power_share"]) > 0
-    del unknown
+    with wavetracer.Simulation(DRIVE, trace={"discovery": "beams", "max_depth": 2}) as simulation:
+        beams = simulation.run_frame(0)
+        assert beams.missed is None and unknown.certificate is None
+        assert beams.certificate["depth"] == 2 and 0 <= beams.certificate["left_out_sr"] < 1e-6
+        assert 0 <= beams.certificate["left_out_share"] <= beams.certificate["left_out_sr"]
+    del unknown, beams
     # A view outlives its frame, and the frame its simulation.
     delay, copy = frames[0]["delay_s"], frames[0]["delay_s"].copy()
     del frames, frame, simulation, run

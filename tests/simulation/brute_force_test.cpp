@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares whole frames with brute force: the sets of paths must be identical up to order 3 in scenes of up to 60
-// surfaces, in both directions. Rays only discover sequences; they must not miss one or let one through that is no
-// path.
+// surfaces, in both directions. Rays and beams must neither miss a sequence nor let one through that is no path.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -34,8 +33,9 @@ struct Difference {
 };
 
 Difference compare(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
-                   uint64_t rays, const reference::Limits& limits) {
+                   uint64_t rays, const reference::Limits& limits, DiscoveryWay discovery) {
   Config config = config_of(scene_file, transmitters, receivers, rays, limits.max_depth);
+  config.trace.discovery = discovery;
   config.trace.transmission = limits.transmission;
   config.trace.max_transmissions = limits.max_transmissions;
   config.trace.diffraction = limits.diffraction;
@@ -76,12 +76,15 @@ Difference compare(const std::filesystem::path& scene_file, const Points& transm
 
 void check_identical(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,
                      uint64_t rays, const reference::Limits& limits, size_t at_least) {
-  const Difference d = compare(scene_file, transmitters, receivers, rays, limits);
-  CHECK(d.missed == 0);
-  CHECK(d.invented == 0);
-  CHECK(d.found >= at_least);
-  CHECK(d.length_error < 1e-9);
-  CHECK(d.vertex_error_m < 1e-6);
+  for (const DiscoveryWay discovery : {DiscoveryWay("rays"), DiscoveryWay("beams")}) {
+    CAPTURE(discovery.text());
+    const Difference d = compare(scene_file, transmitters, receivers, rays, limits, discovery);
+    CHECK(d.missed == 0);
+    CHECK(d.invented == 0);
+    CHECK(d.found >= at_least);
+    CHECK(d.length_error < 1e-9);
+    CHECK(d.vertex_error_m < 1e-6);
+  }
 }
 
 void check_identical(const std::filesystem::path& scene_file, const Points& transmitters, const Points& receivers,

@@ -60,9 +60,41 @@ void check_box(const glm::dvec3& corner, double scale = 1) {
   CHECK(duplicates(frame.paths) == 0);
 }
 
+// Beams find all of the lattice at every depth, from points anywhere in the box.
+void check_box_by_beams(const glm::dvec3& corner, const glm::dvec3& size, const glm::dvec3& tx, const Points& inside,
+                        int depth) {
+  const SceneFile file(reference::box_walls(corner, corner + size));
+  Points receivers = inside;
+  for (glm::dvec3& p : receivers) p += corner;
+  Config config = config_of(file.path(), {tx + corner}, receivers, 1000, static_cast<uint32_t>(depth));
+  config.trace.discovery = "beams";
+  const FrameResult frame = run(config);
+  CHECK(frame.counts.rays == 0);
+  CHECK(frame.missed.frames == 0);
+  CHECK(frame.certificate.frames == 1);
+  CHECK(frame.certificate.depth == static_cast<uint32_t>(depth));
+  CHECK(frame.certificate.ends == 1);
+  CHECK(frame.certificate.left_out_share() < 1e-9);
+  for (uint32_t rx = 0; rx < inside.size(); ++rx) {
+    CAPTURE(rx);
+    check_lengths(lengths(frame.paths, rx), lattice_lengths(size, tx, inside[rx], depth));
+  }
+  CHECK(duplicates(frame.paths) == 0);
+}
+
 }  // namespace
 
 TEST_CASE("a box to depth 5: 231 paths per receiver, as long as their images are far") { check_box({0, 0, 0}); }
+
+TEST_CASE("beams find all images of a box to depth 8") {
+  const glm::dvec3 size{8, 5, 3};
+  check_box_by_beams({0, 0, 0}, size, {1.37, 2.21, 1.55}, {{6.13, 3.42, 0.87}, {2.9, 0.61, 2.6}}, 8);
+  check_box_by_beams({691000, 5335000, 500}, size, {1.37, 2.21, 1.55}, {{6.13, 3.42, 0.87}}, 5);
+  check_box_by_beams({0, 0, 0}, 1.2e4 * size, 1.2e4 * glm::dvec3{1.37, 2.21, 1.55}, {{6.13e4, 3.42e4, 0.87e4}}, 5);
+  // Ends near the middle of the box, a millimetre off a wall, and in a corner.
+  check_box_by_beams({0, 0, 0}, size, {4, 2.5, 1.5}, {{4.001, 2.51, 1.52}}, 5);
+  check_box_by_beams({0, 0, 0}, size, {0.001, 2.21, 1.55}, {{7.999, 3.42, 0.87}, {0.002, 0.003, 0.004}}, 5);
+}
 
 TEST_CASE("the same box in UTM coordinates") { check_box({691000, 5335000, 500}); }
 

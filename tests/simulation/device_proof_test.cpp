@@ -103,6 +103,14 @@ TEST_CASE("a ray cache that finds no key fails its check, and no other") {
   fails_first("ray cache", with_cache());
 }
 
+TEST_CASE("beams that lose small pieces fail the check of paths, and no other") {
+  const CheckedFeatures beams{.instances = true, .beams = true};
+  CHECK(failed_checks(beams).all == "");
+  const BrokenLine broken("kernels/discovery/beam_visible.cl", "pieces.count = sr > WT_LEAST_SR;",
+                          "pieces.count = sr > 0.01;");
+  fails_first("paths", beams);
+}
+
 TEST_CASE("a simulation on a broken device is refused, every time") {
   const BrokenLine broken("include/wavetracer/device/slab.h", "const double kd = 2.0 * WT_PI",
                           "const double kd = 2.001 * WT_PI");

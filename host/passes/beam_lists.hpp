@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lists of discovery by beams: apertures of one depth and of the next, and the candidates that may be seen through
+// those of this depth, in chunks.
+#pragma once
+#include "gpu/gpu.hpp"
+#include "wavetracer/device/beams.h"
+
+namespace wavetracer {
+
+struct BeamLists {
+  explicit BeamLists(gpu::Context& context) : counters(context.buffer<wt_beam_counters>(1, "beam counters")) {}
+  gpu::Buffer<wt_aperture> apertures, next;
+  gpu::Buffer<wt_chunk> chunks;
+  gpu::Buffer<wt_beam_candidate> candidates;  // WT_CHUNK for each chunk
+  gpu::Buffer<wt_beam_counters> counters;
+};
+
+}  // namespace wavetracer

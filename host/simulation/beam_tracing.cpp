@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// All apertures of a depth are looked through, then those of the next. Apertures come in blocks whose candidates fit
+// into their list.
+#include "simulation/beam_tracing.hpp"
+
+#include "passes/advice.hpp"
+#include "passes/growing_list.hpp"
+#include "wavetracer/device/moving.h"
+
+namespace wavetracer {
+namespace {
+
+constexpr uint32_t most_chunks = 1 << 17;         // in one block
+constexpr uint32_t apertures_together = 1 << 16;  // in one block
+constexpr uint32_t faces = 6;                     // a cube has so many
+constexpr uint32_t least_apertures = 1 << 12;
+
+}  // namespace
+
+BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, bool only_opaque,
+                         const FrameWatch* watch)
+    : context_(context), only_opaque_(only_opaque), watch_(watch), facets_(scene, models), lists_(context) {}
+
+// Six faces of a cube around each end.
+void BeamTracing::start(const std::vector<Launcher>& ends) {
+  std::vector<wt_aperture> roots;
+  for (const Launcher& end : ends) {
+    wt_aperture root{};
+    for (int axis = 0; axis < 3; ++axis) root.image[axis] = end.position_m[axis];
+    root.count = 4;
+    root.node = WT_ROOT | end.transmitter;
+    root.surface = WT_NONE;
+    root.own = end.source == WT_NONE ? WT_NONE : end.source & ~WT_OWN;
+    for (const double sign : {-1.0, 1.0})
+      for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+          double* at = root.corners + 3 * corner;
+          std::ranges::copy(root.image, at);
+          at[axis] += sign;
+          at[(axis + 1) % 3] += corner == 0 || corner == 3 ? -1.0 : 1.0;
+          at[(axis + 2) % 3] += corner < 2 ? -1.0 : 1.0;
+        }
+        roots.push_back(root);
+      }
+  }
+  if (lists_.apertures.size() < roots.size())
+    lists_.apertures =
+        context_.buffer<wt_aperture>(std::max<size_t>(roots.size(), least_apertures), {"apertures", advice::links});
+  lists_.apertures.write(roots, 0, Stage::beam_gather);
+  if (lists_.next.size() == 0)
+    lists_.next = context_.buffer<wt_aperture>(least_apertures, {"apertures", advice::links});
+  lists_.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
+  counts_ = {};
+  counts_.ends = ends.size();
+}
+
+// Kernels are made for stacks of a few sizes, so that worlds of similar size share them.
+void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<const Placement> placements) {
+  tree_ = make_beam_tree(context_, facets_.at(instances, placements));
+  if (gather_ && tree_.stack <= stack_) return;
+  stack_ = (tree_.stack + 7) / 8 * 8;
+  gather_.emplace(context_, stack_);
+  if (!visible_) visible_.emplace(context_);
+}
+
+BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launcher>& ends, uint32_t max_depth,
+                             Sequences& set) {
+  start(ends);
+  auto apertures = static_cast<uint32_t>(faces * ends.size());
+  for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
+    if (watch_) watch_->tell("rays", depth - 1, max_depth);
+    counts_.apertures += apertures;
+    if (!look(scene, apertures, {.last = depth == max_depth, .only_opaque = only_opaque_}, set)) {
+      set.regrow(max_depth);
+      start(ends);
+      apertures = static_cast<uint32_t>(faces * ends.size());
+      depth = 0;
+      continue;
+    }
+    wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
+    apertures = now.apertures;
+    now.apertures = 0;
+    lists_.counters.write(std::vector{now}, 0, Stage::beam_visible);
+    std::swap(lists_.apertures, lists_.next);
+  }
+  if (watch_) watch_->tell("rays", max_depth, max_depth);
+  const wt_beam_counters end = lists_.counters.read_one(0, Stage::beam_visible);
+  counts_.depth = max_depth;
+  counts_.kept_whole = end.kept_whole;
+  counts_.left_out_sr = (end.left_out[1] * 0x1p32 + end.left_out[0]) * WT_SR_UNIT;
+  return counts_;
+}
+
+bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set) {
+  const auto list = [&](uint32_t first, uint32_t end) {
+    return (*gather_)(tree_, scene, lists_, first, end - first, step.only_opaque, most_chunks);
+  };
+  const auto take = [&](uint32_t chunks) {
+    counts_.targets += uint64_t{chunks} * WT_CHUNK;
+    see(scene, chunks, step, set.trie());
+  };
+  const auto too_long = [](uint32_t) {
+    throw gpu::BufferError(
+        "one aperture has more facets in its beam than a list holds: a scene of so many triangles "
+        "needs trace.discovery = \"rays\"");
+  };
+  by_parts(
+      apertures, apertures_together, most_chunks, list, take, [](uint32_t) {}, too_long);
+  return lists_.counters.read_one(0, Stage::beam_visible).trie_overflow == 0;
+}
+
+void BeamTracing::see(const DeviceScene& scene, uint32_t chunks, const BeamStep& step, const Trie& set) {
+  const wt_beam_counters before = lists_.counters.read_one(0, Stage::beam_visible);
+  for (;;) {
+    (*visible_)(tree_, scene, lists_, chunks, step, set);
+    const wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
+    if (now.apertures <= lists_.next.size()) return;
+    auto more = context_.buffer<wt_aperture>(now.apertures + now.apertures / 4, {"apertures", advice::links});
+    context_.copy(lists_.next, more, before.apertures * sizeof(wt_aperture), Stage::beam_visible);
+    lists_.next = std::move(more);
+    lists_.counters.write(std::vector{before}, 0, Stage::beam_visible);
+  }
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Discovery by beams: the sequences of surfaces that an end can see in its mirrors, all of them down to a depth, except
+// for beams that are too thin to follow, whose solid angle is told (docs/design/beams.md).
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "passes/beam_gather.hpp"
+#include "passes/beam_visible.hpp"
+#include "passes/sequences.hpp"
+#include "simulation/frame_watch.hpp"
+#include "simulation/launch.hpp"
+
+namespace wavetracer {
+
+class BeamTracing {
+ public:
+  // only_opaque: waves pass other surfaces, which hide nothing then.
+  BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, bool only_opaque,
+              const FrameWatch* watch = nullptr);
+  // Places the instances, before the first discovery and whenever they have moved.
+  void set_world(const std::vector<Instance>& instances, std::span<const Placement> placements);
+  // Enters all sequences of at most max_depth surfaces that these ends see, with every quarter. scene: with the
+  // surfaces that the triangles name.
+  BeamCounts find(const DeviceScene& scene, const std::vector<Launcher>& ends, uint32_t max_depth, Sequences& set);
+
+ private:
+  // Looks through all apertures of a depth. Returns false if the set must grow, and all must begin again.
+  bool look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set);
+  // The same for those of a block whose candidates fit into their list, which has `chunks` of them.
+  void see(const DeviceScene& scene, uint32_t chunks, const BeamStep& step, const Trie& set);
+  void start(const std::vector<Launcher>& ends);
+
+  gpu::Context& context_;
+  bool only_opaque_;
+  const FrameWatch* watch_;
+  WorldFacets facets_;
+  BeamTree tree_;
+  std::optional<BeamGather> gather_;
+  std::optional<BeamVisible> visible_;
+  uint32_t stack_ = 0;
+  BeamLists lists_;
+  BeamCounts counts_;
+};
+
+}  // namespace wavetracer
