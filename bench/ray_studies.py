@@ -65,4 +65,24 @@ def cache_tables(groups):
     return markdown(["10^9 look-ups a second"] + list(sizes), lines, 3) + sources(found)
 
 
-TABLES = {"orders": orders, "sorts": sorts, "cached_frames": cached_frames, "cache_tables": cache_tables}
+def cache_reads(groups):
+    """Returns the speed of puts and look-ups as a share of that of random reads of an entry's 64 bytes in as much memory."""
+    columns = [("two CPU cores", CPU, "16 MB"), ("two CPU cores", CPU, "256 MB"),
+               ("GPU", "NVIDIA", "16 MB"), ("GPU", "NVIDIA", "256 MB"), ("GPU", "NVIDIA", "4 GB")]
+    def row_of(name, operation, device, size):
+        return of_device(groups, "cache", device, f"{size}: {name}, {operation}, against random reads")
+
+    tables, operations = ("concurrent", "chained", "open, mutex", "open, readers"), {"look-up": "keys at random", "put": "put"}
+    columns = [column for column in columns if row_of(tables[0], "put", *column[1:])]
+    if not columns:
+        return ["No device was measured yet."]
+    lines, found = [], []
+    for words, operation in operations.items():
+        for name in tables:
+            rows = [row_of(name, operation, *column[1:]) for column in columns]
+            lines.append([f"{name}: {words}"] + [digits(row["ratio"]) if row else "" for row in rows])
+            found += rows
+    return markdown(["speed beside random reads of 64 bytes"] + [f"{words}, {size}" for words, _, size in columns], lines, len(columns)) + sources(found)
+
+
+TABLES = {"cache_reads": cache_reads, "orders": orders, "sorts": sorts, "cached_frames": cached_frames, "cache_tables": cache_tables}

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verdicts on the claims of A. Zhdanov's thesis on each device.
 
-Usage: verdicts.py [--instead-of DEVICE] [--note TEXT] THESIS_MD...
+Usage: verdicts.py [--instead-of DEVICE] [--apart TEXT] [--note TEXT] THESIS_MD...
 
 Each file is a thesis.md that `wavetracer thesis` has written, for all experiments or for some. The files of one device
 are put together, and replace all verdicts of that device in bench/results/verdicts.csv; report.py makes
-docs/thesis_verdicts.md of that file. --instead-of also removes the verdicts of another device, by the name that the page gives it. The note is
-printed behind the date: it says what else one must know of these runs.
+docs/thesis_verdicts.md of that file. --instead-of also removes the verdicts of another device, by the name that the page gives it. --apart is
+for runs with other settings: they have a column of their own, whose name is that of the device and this text. The note is printed behind the
+date: it says what else one must know of these runs.
 """
 import argparse
 import csv
@@ -40,10 +41,10 @@ def place(row):
     return (0, int(number[1]), "") if number else (1, 0, row["figure"])
 
 
-def of_run(text, note=""):
+def of_run(text, note="", apart=""):
     """Rows of the table of verdicts of one thesis.md."""
     head = {key: re.search(rf"^- {key}: `?([^`\n]*)", text, re.M)[1] for key in ("device", "date", "command")}
-    head["device"] = head["device"].split(" (")[0]
+    head["device"] = head["device"].split(" (")[0] + (f", {apart}" if apart else "")
     head["date"] = head["date"].split(",")[0]
     head["note"] = note
     section = re.search(r"^## Verdicts\n(.*?)^## ", text, re.M | re.S)[1]
@@ -77,6 +78,8 @@ def counts(rows):
     for name, own in of_devices(rows).items():
         for origin in ORIGINS:
             found = [row["verdict"] for row in own if row["origin"] == origin]
+            if not found:
+                continue
             numbers = " | ".join(str(number) for number in [len(found)] + [found.count(word) for word in WORDS])
             lines.append(f"| {name} | {origin} | {numbers} | {origin_of(own)} |")
     return lines
@@ -92,21 +95,22 @@ def page(rows):
              "of the figure; those with \"printed\" are the tables as the thesis prints them, with their faults. A repetition is a claim of "
              "another figure, or the same claim about other tables; repetitions and claims of other authors are counted apart.", ""] + counts(rows)
     for figure in dict.fromkeys(row["figure"] for row in rows):
-        lines += ["", f"## {figure}", "", "| claim | " + " | ".join(devices) + " |", "| --- |" + " --- |" * len(devices)]
+        columns = {name: own for name, own in devices.items() if any(row["figure"] == figure for row in own)}
+        lines += ["", f"## {figure}", "", "| claim | " + " | ".join(columns) + " |", "| --- |" + " --- |" * len(columns)]
         for claim in dict.fromkeys(row["claim"] for row in rows if row["figure"] == figure):
             cells = [next((f"**{row['verdict']}**: {row['measured']}" for row in own
-                           if (row["figure"], row["claim"]) == (figure, claim)), "") for own in devices.values()]
+                           if (row["figure"], row["claim"]) == (figure, claim)), "") for own in columns.values()]
             origin = next(row["origin"] for row in rows if (row["figure"], row["claim"]) == (figure, claim))
             lines.append(f"| {claim}{'' if origin == 'thesis' else f' ({origin})'} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 
-def merged(rows, texts, note="", instead_of=None):
+def merged(rows, texts, note="", instead_of=None, apart=""):
     """`rows` with those of new runs in place of all others of their devices. Two runs of one device must not have the
     same figure. Files without a claim add nothing."""
     new = []
     for text in texts:
-        run = list(of_run(text, note))
+        run = list(of_run(text, note, apart))
         figures = {(row["device"], row["figure"]) for row in run}
         twice = figures & {(row["device"], row["figure"]) for row in new}
         if twice:
@@ -123,10 +127,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", type=pathlib.Path)
     parser.add_argument("--instead-of")
+    parser.add_argument("--apart", default="")
     parser.add_argument("--note", default="")
     options = parser.parse_args()
     rows = merged(read(FILE) if FILE.exists() else [], [path.read_text(encoding="utf-8") for path in options.files], options.note,
-                  options.instead_of)
+                  options.instead_of, options.apart)
     with open(FILE, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         writer.writeheader()

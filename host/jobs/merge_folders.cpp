@@ -155,7 +155,8 @@ FoundParts find_parts(const std::vector<fs::path>& directories) {
   return found;
 }
 
-std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& directory, const std::string& command_line) {
+std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& directory, const std::string& command_line,
+                                  Parts whose) {
   const auto start = std::chrono::steady_clock::now();
   if (found.record.empty())
     throw RuntimeError(found.places.begin()->second.string() + ": run.json is missing, which every run leaves there");
@@ -170,7 +171,7 @@ std::vector<fs::path> merge_found(const FoundParts& found, const fs::path& direc
                        " does not belong to the parts beside it: keys that say which files are written differ, "
                        "such as output.waypoints or response.bandwidth_hz");
   PendingDirectory folder(directory);
-  std::vector<PendingFile> files = merge_outputs(record.config, parts, Parts::foreign, Proof::none, directory,
+  std::vector<PendingFile> files = merge_outputs(record.config, parts, whose, Proof::none, directory,
                                                  [&](const H5Output& output, const fs::path& first, hdf5::File& head) {
                                                    reading_part(first, [&] { copy_head(output, first, head); });
                                                  });

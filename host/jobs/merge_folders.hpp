@@ -25,7 +25,8 @@ struct FoundParts {
 FoundParts find_parts(const std::vector<std::filesystem::path>& directories);
 
 // Writes the outputs into `directory` and returns their paths. The parts are not changed. Throws RuntimeError.
+// whose: own parts are read in this process, which a damaged one may crash.
 std::vector<std::filesystem::path> merge_found(const FoundParts& found, const std::filesystem::path& directory,
-                                               const std::string& command_line);
+                                               const std::string& command_line, Parts whose = Parts::foreign);
 
 }  // namespace wavetracer

@@ -40,6 +40,11 @@ def check_merging():
     assert any(line.endswith("| `old`, 2026-11-01 |") for line in lines), lines
     no_claims = "# Title\n\n- device: A\n- date: B\n- command: `C`\n\n## Verdicts\n\n## Speed\n"
     assert verdicts.merged(old, [no_claims, first, second], note="a note", instead_of="GPU 1") == rows
+    apart = verdicts.merged(rows, [page("GPU 2", "long", ("figure-6.1", "old", "exceeded"))], apart="500 cycles")
+    assert [row["device"] for row in apart[4:]] == ["GPU 2", "GPU 2, 500 cycles"], apart
+    whole = verdicts.page(apart)
+    assert "| claim | two cores | GPU 2 | GPU 2, 500 cycles |" in whole and "| old |  | **refuted**: 2 | **exceeded**: 1.20 |" in whole, whole
+    assert whole.endswith("## cache-step\n\n| claim | two cores |\n| --- | --- |\n| step | **in part**: 1.20 |\n"), whole
     for texts in ([first, first], [no_claims]):
         try:
             verdicts.merged(old, texts)

@@ -109,9 +109,10 @@ TEST_CASE("one ray of each key is traced, the first one, and the others have its
     const kernels::RayCacheStatistics s = cache.statistics();
     CHECK(s.hits == 0);
     CHECK(s.shared == crowd - expected.size());
-    // The next batch is answered by the table, but for open ones, in which entries may lack a place.
+    // The next batch is answered by the table, but for open ones: entries may lack a place there, and a ray that finds
+    // its entry locked is not answered, which happens where many work-items ask at once.
     const size_t missed = cache.look_up(b.rays, crowd, b.hits).count;
-    CHECK(missed <= (kind == "open" ? expected.size() / 2 : 0));
+    CHECK(missed <= (kind == "open" ? expected.size() / 2 + cache.statistics().conflicts : 0));
   }
 }
 
