@@ -70,6 +70,25 @@ void check_rays(const Config& config, Found& out) {
   }
 }
 
+// A feature that needs the rays of every frame: its key, and what it does with them.
+struct RayTaker {
+  const char* key;
+  std::string does;
+};
+
+std::vector<RayTaker> takers_of_rays(const Config& config) {
+  std::vector<RayTaker> out;
+  if (config.trace.by_spheres())
+    out.push_back({"trace.reception", "trace.reception = \"sphere\" takes its paths from the rays of the frame"});
+  if (config.cache.on())
+    out.push_back(
+        {"cache.kind", fmt::format("cache.kind = \"{}\" answers rays of every frame", config.cache.kind.word())});
+  if (config.output.waypoints > 0)
+    out.push_back(
+        {"output.waypoints", fmt::format("output.waypoints = {} writes rays of every frame", config.output.waypoints)});
+  return out;
+}
+
 // Frames without rays only have the sequences of earlier frames.
 void check_discoveries(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
@@ -82,32 +101,22 @@ void check_discoveries(const Config& config, Found& out) {
                                                                       : fmt::format("remove {}", key))});
   };
   if (!trace.reuse) refuse("trace.reuse", "with trace.reuse = false a frame knows only what its own rays find");
-  if (trace.by_spheres())
-    refuse("trace.reception", "trace.reception = \"sphere\" takes its paths from the rays of the frame");
-  if (config.cache.on())
-    refuse("cache.kind", fmt::format("cache.kind = \"{}\" answers rays of every frame", config.cache.kind.word()));
-  if (config.output.waypoints > 0)
-    refuse("output.waypoints",
-           fmt::format("output.waypoints = {} writes rays of every frame", config.output.waypoints));
+  for (const RayTaker& taker : takers_of_rays(config)) refuse(taker.key, taker.does);
 }
 
 // Beams find sequences without rays, so nothing can be taken from rays.
 void check_beams(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.by_beams()) return;
-  const auto refuse = [&](const char* key, const std::string& value, const char* why) {
-    out.push_back({{"trace.discovery", key},
-                   fmt::format("trace.discovery = \"beams\" launches no rays, but {} = {} {}: "
-                               "remove {}, or use trace.discovery = \"rays\"",
-                               key, value, why, key)});
-  };
-  const auto quoted = [](std::string_view word) { return fmt::format("\"{}\"", word); };
-  if (trace.by_spheres()) refuse("trace.reception", quoted("sphere"), "receives rays");
-  if (config.cache.on()) refuse("cache.kind", quoted(config.cache.kind.word()), "keeps what rays met");
-  if (config.output.waypoints > 0)
-    refuse("output.waypoints", std::to_string(config.output.waypoints), "writes points of rays");
+  std::vector<RayTaker> takers = takers_of_rays(config);
   if (trace.discover_every_s > 0)
-    refuse("trace.discover_every_s", fmt::format("{}", trace.discover_every_s), "spares frames their rays");
+    takers.push_back({"trace.discover_every_s",
+                      fmt::format("trace.discover_every_s = {} spares frames their rays", trace.discover_every_s)});
+  for (const RayTaker& taker : takers)
+    out.push_back({{"trace.discovery", taker.key},
+                   fmt::format("trace.discovery = \"beams\" launches no rays, but {}: "
+                               "remove {}, or use trace.discovery = \"rays\"",
+                               taker.does, taker.key)});
 }
 
 // Reception by spheres counts each ray as one sample of the directions that reach a receiver.

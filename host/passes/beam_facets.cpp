@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -132,11 +131,8 @@ void add_facet(std::span<const glm::dvec3> corners, uint32_t surface, Facets& ou
 
 // The facets of a scene or model, in its coordinates and with its numbers of surfaces.
 Facets facets_of(const Scene& scene) {
-  std::vector<uint32_t> order(scene.triangles.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](uint32_t t) { return scene.triangle_surface[t]; });
   std::vector<SurfaceTriangle> triangles;
-  for (const uint32_t t : order) {
+  for (const uint32_t t : scene.surface_triangles) {
     const auto& [a, b, c] = scene.triangles[t];
     triangles.push_back({{scene.vertices[a], scene.vertices[b], scene.vertices[c]}, scene.triangle_surface[t]});
   }

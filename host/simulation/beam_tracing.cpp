@@ -12,7 +12,6 @@ namespace {
 
 constexpr uint32_t most_chunks = 1 << 17;         // in one block
 constexpr uint32_t apertures_together = 1 << 13;  // in one block
-constexpr uint32_t faces = 6;                     // a cube has so many
 constexpr uint32_t least_apertures = 1 << 12;
 
 }  // namespace
@@ -22,7 +21,7 @@ BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::v
     : context_(context), only_opaque_(only_opaque), watch_(watch), facets_(scene, models), lists_(context) {}
 
 // Six faces of a cube around each end.
-void BeamTracing::start(const std::vector<Launcher>& ends) {
+uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
   std::vector<wt_aperture> roots;
   for (const Launcher& end : ends) {
     wt_aperture root{};
@@ -52,6 +51,7 @@ void BeamTracing::start(const std::vector<Launcher>& ends) {
   lists_.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
   counts_ = {};
   counts_.ends = ends.size();
+  return static_cast<uint32_t>(roots.size());
 }
 
 // Kernels are made for stacks of a few sizes, so that worlds of similar size share them.
@@ -65,15 +65,12 @@ void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<co
 
 BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launcher>& ends, uint32_t max_depth,
                              Sequences& set) {
-  start(ends);
-  auto apertures = static_cast<uint32_t>(faces * ends.size());
+  uint32_t apertures = start(ends);
   for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
     if (watch_) watch_->tell("rays", depth - 1, max_depth);
-    counts_.apertures += apertures;
     if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .only_opaque = only_opaque_}, set)) {
       set.regrow(max_depth);
-      start(ends);
-      apertures = static_cast<uint32_t>(faces * ends.size());
+      apertures = start(ends);
       depth = 0;
       continue;
     }
@@ -97,7 +94,6 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped
-    counts_.targets += uint64_t{chunks} * WT_CHUNK;
     see(scene, chunks, step, set.trie());
   };
   const auto too_long = [](uint32_t) {

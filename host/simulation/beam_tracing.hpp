@@ -30,7 +30,8 @@ class BeamTracing {
   bool look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set);
   // The same for those of a block whose candidates fit into their list, which has `chunks` of them.
   void see(const DeviceScene& scene, uint32_t chunks, const BeamStep& step, const Trie& set);
-  void start(const std::vector<Launcher>& ends);
+  // Makes the roots of all ends the apertures, and returns their number.
+  uint32_t start(const std::vector<Launcher>& ends);
 
   gpu::Context& context_;
   bool only_opaque_;

@@ -42,8 +42,6 @@ enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 struct BeamCounts {
   uint32_t depth = 0;       // reflections
   uint64_t ends = 0;        // ends that were looked from
-  uint64_t apertures = 0;   // parts of mirrors that were looked through, ends included
-  uint64_t targets = 0;     // facets that were looked at
   uint64_t kept_whole = 0;  // pieces that something hides in part, but that were followed whole
   double left_out_sr = 0;   // solid angle of beams that were not followed, a bound of the sum over all ends
 };

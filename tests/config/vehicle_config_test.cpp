@@ -236,9 +236,10 @@ TEST_CASE("discovery by beams is refused where something needs rays") {
     check_contains(error_of(beams + line + "\n" + ends), "trace.discovery = \"beams\" launches no rays, but " + words);
     CHECK(error_of(scene + line + "\n" + ends) == "no error");
   };
-  refused("trace.reception = \"sphere\"", "trace.reception = \"sphere\" receives rays: remove trace.reception, or use");
-  refused("cache.kind = \"open\"", "cache.kind = \"open\" keeps what rays met: remove cache.kind");
-  refused("output.waypoints = 5", "output.waypoints = 5 writes points of rays: remove output.waypoints");
+  refused("trace.reception = \"sphere\"",
+          "trace.reception = \"sphere\" takes its paths from the rays of the frame: remove trace.reception, or use");
+  refused("cache.kind = \"open\"", "cache.kind = \"open\" answers rays of every frame: remove cache.kind");
+  refused("output.waypoints = 5", "output.waypoints = 5 writes rays of every frame: remove output.waypoints");
   refused("trace.discover_every_s = 0.1", "trace.discover_every_s = 0.1 spares frames their rays: remove");
   check_contains(error_of(scene + "trace.discovery = \"beam\"\n" + ends), "did you mean \"beams\"");
 }

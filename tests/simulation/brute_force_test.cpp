@@ -8,6 +8,7 @@
 #include "folders.hpp"
 #include "passes/triangles.hpp"
 #include "reference/brute_force.hpp"
+#include "simulation/buildings.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -95,14 +96,6 @@ void check_identical(const std::filesystem::path& scene_file, const Points& tran
 std::vector<Quad> operator+(std::vector<Quad> a, const std::vector<Quad>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-// A box of five faces that stands on z = 0, turned about the vertical.
-std::vector<Quad> building(const glm::dvec3& corner, double turn, double width, double depth, double height) {
-  const glm::dvec3 u{width * std::cos(turn), width * std::sin(turn), 0},
-      v{-depth * std::sin(turn), depth * std::cos(turn), 0};
-  const glm::dvec3 up{0, 0, height};
-  return {{corner, u, up}, {corner + u, v, up}, {corner + v, u, up}, {corner, v, up}, {corner + up, u, v}};
 }
 
 // Buildings on the cells of a grid, and the ground. Streets between them are at least 4 m wide.

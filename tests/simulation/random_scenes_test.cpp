@@ -6,6 +6,7 @@
 
 #include "passes/triangles.hpp"
 #include "reference/brute_force.hpp"
+#include "simulation/buildings.hpp"
 #include "simulation/run.hpp"
 
 using namespace wavetracer;
@@ -25,10 +26,9 @@ std::vector<Quad> random_scene(Random& random) {
   const uint32_t boxes = random.below(3), sheets = 1 + random.below(4), slivers = random.below(3);
   for (uint32_t i = 0; i < boxes; ++i) {
     const double turn = random.between(0, 1.5), width = random.between(1, 6), depth = random.between(1, 6);
-    const glm::dvec3 corner{random.between(-9, 7), random.between(-9, 7), 0}, up{0, 0, random.between(1, 7)},
-        u{width * std::cos(turn), width * std::sin(turn), 0}, v{-depth * std::sin(turn), depth * std::cos(turn), 0};
-    out.insert(out.end(),
-               {{corner, u, up}, {corner + u, v, up}, {corner + v, u, up}, {corner, v, up}, {corner + up, u, v}});
+    const glm::dvec3 corner{random.between(-9, 7), random.between(-9, 7), 0};
+    const std::vector<Quad> box = building(corner, turn, width, depth, random.between(1, 7));
+    out.insert(out.end(), box.begin(), box.end());
   }
   for (uint32_t i = 0; i < sheets + slivers; ++i) {
     const glm::dvec3 u = random.between(2, 8) * random.direction(),
