@@ -11,15 +11,17 @@ namespace wavetracer {
 
 class BeamGather {
  public:
-  explicit BeamGather(gpu::Context& context, uint32_t stack);
-  // Fills lists.chunks from its beginning for apertures first to first + count - 1, and returns their number. The list
+  // depth: the number of nodes from the root of the tree to a leaf, at most.
+  BeamGather(gpu::Context& context, uint32_t depth);
+  // walls: surfaces that are not opaque that a wave may have passed before it is reflected at this depth. Fills
+  // lists.chunks from its beginning for apertures first to first + count - 1, and returns their number. The list
   // grows when it must; if the number is more than `most`, it does not hold them.
   uint32_t operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first, uint32_t count,
-                      bool only_opaque, uint32_t most);
+                      uint32_t walls, uint32_t most);
 
  private:
   gpu::Context& context_;
-  Work work_;
+  uint32_t lanes_;
   gpu::KernelOf<calls::beam_gather::beam_gather> kernel_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of discovery by beams: apertures of one depth and of the next, and the candidates that may be seen through
-// those of this depth, in chunks.
+// The lists of discovery by beams: apertures of one depth and of the next, the candidates that may be seen through
+// those of this depth, in chunks, and the pieces of candidates that take long.
 #pragma once
 #include "gpu/gpu.hpp"
 #include "wavetracer/device/beams.h"
@@ -10,8 +10,10 @@ namespace wavetracer {
 struct BeamLists {
   explicit BeamLists(gpu::Context& context) : counters(context.buffer<wt_beam_counters>(1, "beam counters")) {}
   gpu::Buffer<wt_aperture> apertures, next;
+  gpu::Buffer<wt_lit_space> lit_spaces;  // of the apertures that beam_gather took last
   gpu::Buffer<wt_chunk> chunks;
-  gpu::Buffer<wt_beam_candidate> candidates;  // WT_CHUNK for each chunk
+  gpu::Buffer<wt_beam_candidate> candidates;      // WT_CHUNK for each chunk
+  gpu::Buffer<wt_waiting_piece> pieces, waiting;  // those that beam_waiting takes, and those that it leaves
   gpu::Buffer<wt_beam_counters> counters;
 };
 

@@ -34,7 +34,9 @@ AccelTriangle facet_box(const Facets& facets, uint32_t i) {
 BeamTree make_beam_tree(gpu::Context& context, const Facets& facets) {
   std::vector<AccelTriangle> boxes(facets.facets.size());
   for (uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = facet_box(facets, i);
-  const BinaryTree binary = build_binary(boxes, BuildOptions::for_bvh2());
+  BuildOptions options = BuildOptions::for_bvh2();
+  options.max_leaf = 1;
+  const BinaryTree binary = build_binary(boxes, options);
   const Bvh2 tree = make_bvh2(binary, boxes);
   std::vector<wt_facet> ordered;
   std::vector<double> corners;
@@ -49,7 +51,7 @@ BeamTree make_beam_tree(gpu::Context& context, const Facets& facets) {
   return {.nodes = context.buffer(tree.nodes, {"beam tree", advice::scene}),
           .facets = context.buffer(ordered, {"beam facets", advice::scene}),
           .corners = context.buffer(corners, {"beam facets", advice::scene}),
-          .stack = tree.max_depth + 1};
+          .depth = tree.max_depth + 1};
 }
 
 }  // namespace wavetracer

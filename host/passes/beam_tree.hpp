@@ -12,7 +12,7 @@ struct BeamTree {
   gpu::Buffer<wt_bvh2_node> nodes;
   gpu::Buffer<wt_facet> facets;  // in the order of the leaves
   gpu::Buffer<double> corners;   // three doubles each, in the order of the facets
-  uint32_t stack = 0;            // entries that a traversal needs
+  uint32_t depth = 0;            // nodes from the root to a leaf, at most; a leaf has one facet
 };
 
 // Throws InputError for a coordinate that float32 cannot hold.

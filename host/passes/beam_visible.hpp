@@ -14,20 +14,27 @@ namespace wavetracer {
 // The way that a depth is looked at.
 struct BeamStep {
   uint32_t depth = 1, max_depth = 1;  // at the last depth no apertures are made
-  bool only_opaque = false;           // waves pass surfaces that are not opaque
+  uint32_t walls = 0;                 // as for beam_gather
 };
 
 class BeamVisible {
  public:
   explicit BeamVisible(gpu::Context& context);
-  // Looks at the candidates of the first `chunks` of lists.chunks, and appends to lists.next, which may be too short
-  // for all (wt_beam_counters::apertures). All quarters have found the sequences.
-  void operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t chunks,
-                  const BeamStep& step, const Trie& set);
+  // Looks at the candidates of the first `chunks` of lists.chunks, which beam_gather made for apertures from
+  // first_aperture on, and appends to lists.next. All quarters have found the sequences. If the trie is too small,
+  // wt_beam_counters::trie_overflow is set, and all must begin again.
+  void operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
+                  uint32_t chunks, const BeamStep& step, const Trie& set);
 
  private:
-  Work work_;
-  gpu::KernelOf<calls::beam_visible::beam_visible> kernel_;
+  // Runs both kernels once, until no pieces wait or their list is too short. Returns the counters.
+  wt_beam_counters run(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
+                       uint32_t chunks, const BeamStep& step, const Trie& set);
+
+  gpu::Context& context_;
+  uint32_t lanes_, targets_;
+  gpu::KernelOf<calls::beam_visible::beam_visible> visible_;
+  gpu::KernelOf<calls::beam_visible::beam_waiting> waiting_;
 };
 
 }  // namespace wavetracer

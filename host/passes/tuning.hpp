@@ -70,9 +70,11 @@ struct Tuning {
   Work sequences;
   uint32_t busy_nodes;  // commute: nodes that keep the device busy
   Work candidates, exact, prefixes;
-  uint32_t join_lanes, join_group;    // wedge_join: work-items per prefix
-  uint32_t pairs_lanes, pairs_group;  // wedge_pairs: work-items per group of prefixes
-  Work tiles;                         // rows of scatter
+  uint32_t join_lanes, join_group;          // wedge_join: work-items per prefix
+  uint32_t pairs_lanes, pairs_group;        // wedge_pairs: work-items per group of prefixes
+  Work tiles;                               // rows of scatter
+  uint32_t gather_lanes;                    // beam_gather: work-items per aperture
+  uint32_t visible_lanes, visible_targets;  // beam_visible: work-items per group, candidates that a group takes in turn
 
   // The work-items per node that commute takes: each exchange waits for memory several times in a row.
   uint32_t exchange_lanes(uint32_t nodes) const { return nodes < busy_nodes ? 4 : 1; }
@@ -128,6 +130,9 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       .pairs_group = 32,
       // One search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},
+      .gather_lanes = cpu ? 1u : 128u,
+      .visible_lanes = cpu ? 1u : 32u,
+      .visible_targets = cpu ? 32u : 1u,
       // CPUs: one launch reads once, two read twice. Two free cores gain 1.07 at 2^18 counts, 1.3 at 2^20 and 2^22,
       // 1.15 at 2^24 (PoCL, medians of 80); if another program keeps one of them busy, two launches take 1.2 to 1.4
       // times as long. So two launches are used above 2^19. GPUs: not measured.

@@ -16,9 +16,13 @@ constexpr uint32_t least_apertures = 1 << 12;
 
 }  // namespace
 
-BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, bool only_opaque,
-                         const FrameWatch* watch)
-    : context_(context), only_opaque_(only_opaque), watch_(watch), facets_(scene, models), lists_(context) {}
+BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
+                         uint32_t max_transmissions, const FrameWatch* watch)
+    : context_(context),
+      max_transmissions_(max_transmissions),
+      watch_(watch),
+      facets_(scene, models),
+      lists_(context) {}
 
 // Six faces of a cube around each end.
 uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
@@ -54,12 +58,12 @@ uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
   return static_cast<uint32_t>(roots.size());
 }
 
-// Kernels are made for stacks of a few sizes, so that worlds of similar size share them.
+// Kernels are made for a few depths, so that worlds of similar size share them.
 void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<const Placement> placements) {
   tree_ = make_beam_tree(context_, facets_.at(instances, placements));
-  if (gather_ && tree_.stack <= stack_) return;
-  stack_ = (tree_.stack + 7) / 8 * 8;
-  gather_.emplace(context_, stack_);
+  if (gather_ && tree_.depth <= depth_) return;
+  depth_ = (tree_.depth + 7) / 8 * 8;
+  gather_.emplace(context_, depth_);
   if (!visible_) visible_.emplace(context_);
 }
 
@@ -68,7 +72,9 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launche
   uint32_t apertures = start(ends);
   for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
     if (watch_) watch_->tell("rays", depth - 1, max_depth);
-    if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .only_opaque = only_opaque_}, set)) {
+    // Each wall that a wave passes also counts as an interaction.
+    const uint32_t walls = std::min(max_transmissions_, max_depth - depth);
+    if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .walls = walls}, set)) {
       set.regrow(max_depth);
       apertures = start(ends);
       depth = 0;
@@ -83,18 +89,19 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launche
   if (watch_) watch_->tell("rays", max_depth, max_depth);
   const wt_beam_counters end = lists_.counters.read_one(0, Stage::beam_visible);
   counts_.depth = max_depth;
-  counts_.kept_whole = end.kept_whole;
   counts_.left_out_sr = (end.left_out[1] * 0x1p32 + end.left_out[0]) * WT_SR_UNIT;
   return counts_;
 }
 
 bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set) {
+  uint32_t block = 0;  // its first aperture
   const auto list = [&](uint32_t first, uint32_t end) {
-    return (*gather_)(tree_, scene, lists_, first, end - first, step.only_opaque, most_chunks);
+    block = first;
+    return (*gather_)(tree_, scene, lists_, first, end - first, step.walls, most_chunks);
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped
-    see(scene, chunks, step, set.trie());
+    (*visible_)(tree_, scene, lists_, block, chunks, step, set.trie());
   };
   const auto too_long = [](uint32_t) {
     throw gpu::BufferError(
@@ -104,19 +111,6 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
   by_parts(
       apertures, apertures_together, most_chunks, list, take, [](uint32_t) {}, too_long);
   return lists_.counters.read_one(0, Stage::beam_visible).trie_overflow == 0;
-}
-
-void BeamTracing::see(const DeviceScene& scene, uint32_t chunks, const BeamStep& step, const Trie& set) {
-  const wt_beam_counters before = lists_.counters.read_one(0, Stage::beam_visible);
-  for (;;) {
-    (*visible_)(tree_, scene, lists_, chunks, step, set);
-    const wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
-    if (now.apertures <= lists_.next.size()) return;
-    auto more = context_.buffer<wt_aperture>(now.apertures + now.apertures / 4, {"apertures", advice::links});
-    context_.copy(lists_.next, more, before.apertures * sizeof(wt_aperture), Stage::beam_visible);
-    lists_.next = std::move(more);
-    lists_.counters.write(std::vector{before}, 0, Stage::beam_visible);
-  }
 }
 
 }  // namespace wavetracer

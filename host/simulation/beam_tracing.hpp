@@ -16,8 +16,8 @@ namespace wavetracer {
 
 class BeamTracing {
  public:
-  // only_opaque: waves pass other surfaces, which hide nothing then.
-  BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, bool only_opaque,
+  // max_transmissions: surfaces that are not opaque that a path may pass; each counts as an interaction too.
+  BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, uint32_t max_transmissions,
               const FrameWatch* watch = nullptr);
   // Places the instances, before the first discovery and whenever they have moved.
   void set_world(const std::vector<Instance>& instances, std::span<const Placement> placements);
@@ -28,19 +28,17 @@ class BeamTracing {
  private:
   // Looks through all apertures of a depth. Returns false if the set must grow, and all must begin again.
   bool look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set);
-  // The same for those of a block whose candidates fit into their list, which has `chunks` of them.
-  void see(const DeviceScene& scene, uint32_t chunks, const BeamStep& step, const Trie& set);
   // Makes the roots of all ends the apertures, and returns their number.
   uint32_t start(const std::vector<Launcher>& ends);
 
   gpu::Context& context_;
-  bool only_opaque_;
+  uint32_t max_transmissions_;
   const FrameWatch* watch_;
   WorldFacets facets_;
   BeamTree tree_;
   std::optional<BeamGather> gather_;
   std::optional<BeamVisible> visible_;
-  uint32_t stack_ = 0;
+  uint32_t depth_ = 0;  // the trees of this depth that gather_ can walk
   BeamLists lists_;
   BeamCounts counts_;
 };

@@ -77,7 +77,8 @@ std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan,
 std::unique_ptr<BeamTracing> make_beams(gpu::Context& context, const RunPlan& plan, const FrameWatch& watch) {
   if (!plan.trace.by_beams()) return nullptr;
   const Fleet& fleet = plan.world.fleet;
-  auto out = std::make_unique<BeamTracing>(context, plan.scene, fleet.models, plan.trace.transmission, &watch);
+  auto out = std::make_unique<BeamTracing>(context, plan.scene, fleet.models,
+                                           plan.trace.transmission ? plan.trace.max_transmissions : 0, &watch);
   out->set_world(fleet.instances, plan.world.state(0).instances);
   return out;
 }

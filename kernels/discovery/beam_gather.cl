@@ -1,121 +1,164 @@
 // SPDX-License-Identifier: Apache-2.0
 // beam_gather: lists the facets that an image may see through an aperture, or that may hide others there, near ones
-// first. Much of what nothing shows is left out already: what one of a few large facets hides as a whole. One aperture
-// per work-item; it walks the tree of facets with the planes of the beam.
-#include "lib/screens.clh"
+// first. Much of what nothing shows is left out already: what one of a few large facets hides as a whole. A group of
+// WT_LANES work-items takes one aperture; it walks the tree of facets with the planes of the beam.
+#include "lib/beam_walk.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// The list that a work-item writes.
+// The list that a group writes.
 typedef struct {
   uint aperture, first, last, count;
+  uint fresh;  // the chunk that follows the last one, if the present facets need one
 } wt_list;
 
-inline void append(wt_list* list, global wt_chunk* chunks, global wt_beam_candidate* candidates,
-                   global wt_beam_counters* counters, uint capacity, const wt_view_box* box, uint facet,
-                   int may_reflect) {
-  if (list->count == WT_CHUNK || list->first == WT_NONE) {
-    const uint chunk = atomic_inc(&counters->chunks);
-    if (list->first == WT_NONE)
-      list->first = chunk;
-    else if (list->last < capacity)
-      chunks[list->last] = (wt_chunk){list->aperture, list->first, chunk, WT_CHUNK};
-    list->last = chunk;
-    list->count = 0;
-  }
-  if (list->last < capacity)
-    candidates[(size_t)list->last * WT_CHUNK + list->count] = (wt_beam_candidate){
-        box->low_u, box->high_u, box->low_v, box->high_v, box->nearest, box->farthest, facet, may_reflect};
-  ++list->count;
-}
+// The facets that are looked at together.
+typedef struct {
+  wt_beam_candidate candidates[WT_BATCH];
+  wt_screen screens[WT_BATCH];
+  uint listed[WT_BATCH], is_screen[WT_BATCH];
+} wt_look;
+
+// The world, and one aperture in it.
+typedef struct {
+  const global wt_facet* facets;
+  const global double* corners;
+  const global wt_exact_surface* surfaces;
+  const global wt_aperture* aperture;
+  const global wt_lit_space* lit;
+  double3 apex;
+  wt_view view;
+  double reach;
+  uint walls;  // that waves may have passed
+} wt_scene_view;
 
 // May a surface be the next mirror? The last one may not, nor the instance of the end at a root, nor a plane that the
 // image lies on.
-inline int may_reflect(const global wt_aperture* aperture, const global wt_exact_surface* surfaces, uint surface,
-                       double3 apex) {
+inline int may_reflect(const wt_scene_view* at, uint surface) {
+  const global wt_aperture* aperture = at->aperture;
   if (surface == aperture->surface) return 0;
-  const global wt_exact_surface* s = surfaces + surface;
+  const global wt_exact_surface* s = at->surfaces + surface;
   if (aperture->own != WT_NONE && s->instance == aperture->own) return 0;
-  return fabs(wt_plane_height(s, apex)) > (aperture->surface == WT_NONE ? WT_ON_SURFACE_M : 1e-9);
+  return fabs(wt_plane_height(s, at->apex)) > (aperture->surface == WT_NONE ? WT_ON_SURFACE_M : 1e-9);
 }
 
-// The beam through an aperture, and what lies in it so far.
-typedef struct {
-  const global wt_aperture* aperture;
-  double3 apex;
-  wt_view view;
-  wt_cone cone;
-  wt_planes planes;
-  wt_view_box box;
-  wt_screens screens;
-  double reach;  // the distance of the farthest point of the world from the image
-} wt_beam_walk;
-
-inline void begin_walk(const global wt_aperture* aperture, const global wt_exact_surface* surfaces,
-                       wt_beam_walk* walk) {
-  walk->aperture = aperture;
-  walk->apex = wt_vector(aperture->image);
-  walk->reach = 0.0;
-  wt_view_through(aperture, surfaces, walk->apex, &walk->view);
-  wt_beam_through(aperture, &walk->view, walk->apex, &walk->cone, &walk->box);
-  wt_set_planes(&walk->cone, &walk->planes);
-  wt_no_screens(&walk->view, &walk->box, &walk->screens);
-}
-
-// Lists a facet if it may be seen or may hide others.
-inline void visit(wt_beam_walk* walk, const global wt_facet* facets, uint f, const global double* corners,
-                  const global wt_exact_surface* surfaces, wt_list* list, global wt_chunk* chunks,
-                  global wt_beam_candidate* candidates, global wt_beam_counters* counters, wt_beam_arguments args) {
-  const global wt_facet* facet = facets + f;
+// Looks at one facet: it is listed if it may be seen or may hide others.
+inline void look_at(const wt_scene_view* at, uint f, const local wt_beam_walk* walk, local wt_look* look, uint k) {
+  look->listed[k] = look->is_screen[k] = 0;
+  const global wt_facet* facet = at->facets + f;
   wt_outline o;
-  wt_load_outline(facet, corners, walk->apex, &o);
+  wt_load_outline(facet, at->corners, at->apex, &o);
   wt_view_box box;
-  if (wt_outline_outside(&walk->cone, &o) || !wt_box_of(&walk->view, &o, &walk->box, &box) ||
+  if (wt_outline_outside(at->lit, &o) || !wt_box_of(&at->view, &o, at->lit, &box) ||
       wt_outline_hidden(&walk->screens, &o))
     return;
-  const int reflects = may_reflect(walk->aperture, surfaces, facet->surface, walk->apex);
+  const int reflects = may_reflect(at, facet->surface);
   wt_hider hider;
-  const int hides = wt_may_hide(walk->aperture, surfaces, facet->surface, args.only_opaque) &&
-                    wt_hidden_space(facet, &walk->view, walk->apex, &o, &hider);
-  if (reflects || hides) append(list, chunks, candidates, counters, args.capacity, &box, f, reflects);
-  wt_screen screen;
-  if (hides && wt_screen_of(&hider, &walk->screens.lit, &o, walk->reach, &box, &screen))
-    wt_keep_screen(&screen, &walk->screens);
+  const int hides = wt_may_hide(at->aperture, at->surfaces, facet->surface) &&
+                    wt_hidden_space(facet, &at->view, at->apex, &o, &hider);
+  if (!reflects && !hides) return;
+  look->listed[k] = 1;
+  look->candidates[k] =
+      (wt_beam_candidate){box.low_u, box.high_u, box.low_v, box.high_v, box.nearest, box.farthest, f, (uint)reflects};
+  look->is_screen[k] = hides && wt_is_opaque(at->aperture, at->surfaces, facet->surface, at->walls) &&
+                       wt_screen_of(&hider, &at->view, at->lit, &o, at->reach, &box, look->screens + k);
 }
 
-// Puts the children of a node that the beam meets on the stack, the nearer one on top. Returns the new height.
-inline int visit_children(wt_beam_walk* walk, const global wt_bvh2_node* nodes, int node, int* stack, int top) {
-  double3 centre[2], half_size[2];
-  int meets[2];
-  for (uint side = 0; side < 2; ++side) {
-    wt_child_box(nodes + node, side, walk->apex, centre + side, half_size + side);
-    if (node == 0) walk->reach = fmax(walk->reach, wt_length3(centre[side]) + wt_length3(half_size[side]));
-    const float3 c = convert_float3(centre[side]), h = convert_float3(half_size[side]);
-    meets[side] = !wt_box_outside(&walk->planes, c, h) && !wt_box_hidden(&walk->screens, c, h);
+// Is a facet hidden by a new screen, one of the facets that are looked at together?
+inline int hidden_by_others(const wt_scene_view* at, const local wt_look* look, uint count, uint k) {
+  wt_outline o;
+  uint loaded = 0;
+  for (uint j = 0; j < count; ++j) {
+    if (!look->is_screen[j] || j == k) continue;
+    if (!loaded) wt_load_outline(at->facets + look->candidates[k].facet, at->corners, at->apex, &o);
+    loaded = 1;
+    if (wt_outline_behind(look->screens + j, &o)) return 1;
   }
-  const uint far = wt_dot3(walk->view.n, centre[0]) < wt_dot3(walk->view.n, centre[1]);
-  if (meets[far]) stack[top++] = nodes[node].child[far];
-  if (meets[!far]) stack[top++] = nodes[node].child[!far];
-  return top;
+  return 0;
+}
+
+// Makes room for `more` candidates: sets list->fresh if they do not all fit into the last chunk.
+inline void make_room(local wt_list* list, uint more, global wt_chunk* chunks, global wt_beam_counters* counters,
+                      uint capacity) {
+  if (list->count + more <= WT_CHUNK) return;
+  list->fresh = atomic_inc(&counters->chunks);
+  if (list->first == WT_NONE)
+    list->first = list->fresh;
+  else if (list->last < capacity)
+    chunks[list->last] = (wt_chunk){list->aperture, list->first, list->fresh, WT_CHUNK};
+}
+
+// Looks at the first `count` facets that wait, lists them in their order, and keeps the largest as screens.
+inline void look_at_facets(const wt_scene_view* at, uint count, local wt_beam_walk* walk, local wt_look* look,
+                           local wt_list* list, global wt_chunk* chunks, global wt_beam_candidate* candidates,
+                           global wt_beam_counters* counters, uint capacity) {
+  const uint lane = wt_lane();
+  for (uint k = lane; k < count; k += WT_LANES) look_at(at, wt_leaf_first(walk->reached[k]), walk, look, k);
+  WT_SYNC();
+  if (lane == 0)
+    for (uint k = 0; k < count; ++k)
+      look->is_screen[k] = look->is_screen[k] && wt_keep_screen(look->screens + k, &walk->screens);
+  WT_SYNC();
+  for (uint k = lane; k < count; k += WT_LANES)
+    if (look->listed[k]) look->listed[k] = !hidden_by_others(at, look, count, k);
+  WT_SYNC();
+  uint more = 0;
+  for (uint k = 0; k < count; ++k) more += look->listed[k];
+  if (lane == 0) make_room(list, more, chunks, counters, capacity);
+  WT_SYNC();
+  uint slot = list->count;
+  for (uint k = lane; k < count; k += WT_LANES) {
+    for (uint j = k < WT_LANES ? 0 : k - WT_LANES; j < k; ++j) slot += look->listed[j];
+    const uint chunk = slot < WT_CHUNK ? list->last : list->fresh;
+    if (look->listed[k] && chunk < capacity)
+      candidates[(size_t)chunk * WT_CHUNK + slot % WT_CHUNK] = look->candidates[k];
+  }
+  // Fewer than WT_BATCH facets wait after these, so those that move down meet no others.
+  for (uint k = count + lane; k < walk->waiting; k += WT_LANES) walk->reached[k - count] = walk->reached[k];
+  WT_SYNC();
+  if (lane == 0) {
+    walk->waiting -= count;
+    list->count += more;
+    if (list->count > WT_CHUNK) {
+      list->last = list->fresh;
+      list->count -= WT_CHUNK;
+    }
+  }
+  WT_SYNC();
 }
 
 kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet* facets, const global double* corners,
                         const global wt_exact_surface* surfaces, const global wt_aperture* apertures,
-                        global wt_chunk* chunks, global wt_beam_candidate* candidates,
+                        global wt_lit_space* lit_spaces, global wt_chunk* chunks, global wt_beam_candidate* candidates,
                         global wt_beam_counters* counters, wt_beam_arguments args) {
-  if (get_global_id(0) >= args.count) return;
-  const uint i = args.first + get_global_id(0);
-  wt_beam_walk walk;
-  begin_walk(apertures + i, surfaces, &walk);
-  wt_list list = {i, WT_NONE, WT_NONE, 0};
-  int stack[WT_BEAM_STACK];
-  stack[0] = 0;
-  for (int top = 1; top > 0;) {
-    const int node = stack[--top];
-    if (node >= 0)
-      top = visit_children(&walk, nodes, node, stack, top);
-    else
-      for (uint f = wt_leaf_first(node); f < wt_leaf_end(node); ++f)
-        visit(&walk, facets, f, corners, surfaces, &list, chunks, candidates, counters, args);
+  local wt_beam_walk walk;
+  local wt_look look;
+  local wt_list list;
+  const uint i = args.first + get_group_id(0), lane = wt_lane();
+  global wt_lit_space* lit = lit_spaces + get_group_id(0);
+  if (lane == 0) {
+    wt_set_lit_space(apertures + i, surfaces, lit);
+    wt_begin_walk(lit, &walk);
+    list.aperture = i;
+    list.first = list.last = WT_NONE;
+    list.count = WT_CHUNK;  // the first candidate needs a chunk
+    if (apertures[i].passed > args.walls) walk.top = 0;
   }
-  if (list.last < args.capacity) chunks[list.last] = (wt_chunk){i, list.first, WT_NONE, list.count};
+  WT_SYNC();
+  wt_scene_view at = {.facets = facets,
+                      .corners = corners,
+                      .surfaces = surfaces,
+                      .aperture = apertures + i,
+                      .lit = lit,
+                      .apex = wt_vector(apertures[i].image),
+                      .walls = args.walls};
+  wt_load_view(lit, &at.view);
+  at.reach = wt_reach_of(nodes, at.apex);
+  while (walk.top > 0 || walk.waiting > 0) {
+    if (walk.waiting >= WT_BATCH || walk.top == 0)
+      look_at_facets(&at, min(walk.waiting, WT_BATCH), &walk, &look, &list, chunks, candidates, counters,
+                     args.capacity);
+    else
+      wt_descend(nodes, at.apex, at.view.n, &walk);
+  }
+  if (lane == 0 && list.last < args.capacity) chunks[list.last] = (wt_chunk){i, list.first, WT_NONE, list.count};
 }

@@ -65,7 +65,7 @@ inline SeenByBeams seen_by_beams(const std::vector<Corners>& triangles, const gl
                                  size_t slots = 1 << 16) {
   const Scene scene = scene_of_triangles(triangles);
   const DeviceScene device = make_device_scene(context(), scene, false);
-  BeamTracing beams(context(), scene, {}, false);
+  BeamTracing beams(context(), scene, {}, 0);
   beams.set_world({}, {});
   Sequences set(context(), slots);
   set.clear();

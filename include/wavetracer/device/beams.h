@@ -8,8 +8,10 @@
 // the polygon is larger.
 #define WT_FACET_CORNERS 8u
 #define WT_CORNERS 12u
-// The most pieces of a facet that wait to be cut by the next candidates. Where more would wait, a cut is left out.
+// The most pieces of a facet that wait in a group to be cut by the next candidates.
 #define WT_PIECES 24u
+// The most walls that a piece knows to be between it and the image. Where more would be, they hide nothing.
+#define WT_WALLS 8u
 // Candidates of an aperture are stored in chunks of this many.
 #define WT_CHUNK 32u
 // Pieces that fill less of the source's sphere are not followed, but counted, steradians.
@@ -36,7 +38,22 @@ typedef struct {
   wt_uint node;     // the trie's node of the sequence that ends at the mirror, or a root
   wt_uint surface;  // the mirror; WT_NONE at a root
   wt_uint own;      // the instance that carries the end; it neither reflects nor hides at a root. WT_NONE: no instance
+  wt_uint passed;   // walls that waves have passed on their way to the mirror
+  wt_uint padding;
 } wt_aperture;
+
+// The most planes of a lit space: sides, the mirror, and the sides of a box.
+#define WT_LIT_PLANES (WT_CORNERS + 5u)
+
+// The space that an image lights through an aperture. Coordinates are relative to the image.
+typedef struct {
+  double n[3], u[3], v[3];  // the view: a point p is at (u . p, v . p) / (n . p), and n . p > 0 for all that is lit
+  double height;            // n . p >= height beyond the mirror; 0 at a root
+  double planes[4 * WT_LIT_PLANES];    // inside: n . p >= c, as n[3], c
+  float low_u, high_u, low_v, high_v;  // the box of the aperture in the view
+  wt_uint count;                       // planes
+  wt_uint padding;
+} wt_lit_space;
 
 // A facet that an image may see through an aperture, and the part of its view that the facet lies in: a point p from
 // the image on is at (u . p, v . p) / (n . p), and 1 / (n . p) falls with its depth (lib/view.clh).
@@ -54,22 +71,38 @@ typedef struct {
   wt_uint count;  // candidates
 } wt_chunk;
 
-// Counters of both kernels.
+// Surfaces that waves pass between an image and a piece, each once where several are one wall.
+typedef struct {
+  wt_uint surface[WT_WALLS];
+  wt_uint count;
+} wt_walls;
+
+// A piece of a facet that is not cut to the end yet: corners in the plane of the facet's surface, m.
+typedef struct {
+  double u[WT_CORNERS], v[WT_CORNERS];
+  wt_uint count;      // corners
+  wt_uint candidate;  // the facet
+  wt_uint next;       // the next candidate that may hide some of it, WT_NONE: there is none
+  wt_walls walls;
+} wt_waiting_piece;
+
+// Counters of the kernels.
 typedef struct {
   wt_uint left_out[2];    // solid angle of pieces that are not followed, in WT_SR_UNIT: low word, high word
   wt_uint chunks;         // may exceed the capacity: grow and run again
   wt_uint apertures;      // as chunks
   wt_uint trie_overflow;  // not 0: no slot was found
-  wt_uint kept_whole;     // pieces that were not cut, since there was no room for more of them
+  wt_uint waiting;        // as chunks: pieces that are not cut to the end
 } wt_beam_counters;
 
 typedef struct {
-  wt_uint first;     // apertures from this one on (beam_gather)
+  wt_uint first;     // the first aperture
   wt_uint count;     // apertures (beam_gather) or chunks (beam_visible)
-  wt_uint capacity;  // the length of the list that is written
+  wt_uint capacity;  // the length of the list of chunks (beam_gather) or apertures (beam_visible) that is written
+  wt_uint waiting_capacity;
   wt_uint trie_mask;
-  wt_uint last;         // not 0: nodes are entered, and no apertures are made
-  wt_uint only_opaque;  // not 0: waves pass surfaces that are not opaque, so only opaque ones hide
+  wt_uint last;   // not 0: nodes are entered, and no apertures are made
+  wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
 } wt_beam_arguments;
 
 #endif
