@@ -53,7 +53,7 @@ class FrameKernels {
     std::map<std::string_view, std::vector<Sample>> first, later;
     for (uint32_t run = 0; run <= rows_.runs(); ++run) {
       const FrameResult frame = simulation.run_frame(world.frames > 1 ? run % world.frames : 0);
-      const FrameNumbers numbers{frame, world.config, triangles, tuning.slots.per_item, tuning.block};
+      const FrameNumbers numbers{frame, world.config, triangles, tuning};
       for (const auto& [kernel, time] : frame.kernels) ran_.insert(kernel);
       for (const KernelCost& cost : kernel_costs()) {
         const auto time = frame.kernels.find(std::string(cost.kernel));

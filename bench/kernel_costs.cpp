@@ -47,9 +47,9 @@ double items_of(N n) {
 // Slots of the table of sequences, of which a work-item takes several.
 template <Name kernel>
 double slots_of(N n) {
-  return n.items(kernel.text) * n.slots_per_item;
+  return n.items(kernel.text) * n.tuning.slots.per_item;
 }
-double blocks_of_rays(N n) { return std::ceil(segments(n) / n.rays_per_block); }
+double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 double met_nodes(N n) { return std::min(n.items("sequences/commute"), nodes(n)); }
 
 double scene_operations(N n) { return tree_operations(n.triangles); }
@@ -95,6 +95,12 @@ double vegetation_bytes(N n) { return solved_bytes(n) + sizeof(double); }
 double vegetation_operations(N n) { return (n.depth() + 1) * 2 * box_operations; }
 double scatter_bytes(N) { return sizeof(wt_solved) + 2 * 3 * sizeof(double) + word; }
 
+double apertures(N n) { return n.items("beam_gather/beam_gather") / n.tuning.gather_lanes; }
+double candidates_of_beams(N n) {
+  return n.items("beam_visible/beam_visible") / n.tuning.visible_lanes * n.tuning.visible_targets;
+}
+double waiting_pieces(N n) { return n.items("beam_visible/beam_waiting") / n.tuning.visible_lanes; }
+
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
     {"generate_rays/generate_launchers", "diffraction", "rays", rays, always<32>, always<20>},
@@ -122,10 +128,10 @@ constexpr KernelCost costs[] = {
     {"distinct/order_rows", "reflections", "rows", items_of<"distinct/order_rows">, always<40>, nothing},
     {"fields/fields", "reflections", "paths", path_rows, row_bytes, field_operations, true},
 
-    {"beam_gather/beam_gather", "beams", "apertures", items_of<"beam_gather/beam_gather">, always<sizeof(wt_aperture)>,
-     scene_operations},
-    {"beam_visible/beam_visible", "beams", "candidates", items_of<"beam_visible/beam_visible">,
-     always<sizeof(wt_beam_candidate)>, nothing},
+    {"beam_gather/beam_gather", "beams", "apertures", apertures, always<sizeof(wt_aperture)>, scene_operations},
+    {"beam_visible/beam_visible", "beams", "candidates", candidates_of_beams, always<sizeof(wt_beam_candidate)>,
+     nothing},
+    {"beam_visible/beam_waiting", "beams", "pieces", waiting_pieces, always<sizeof(wt_waiting_piece)>, nothing},
 
     {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},

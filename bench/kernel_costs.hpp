@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "passes/tuning.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::bench {
@@ -14,9 +15,8 @@ namespace wavetracer::bench {
 struct FrameNumbers {
   const FrameResult& frame;
   const Config& config;
-  size_t triangles;         // in the static scene
-  uint32_t slots_per_item;  // Tuning::slots
-  uint32_t rays_per_block;  // Tuning::block
+  size_t triangles;  // in the static scene
+  const Tuning& tuning;
 
   double transmitters() const { return static_cast<double>(frame.world.transmitters.size()); }
   double receivers() const { return static_cast<double>(frame.world.receivers.size()); }

@@ -17,7 +17,8 @@ Table trace_table() {
                   "beams: what each end sees is followed as a whole, mirror by mirror; this misses nothing but what "
                   "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
                   "the keys about rays, such as trace.rays, and keep nothing from frame to frame. With "
-                  "trace.transmission surfaces that let waves pass hide nothing, which takes long in large scenes."},
+                  "trace.transmission they follow waves through up to trace.max_transmissions surfaces, which takes "
+                  "some times as long."},
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays per transmitter",

@@ -48,6 +48,7 @@ uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, 
                                               .capacity = static_cast<uint32_t>(lists.chunks.size()),
                                               .waiting_capacity = 0,
                                               .trie_mask = 0,
+                                              .round = 0,
                                               .last = 0,
                                               .walls = walls}});
       },

@@ -27,12 +27,12 @@ class BeamVisible {
                   uint32_t chunks, const BeamStep& step, const Trie& set);
 
  private:
-  // Runs both kernels once, until no pieces wait or their list is too short. Returns the counters.
+  // Runs both kernels until no pieces wait or their list is too short. Returns the counters.
   wt_beam_counters run(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
                        uint32_t chunks, const BeamStep& step, const Trie& set);
 
   gpu::Context& context_;
-  uint32_t lanes_, targets_;
+  uint32_t lanes_, targets_, groups_;
   gpu::KernelOf<calls::beam_visible::beam_visible> visible_;
   gpu::KernelOf<calls::beam_visible::beam_waiting> waiting_;
 };

@@ -11,7 +11,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint32_t most_chunks = 1 << 17;         // in one block
-constexpr uint32_t apertures_together = 1 << 13;  // in one block
+constexpr uint32_t apertures_together = 1 << 15;  // in one block
 constexpr uint32_t least_apertures = 1 << 12;
 
 }  // namespace

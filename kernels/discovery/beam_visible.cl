@@ -2,14 +2,17 @@
 // beam_visible: the parts of facets that an image sees through an aperture and that nothing hides. Each part enters its
 // sequence into the trie and becomes an aperture of the next depth, unless this is the last one. A group of WT_LANES
 // work-items takes WT_TARGETS candidates one after the other; the other candidates of the aperture are what may hide
-// them, and each lane looks at some of these. A group that has looked for WT_PATIENCE times stores the pieces that are
+// them, and each lane looks at some of these. A group that has worked for long stores the pieces that are
 // left, and beam_waiting goes on with each of them in a group of its own.
 #include "lib/shadow.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// This is the same for all devices, because it decides which pieces are looked at once a part of a facet was seen.
-#define WT_PATIENCE 64u
+// The work of a group: it has this much patience; a look at a chunk of candidates takes 1 of it, and a cut 4. Little
+// patience is best for GPUs: 32 gave 55 ms in a street where 128 gave 67 (H100). It is the same for all devices,
+// because it decides which pieces are looked at once a part of a facet was seen.
+#define WT_PATIENCE 32
+#define WT_CUT_WORK 4
 
 // The tables that groups write.
 typedef struct {
@@ -24,7 +27,10 @@ typedef struct {
 // Stores a piece of a candidate for beam_waiting.
 inline void store_waiting(const wt_results* out, uint candidate, uint next, const local wt_polygon* p,
                           const local wt_walls* walls, local wt_shared* shared) {
-  if (wt_lane() == 0) shared->slot = atomic_inc(&out->counters->waiting);
+  if (wt_lane() == 0) {
+    shared->slot = atomic_inc(out->counters->waiting + out->args.round % 2);
+    if (shared->slot >= out->args.waiting_capacity) atomic_max(&out->counters->most_waiting, shared->slot + 1);
+  }
   WT_SYNC();
   if (shared->slot < out->args.waiting_capacity) {
     global wt_waiting_piece* piece = out->waiting + shared->slot;
@@ -55,7 +61,7 @@ inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, 
                       const wt_results* out, local wt_shared* shared, wt_piece_counts* counts) {
   const wt_view_box box = wt_box_of_piece(view, target, &shared->pieces.whole, shared);
   while (next != WT_NONE) {
-    if (counts->patience == 0) {
+    if (counts->patience <= 0) {
       store_waiting(out, target->candidate, next, &shared->pieces.whole, &shared->pieces.passed, shared);
       return 0;
     }
@@ -73,31 +79,11 @@ inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, 
     if (shared->covers) return 0;
     if (counts->count + shared->pieces.shadow.count + 1 > WT_PIECES)
       store_all_waiting(out, target->candidate, shared, counts);
+    counts->patience -= WT_CUT_WORK;
     wt_split(next, wall, &shared->pieces, counts);
     return 0;
   }
   return 1;
-}
-
-// The part of the next mirror that a piece lights. passed: the walls before this mirror.
-inline void store_aperture(global wt_aperture* next, uint node, uint passed, double3 apex, const wt_target* target,
-                           const local wt_pieces* pieces) {
-  const local wt_polygon* p = &pieces->whole;
-  for (uint k = wt_lane(); k < p->count; k += WT_LANES)
-    vstore3(wt_point_of(target, p->u[k], p->v[k]) + apex, k, next->corners);
-  if (wt_lane() != 0) return;
-  vstore3(apex + target->n * (2.0 * target->height), 0, next->image);
-  next->node = node;
-  next->surface = target->surface;
-  next->own = WT_NONE;
-  next->count = p->count;
-  next->passed = passed + pieces->passed.count;
-}
-
-// Adds to a sum of two words; the order of such additions does not change it.
-inline void add_left_out(global wt_beam_counters* counters, ulong units) {
-  const uint low = (uint)units, before = atomic_add(counters->left_out, low);
-  atomic_add(counters->left_out + 1, (uint)(units >> 32) + (before + low < before));
 }
 
 // Enters the sequence of a target into the trie: its node, or WT_NONE if there is no room.
@@ -119,7 +105,7 @@ inline void look(const wt_world* world, const wt_view* view, double3 apex, const
                  const wt_results* out, local wt_shared* shared, wt_piece_counts* counts) {
   uint node = WT_NONE;
   while (counts->count > 0) {
-    if (counts->patience == 0) store_all_waiting(out, target->candidate, shared, counts);
+    if (counts->patience <= 0) store_all_waiting(out, target->candidate, shared, counts);
     if (counts->count == 0) break;
     --counts->count;
     const uint next = shared->pieces.next[counts->count];
@@ -131,7 +117,7 @@ inline void look(const wt_world* world, const wt_view* view, double3 apex, const
     if (wt_lane() == 0) shared->slot = atomic_inc(&out->counters->apertures);
     WT_SYNC();
     if (shared->slot < out->args.capacity)
-      store_aperture(out->next + shared->slot, node, world->aperture->passed, apex, target, &shared->pieces);
+      wt_store_aperture(out->next + shared->slot, node, world->aperture->passed, apex, target, &shared->pieces);
     WT_SYNC();
   }
 }
@@ -165,7 +151,7 @@ inline void look_at(const wt_world* world, const global wt_lit_space* lit, uint 
   if (wt_lane() == 0) pieces->next[0] = from ? from->next : world->chunks[candidate / WT_CHUNK].first * WT_CHUNK;
   WT_SYNC();
   look(world, &view, apex, &target, out, shared, &counts);
-  if (wt_lane() == 0 && counts.left_out > 0) add_left_out(out->counters, counts.left_out);
+  if (wt_lane() == 0 && counts.left_out > 0) wt_add_left_out(out->counters, counts.left_out);
 }
 
 kernel void beam_visible(const global wt_facet* facets, const global double* corners,
@@ -186,7 +172,7 @@ kernel void beam_visible(const global wt_facet* facets, const global double* cor
   }
 }
 
-// Goes on with the pieces that groups have left, one per group.
+// Goes on with the pieces that groups have left in the round before.
 kernel void beam_waiting(const global wt_facet* facets, const global double* corners,
                          const global wt_exact_surface* surfaces, const global wt_aperture* apertures,
                          const global wt_lit_space* lit_spaces, const global wt_chunk* chunks,
@@ -195,8 +181,10 @@ kernel void beam_waiting(const global wt_facet* facets, const global double* cor
                          global wt_waiting_piece* waiting, global wt_beam_counters* counters, wt_beam_arguments args) {
   local wt_shared shared;
   const wt_results out = {table, quarters, next, waiting, counters, args};
-  const global wt_waiting_piece* piece = pieces + get_group_id(0);
-  const uint aperture = chunks[piece->candidate / WT_CHUNK].aperture;
-  const wt_world world = {facets, corners, surfaces, apertures + aperture, chunks, candidates, args.walls};
-  look_at(&world, lit_spaces + (aperture - args.first), piece->candidate, piece, &out, &shared);
+  const uint count = min(counters->waiting[1 - args.round % 2], args.waiting_capacity);
+  for (uint i = get_group_id(0); i < count; i += get_num_groups(0)) {
+    const uint candidate = pieces[i].candidate, aperture = chunks[candidate / WT_CHUNK].aperture;
+    const wt_world world = {facets, corners, surfaces, apertures + aperture, chunks, candidates, args.walls};
+    look_at(&world, lit_spaces + (aperture - args.first), candidate, pieces + i, &out, &shared);
+  }
 }

@@ -92,7 +92,8 @@ typedef struct {
   wt_uint chunks;         // may exceed the capacity: grow and run again
   wt_uint apertures;      // as chunks
   wt_uint trie_overflow;  // not 0: no slot was found
-  wt_uint waiting;        // as chunks: pieces that are not cut to the end
+  wt_uint waiting[2];     // as chunks: pieces that are not cut to the end, of an even and of an odd round
+  wt_uint most_waiting;   // set where these exceed the capacity
 } wt_beam_counters;
 
 typedef struct {
@@ -101,6 +102,7 @@ typedef struct {
   wt_uint capacity;  // the length of the list of chunks (beam_gather) or apertures (beam_visible) that is written
   wt_uint waiting_capacity;
   wt_uint trie_mask;
+  wt_uint round;  // of beam_waiting: 1, 2, ...; 0: beam_visible
   wt_uint last;   // not 0: nodes are entered, and no apertures are made
   wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
 } wt_beam_arguments;
