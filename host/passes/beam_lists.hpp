@@ -10,7 +10,7 @@ namespace wavetracer {
 struct BeamLists {
   explicit BeamLists(gpu::Context& context) : counters(context.buffer<wt_beam_counters>(1, "beam counters")) {}
   gpu::Buffer<wt_aperture> apertures, next;
-  gpu::Buffer<wt_lit_space> lit_spaces;  // of the apertures that beam_gather took last
+  gpu::Buffer<wt_lit_space> lit_spaces;  // those that the last call of beam_gather made
   gpu::Buffer<wt_chunk> chunks;
   gpu::Buffer<wt_beam_candidate> candidates;      // WT_CHUNK for each chunk
   gpu::Buffer<wt_waiting_piece> pieces, waiting;  // those that beam_waiting takes, and those that it leaves

@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t least_waiting = 1 << 12;
 constexpr uint32_t rounds_together = 8;
-constexpr uint32_t groups_per_unit = 16;  // of a device; not measured
+constexpr uint32_t groups_per_unit = 16;  // a device has groups_per_unit groups for each unit; not measured
 
 gpu::Definitions definitions_of(const Tuning& tuning) {
   return {{"WT_LANES", std::to_string(tuning.visible_lanes) + "u"},

@@ -55,17 +55,18 @@ inline std::set<Surfaces> met_by_rays(const std::vector<Corners>& triangles, con
   return out;
 }
 
-// The sequences that beams find, by the whole loop over depths.
+// The sequences that beams find, by the whole loop over depths. No surface is opaque: max_transmissions of them may be
+// passed.
 struct SeenByBeams {
   std::set<Surfaces> sequences;
   BeamCounts counts;
 };
 
 inline SeenByBeams seen_by_beams(const std::vector<Corners>& triangles, const glm::dvec3& from, uint32_t max_depth,
-                                 size_t slots = 1 << 16) {
+                                 size_t slots = 1 << 16, uint32_t max_transmissions = 0) {
   const Scene scene = scene_of_triangles(triangles);
   const DeviceScene device = make_device_scene(context(), scene, false);
-  BeamTracing beams(context(), scene, {}, 0);
+  BeamTracing beams(context(), scene, {}, max_transmissions);
   beams.set_world({}, {});
   Sequences set(context(), slots);
   set.clear();

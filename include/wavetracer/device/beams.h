@@ -102,7 +102,7 @@ typedef struct {
   wt_uint capacity;  // the length of the list of chunks (beam_gather) or apertures (beam_visible) that is written
   wt_uint waiting_capacity;
   wt_uint trie_mask;
-  wt_uint round;  // of beam_waiting: 1, 2, ...; 0: beam_visible
+  wt_uint round;  // the number of the launch of beam_waiting: 1, 2, ...; 0: beam_visible
   wt_uint last;   // not 0: nodes are entered, and no apertures are made
   wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
 } wt_beam_arguments;
