@@ -5,15 +5,18 @@
 #include "gpu/source.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 #include "base/hash.hpp"
 #include "gpu/gpu.hpp"
@@ -228,6 +231,22 @@ class Expansion {
   std::string out_;
 };
 
+// Reads a line `#line NUMBER "FILE"`; any other line gives nothing.
+std::optional<std::pair<size_t, std::string>> directive(std::string_view line) {
+  constexpr std::string_view start = "#line ", before_name = " \"";
+  if (!line.starts_with(start)) return std::nullopt;
+  line.remove_prefix(start.size());
+  size_t number = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+  line.remove_prefix(static_cast<size_t>(end - line.data()));
+  if (error != std::errc() || !line.starts_with(before_name) || line.size() <= before_name.size() ||
+      !line.ends_with('"'))
+    return std::nullopt;
+  line.remove_prefix(before_name.size());
+  line.remove_suffix(1);
+  return std::pair(number, std::string(line));
+}
+
 }  // namespace
 
 void add_files(std::span<const EmbeddedFile> files) { added_files().push_back(files); }
@@ -247,27 +266,35 @@ std::string program_source(const std::string& program) {
 std::string hash_of_sources() { return Source().hash(); }
 
 std::string with_places(const std::string& log, const std::string& source) {
-  static const std::regex directive("#line ([0-9]+) \"(.*)\""), counted("(<kernel>|input\\.cl):([0-9]+):");
   std::vector<std::string> places;  // for each line of the source
   std::istringstream lines(source);
   std::string file;
   size_t number = 0;
   for (std::string line; std::getline(lines, line); ++number) {
     places.push_back(fmt::format("{}:{}:", file, number));
-    if (std::smatch match; std::regex_match(line, match, directive)) {
-      number = std::stoul(match[1]) - 1;
-      file = match[2];
+    if (const auto named = directive(line)) {
+      number = named->first - 1;
+      file = named->second;
     }
   }
   std::string out;
-  auto copied = log.begin();
-  for (std::sregex_iterator match(log.begin(), log.end(), counted), end; match != end; ++match) {
-    const size_t line = std::stoul((*match)[2]);
-    if (line == 0 || line > places.size()) continue;
-    out.append(copied, (*match)[0].first).append(places[line - 1]);
-    copied = (*match)[0].second;
+  for (std::string_view rest = log;;) {
+    constexpr std::string_view names[] = {"<kernel>:", "input.cl:"};  // drivers have these for the source
+    static_assert(names[0].size() == names[1].size());
+    const size_t at = std::min(rest.find(names[0]), rest.find(names[1]));
+    if (at == std::string_view::npos) return out.append(rest);
+    const std::string_view after = rest.substr(at + names[0].size());
+    size_t line = 0;
+    const auto [end, error] = std::from_chars(after.data(), after.data() + after.size(), line);
+    const auto digits = static_cast<size_t>(end - after.data());
+    if (error == std::errc() && after.substr(digits).starts_with(':') && line > 0 && line <= places.size()) {
+      out.append(rest.substr(0, at)).append(places[line - 1]);
+      rest = after.substr(digits + 1);
+    } else {
+      out.append(rest.substr(0, at + names[0].size()));
+      rest = after;
+    }
   }
-  return out.append(copied, log.end());
 }
 
 }  // namespace wavetracer::gpu

@@ -52,11 +52,11 @@ void refuse_entity(void* user, const XML_Char*, int, const XML_Char*, int, const
   XML_StopParser(static_cast<Scan*>(user)->parser, XML_FALSE);
 }
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view blank_characters = " \t\r\n";
 
 // Returns the value of an attribute from the text after its name; empty if there is none.
 std::string_view value_after(std::string_view text) {
-  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size())); };
+  const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(blank_characters), text.size())); };
   skip_blanks();
   if (!text.starts_with('=')) return {};
   text.remove_prefix(1);
@@ -97,7 +97,7 @@ DeletedObjects deleted_in_editor(std::string_view content) {
 void check_exponents(std::string_view content, const std::string& name) {
   for (const std::string_view key : {"lat", "lon"})
     for (size_t at = content.find(key, 1); at != content.npos; at = content.find(key, at + key.size())) {
-      if (blanks.find(content[at - 1]) == blanks.npos) continue;
+      if (blank_characters.find(content[at - 1]) == blank_characters.npos) continue;
       const std::string_view value = value_after(content.substr(at + key.size(), 200));
       if (is_out_of_bounds(value))
         throw InputError(fmt::format("{}: {} is '{}', which is no place on the globe",

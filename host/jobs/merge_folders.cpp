@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_named = 1000;
+constexpr size_t most_kept = 1000;
 
 std::vector<InputFile> inputs_in(const fs::path& folder) {
   std::error_code none;
@@ -53,7 +53,7 @@ void check_one_run(const RunIdentity& a, const fs::path& folder_a, const RunIden
 
 void add_missing(FoundParts& found, const Unit& unit) {
   ++found.missing_count;
-  if (found.missing.size() < most_named) found.missing.push_back(unit);
+  if (found.missing.size() < most_kept) found.missing.push_back(unit);
 }
 
 void find_missing(FoundParts& found) {

@@ -24,7 +24,7 @@ namespace wavetracer::live {
 namespace {
 
 constexpr int backlog = 64;
-constexpr int kind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
+constexpr int socket_kind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 
 std::string system_error() { return std::strerror(errno); }
 
@@ -47,7 +47,7 @@ void clear(const std::string& path, const sockaddr_un& address) {
   if (!S_ISSOCK(status.st_mode))
     throw ConfigError(
         fmt::format("--listen unix:{}: a file of this name exists, and it is not a socket; choose another path", path));
-  const Descriptor probe(socket(AF_UNIX, kind, 0));
+  const Descriptor probe(socket(AF_UNIX, socket_kind, 0));
   if (connect(*probe, general(address), sizeof address) == 0 || errno != ECONNREFUSED)
     throw ConfigError(fmt::format(
         "--listen unix:{}: another server uses this path already; choose another path, or stop that server", path));
@@ -129,7 +129,7 @@ void Listener::listen_unix(const std::string& path) {
   const std::string file = std::filesystem::absolute(path).string();
   const sockaddr_un address = unix_address(path);
   clear(path, address);
-  socket_ = Descriptor(socket(AF_UNIX, kind, 0));
+  socket_ = Descriptor(socket(AF_UNIX, socket_kind, 0));
   const mode_t before = umask(0177);
   const bool bound = bind(*socket_, general(address), sizeof address) == 0;
   const std::string problem = system_error();
@@ -148,7 +148,7 @@ void Listener::listen_unix(const std::string& path) {
 void Listener::listen_tcp(const Endpoint& endpoint) {
   const Addresses addresses = resolve(endpoint.host, endpoint.port);
   const addrinfo& address = *addresses;
-  socket_ = Descriptor(socket(address.ai_family, kind, 0));
+  socket_ = Descriptor(socket(address.ai_family, socket_kind, 0));
   const int on = 1;
   setsockopt(*socket_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);  // a restart need not wait for old connections
   if (bind(*socket_, address.ai_addr, address.ai_addrlen) != 0 || listen(*socket_, backlog) != 0)

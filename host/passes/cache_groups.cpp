@@ -11,7 +11,7 @@ namespace wavetracer {
 
 namespace {
 
-constexpr Stage stage = Stage::cache_groups;
+constexpr Stage groups_stage = Stage::cache_groups;
 
 // The size of the table, at least twice the rays, so that a search takes few steps; a power of two.
 uint64_t places_for(uint64_t rays) { return std::bit_ceil(2 * rays); }
@@ -40,9 +40,9 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
   if (missed_count > rays.count || places > numbers_.size() || rays.count > representatives_.size())
     throw std::invalid_argument("cache_groups: no room for the rays");
   const uint32_t none = WT_NONE;
-  context_.fill(numbers_, &none, sizeof none, 0, places * sizeof none, stage);
+  context_.fill(numbers_, &none, sizeof none, 0, places * sizeof none, groups_stage);
   const gpu::Range range = work_.range(rays.count);
-  keys_(range, stage,
+  keys_(range, groups_stage,
         calls::cache_groups::cache_keys{.rays = rays.planes,
                                         .capacity = rays.capacity,
                                         .count = rays.count,
@@ -51,13 +51,13 @@ void CacheGroups::elect(const RayQueue& rays, gpu::Buffer<float>& missed, uint32
                                         .static_surfaces = static_surfaces,
                                         .keys = key_words_,
                                         .places = representatives_});
-  elect_(range, stage,
+  elect_(range, groups_stage,
          calls::cache_groups::cache_elect{.count = rays.count,
                                           .keys = key_words_,
                                           .table = numbers_,
                                           .mask = static_cast<uint32_t>(places - 1),
                                           .places = representatives_});
-  follow_(range, stage,
+  follow_(range, groups_stage,
           calls::cache_groups::cache_follow{
               .count = rays.count, .missed = missed, .table = numbers_, .places = representatives_});
 }
@@ -69,7 +69,7 @@ void CacheGroups::share(const CacheSurfaces& world, RayQueue& rays, HitList& hit
     throw std::invalid_argument("cache_groups: cache.scope = \"all\" without receivers");
   if (table.config.own_points() && !table.config.exact() && !world.surfaces)
     throw std::invalid_argument("cache_groups: no surfaces for cache.hit_point = \"own\"");
-  share_(work_.range(rays.count), stage,
+  share_(work_.range(rays.count), groups_stage,
          calls::cache_groups::cache_share{.rays = rays.planes,
                                           .hits = hits.planes,
                                           .missed = missed,

@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr size_t ports = 4;  // pairs of ports, as in Paths::a
+constexpr size_t port_pairs = 4;  // pairs of ports, as in Paths::a
 
 // A codebook that uses the first element alone.
 Codebook first_element(uint32_t elements) {
@@ -124,8 +124,8 @@ BeamRows Beams::gains(const ElementModel& model, const FrameResult& frame) const
     const ElementLink elements(model, frame, link);
     LinkBeams made(sent, heard);
     std::vector<double> power(first[i + 1] - first[i]);
-    GroupFields groups(frame.paths, elements.first_row(), elements.end_row(), ports * power.size());
-    std::vector<Complex> fields(ports * power.size());
+    GroupFields groups(frame.paths, elements.first_row(), elements.end_row(), port_pairs * power.size());
+    std::vector<Complex> fields(port_pairs * power.size());
     for (size_t row = elements.first_row(); row < elements.end_row(); ++row) {
       made.hear(elements.path(row), model.carriers_hz()[0], frame.paths.delay_s[row]);
       if (groups.is_alone(row)) {
@@ -135,7 +135,8 @@ BeamRows Beams::gains(const ElementModel& model, const FrameResult& frame) const
       }
       const Complex carrier = carrier_phase(model.carriers_hz()[0], frame.paths.delay_s[row]);
       for (size_t v = 0; v < fields.size(); ++v)
-        fields[v] = carrier * frame.paths.a[row][v % ports] * Complex(made.re[v / ports], made.im[v / ports]);
+        fields[v] =
+            carrier * frame.paths.a[row][v % port_pairs] * Complex(made.re[v / port_pairs], made.im[v / port_pairs]);
       groups.add(row, fields);
     }
     groups.add_powers(power);

@@ -128,15 +128,15 @@ class FaceCovering {
         corner_of.push_back(first_corner[i] + k);
       }
     const Weld weld = weld_vertices(points, same_point_m);
-    constexpr uint32_t none = 0xFFFFFFFFu;
-    std::vector<uint32_t> vertex_of(weld.positions.size(), none);
+    constexpr uint32_t unplaced = 0xFFFFFFFFu;
+    std::vector<uint32_t> vertex_of(weld.positions.size(), unplaced);
     for (size_t i = 0; i < points.size(); ++i) {
       uint32_t& vertex = vertex_of[weld.vertex[i]];
       if (i < known.size()) {
-        if (vertex == none) vertex = known[i];
+        if (vertex == unplaced) vertex = known[i];
         continue;
       }
-      if (vertex == none) {
+      if (vertex == unplaced) {
         vertex = static_cast<uint32_t>(scene_.vertices.size());
         scene_.vertices.push_back(weld.positions[weld.vertex[i]]);
       }

@@ -30,13 +30,13 @@ constexpr std::array<const char*, kinds> words = {"inside closed bodies", "below
 // The findings about an end, one text for each kind; empty: there is none.
 using Findings = std::array<std::string, kinds>;
 
-struct Place {
+struct EndPlace {
   std::optional<Surroundings::Body> body;
   Findings findings;  // all except those that need a second end
 };
 
-Place look(const Surroundings& around, const glm::dvec3& p) {
-  Place out;
+EndPlace look(const Surroundings& around, const glm::dvec3& p) {
+  EndPlace out;
   const Scene& scene = around.scene();
   const glm::dvec3 size = scene.upper - scene.lower;
   const double longest_m = std::max({size.x, size.y, size.z});
@@ -56,8 +56,8 @@ Place look(const Surroundings& around, const glm::dvec3& p) {
   return out;
 }
 
-std::vector<Place> look_at_all(const Surroundings& around, const std::vector<EndState>& ends) {
-  std::vector<Place> out(ends.size());
+std::vector<EndPlace> look_at_all(const Surroundings& around, const std::vector<EndState>& ends) {
+  std::vector<EndPlace> out(ends.size());
   tbb::parallel_for(size_t{0}, ends.size(), [&](size_t i) { out[i] = look(around, ends[i].position_m); });
   return out;
 }
@@ -72,7 +72,7 @@ class Ends {
         state_(world.state(0)),
         transmitters_(look_at_all(around, state_.transmitters)),
         receivers_(look_at_all(around, state_.receivers)) {
-    for (const Place* place : all()) parted_.push_back(place->body && around.small(*place->body));
+    for (const EndPlace* place : all()) parted_.push_back(place->body && around.small(*place->body));
     for (const Link& link : state_.links) look_at(link);
     name_bodies();
   }
@@ -82,16 +82,18 @@ class Ends {
   const Findings& receiver(size_t i) const { return receivers_[i].findings; }
 
  private:
-  std::vector<Place*> all() {
-    std::vector<Place*> out;
+  std::vector<EndPlace*> all() {
+    std::vector<EndPlace*> out;
     for (auto* places : {&transmitters_, &receivers_})
-      for (Place& place : *places) out.push_back(&place);
+      for (EndPlace& place : *places) out.push_back(&place);
     return out;
   }
 
   void look_at(const Link& link) {
-    Place &tx = transmitters_[link.tx], &rx = receivers_[link.rx];
-    const auto body = [](const Place& place) { return place.body ? std::optional(place.body->number) : std::nullopt; };
+    EndPlace &tx = transmitters_[link.tx], &rx = receivers_[link.rx];
+    const auto body = [](const EndPlace& place) {
+      return place.body ? std::optional(place.body->number) : std::nullopt;
+    };
     if (body(tx) != body(rx)) parted_[link.tx] = parted_[transmitters_.size() + link.rx] = true;
     const double apart_m = glm::distance(state_.transmitters[link.tx].position_m, state_.receivers[link.rx].position_m);
     // An end that sends and receives has no distance from itself.
@@ -103,7 +105,7 @@ class Ends {
   }
 
   void name_bodies() {
-    const std::vector<Place*> places = all();
+    const std::vector<EndPlace*> places = all();
     for (size_t i = 0; i < places.size(); ++i)
       if (places[i]->body && parted_[i])
         places[i]->findings[inside] =
@@ -114,7 +116,7 @@ class Ends {
   const World& world_;
   double wavelength_m_;
   WorldState state_;
-  std::vector<Place> transmitters_, receivers_;
+  std::vector<EndPlace> transmitters_, receivers_;
   std::vector<bool> parted_;  // for transmitters, then receivers: a body is around this end, but not around all
 };
 

@@ -106,7 +106,7 @@ std::vector<Ray> launch_rays(uint32_t count, uint32_t instances) {
 TEST_CASE("what the loop over depths enters, in one launch") {
   const Traffic traffic(9, 71);
   const DeviceScene scene = traffic.upload();
-  const uint32_t many = as_many(3000, 500);
+  const uint32_t many = as_many(3000, 200);
   for (const uint32_t count : {1u, 127u, 129u, many})
     for (const uint32_t interactions : {1u, 2u, 6u}) {
       CAPTURE(count);

@@ -226,12 +226,12 @@ TEST_CASE("order and merging are those of plain code, for any order of rows, wit
   std::mt19937 random(7);
   const DeviceScene scene = far_surfaces();
   for (const Ends& ends : {apart(4, 4), radios({2, 0, 1}), apart(1, 1)}) {
-    const uint32_t per_link = ends.tx.size() == 1 ? 400 : 60;
+    const uint32_t per_link = ends.tx.size() == 1 ? as_many(400, 120) : as_many(60, 20);
     std::vector<Path> found = crowded(ends, per_link, random);
     const std::vector<Path> expected = by_plain_code(ends, found, all_links(ends));
     CHECK(expected.size() > 50);
     CHECK(expected.size() < 2 * found.size());
-    for (int round = 0; round < 3; ++round) {
+    for (uint32_t round = 0; round < as_many(3, 1); ++round) {
       std::ranges::shuffle(found, random);
       const std::vector<Path> rows = by_device(ends, found, all_links(ends), scene);
       CHECK((rows == expected));

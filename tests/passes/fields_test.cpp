@@ -239,7 +239,7 @@ TEST_CASE("fields: many rows are read in parts, and each has the columns of its 
   const Paths kinds = in_order(world);
   const auto count = static_cast<uint32_t>(kinds.size());
   std::vector<uint32_t> numbers;
-  for (uint32_t i = 0; i < 3 * Fields::rows_of_part; ++i) numbers.push_back(2 * (i * i % count));
+  for (uint32_t i = 0; i < as_many(3, 1) * Fields::rows_of_part; ++i) numbers.push_back(2 * (i * i % count));
   const std::vector<uint32_t> alone(count, WT_NONE);
   const Paths paths = fields_of(world, numbers, alone, alone);
   REQUIRE(paths.size() == numbers.size());

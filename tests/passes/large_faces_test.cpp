@@ -42,7 +42,7 @@ PathRow leg_past(FaceRandom& random, const Quad& face, double inside_m) {
 // size_m: of the faces, and the reach of legs; offs_m: how far legs pass inside of the edge, and outside.
 void check_legs_past(double size_m, const std::vector<double>& offs_m) {
   FaceRandom random(7);
-  for (int faces = 0; faces < 6; ++faces) {
+  for (uint32_t faces = 0; faces < as_many(6, 2); ++faces) {
     const Quad face = any_face(random, size_m);
     const Scene scene = reference::scene_of_quads({face});
     const DeviceScene uploaded = make_device_scene(context(), scene, false, size_m);

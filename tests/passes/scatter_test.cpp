@@ -160,7 +160,7 @@ TEST_CASE("every tile of every surface seen directly, for wanted receivers on th
   // The third transmitter sees the roof and no wall; deeper nodes say nothing about what is seen.
   const std::vector<Sequence> sequences{{0, {0}}, {0, {1, 2}}, {0, {2, 0, 2}}, {1, {0, 1}},
                                         {1, {2}}, {2, {3}},    {2, {1, 3}}};
-  const TileTable tiles(world.scene, world.models, world.instances, 8);
+  const TileTable tiles(world.scene, world.models, world.instances, as_many(8, 14));
   const ScatterRows wanted = expected(world, tiles, sequences);
   CHECK(wanted.size() > 1000);
   for (const uint32_t max_depth : {1u, 3u}) check_equal(scattered(world, tiles, sequences, max_depth), wanted);
@@ -233,9 +233,10 @@ TEST_CASE("occlusion: of many links over the same tiles, each has what it has al
     for (const Quad& q : reference::box_walls({x, -4, 0.01}, {x + 2, 3, 5})) quads.push_back(q);
   World world(scene_of(quads, {0}));
   for (int i = 0; i < 3; ++i) world.transmitters.push_back(at({-12.0 + 8 * i, 1.3 - i, 2}));
-  for (int i = 0; i < 21; ++i) world.receivers.push_back(at({-14.3 + 1.4 * i, i % 2 ? 5.1 : -6.2, 1.5 + 0.1 * i}));
+  for (uint32_t i = 0; i < as_many(21, 17); ++i)
+    world.receivers.push_back(at({-14.3 + 1.4 * i, i % 2 ? 5.1 : -6.2, 1.5 + 0.1 * i}));
   world.link_all();
-  const TileTable tiles(world.scene, world.models, world.instances, 2);
+  const TileTable tiles(world.scene, world.models, world.instances, as_many(2, 5));
   const std::vector<Sequence> seen{{0, {0}}, {1, {0}}, {2, {0}}};
   const Run together = scattered(world, tiles, seen, 2);
   size_t alone = 0;
@@ -247,7 +248,7 @@ TEST_CASE("occlusion: of many links over the same tiles, each has what it has al
       one.links = {{0, 0}};
       alone += scattered(one, tiles, {{0, {0}}}, 2).visible;
     }
-  CHECK(together.listed == 3 * 21 * tiles.size());
+  CHECK(together.listed == world.links.size() * tiles.size());
   CHECK(together.visible == alone);
   CHECK(alone > together.listed / 10);
   CHECK(alone < together.listed * 9 / 10);

@@ -15,7 +15,7 @@ TEST_CASE("the static scene, then the instances: the hits of everything at once,
   const Traffic traffic(9, 71);
   const DeviceScene scene = traffic.upload();
   const auto surfaces = static_cast<uint32_t>(scene.surfaces.size());
-  std::vector<Ray> rays = rays_in(10, 1500, surfaces, 73);
+  std::vector<Ray> rays = rays_in(10, as_many(1500, 200), surfaces, 73);
   for (uint32_t i = 0; i < rays.size(); i += 7) rays[i].surface = WT_OWN | i % 9;
   const RayQueue queue = upload(rays);
   for (const TraceShape shape : shapes()) {
