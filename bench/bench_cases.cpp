@@ -109,8 +109,8 @@ class Bench {
     config.trace.discovery = "beams";
     Simulation simulation(config, options_.device);
     device_ = simulation.device().name;
+    simulation.run_frame(0);  // drivers finish compiling
     beams_.median_s = wall_s([&] { beams_.result = simulation.run_frame(0); });
-    // One frame is enough if it takes seconds.
     if (beams_.median_s < 1) beams_.median_s = median_of(simulation, beams_.result);
     known.add(beams_.result.paths);
     fmt::print(stderr, "{}: {} paths by beams in {:.3g} s\n", name, known.size(), beams_.median_s);
