@@ -144,6 +144,29 @@ Places hill(OpenPlaces& draw) {
   return Streets{.inner = 0.75, .transmitter_m = 2, .reach_m = 200, .near = 32, .far = 8}(draw);
 }
 
+// Makes a town of 64 houses on a plain of 100 km.
+BoxScene plain_scene() {
+  BoxScene out;
+  out.box({0, 0, -0.5}, {100000, 100000, 1});
+  for (int i = -4; i < 4; ++i)
+    for (int k = -4; k < 4; ++k) {
+      const double height_m = 10 + (7 * i + 3 * k + 40) % 15;
+      out.box({50 * i + 25, 50 * k + 25, height_m / 2}, {28 + (i + 4) % 5, 27 + (k + 4) % 7, height_m});
+    }
+  return out;
+}
+
+// An antenna in the sky over the plain, and receivers in the streets of the town.
+std::function<Places(OpenPlaces&)> sky(const dvec3& antenna_m) {
+  return [=](OpenPlaces& draw) {
+    Places out{{antenna_m}, {}};
+    for (int i = 0; i < 16; ++i)
+      out.receivers.push_back(i % 2 ? draw.within({-190, -4, car_m}, {190, 4, car_m})
+                                    : draw.within({-4, -190, car_m}, {4, 190, car_m}));
+    return out;
+  };
+}
+
 std::function<SceneConfig(const fs::path&, const fs::path&)> city(const std::string& options) {
   return [=](const fs::path&, const fs::path&) {
     SceneConfig out;
@@ -199,10 +222,14 @@ const std::vector<Recipe>& recipes() {
       {"hills_0", 5, own("hills_0", hills_scene(0)), hill},
       {"hills_10", 5, own("hills_10", hills_scene(10)), hill},
       {"hills_30", 5, own("hills_30", hills_scene(30)), hill},
-      {"hills_100", 5, own("hills_100", hills_scene(100)), hill}};
+      {"hills_100", 5, own("hills_100", hills_scene(100)), hill},
+      {"plain_1", 3, own("plain_1", plain_scene), sky({1000, 600, 700})},
+      {"plain_4", 3, own("plain_4", plain_scene), sky({3000, 1700, 2000})},
+      {"plain_16", 3, own("plain_16", plain_scene), sky({12000, 7000, 8000})},
+      {"plain_40", 3, own("plain_40", plain_scene), sky({30000, 17000, 20000})}};
   return list;
 }
-constexpr size_t study_cases = 20;  // the other recipes are hills
+constexpr size_t study_cases = 20;  // the other recipes are hills and plains
 
 std::vector<RadioEnd> ends(const char* prefix, const std::vector<dvec3>& points) {
   std::vector<RadioEnd> out;
@@ -219,7 +246,7 @@ std::vector<std::string> study_case_names() {
   return out;
 }
 
-std::vector<std::string> hill_case_names() {
+std::vector<std::string> further_case_names() {
   std::vector<std::string> out;
   for (size_t i = study_cases; i < recipes().size(); ++i) out.push_back(recipes()[i].name);
   return out;
@@ -233,8 +260,8 @@ StudyCase study_case(const std::string& name, const fs::path& shared, const fs::
   out.config.radio.frequency_hz = 5.9e9;
   out.config.trace.max_depth = recipe->depth;
   const Scene scene = load_scene(out.config);
-  // Each case draws from its own stream, so that a case alone has the same places as among all cases; hills share one
-  // stream.
+  // Each case draws from its own stream, so that a case alone has the same places as among all cases; the others share
+  // one stream.
   const auto stream = std::min<uint64_t>(static_cast<uint64_t>(recipe - recipes().begin()), study_cases);
   OpenPlaces draw(scene, seed * 1000 + stream);
   const Places places = recipe->places(draw);

@@ -15,9 +15,10 @@ namespace wavetracer::bench {
 // Returns their names, in the order in which they are measured.
 std::vector<std::string> study_case_names();
 
-// Returns the cases with the same houses at the same places on flat ground and on hills of 10, 30 and 100 m: they show
-// the cost of a terrain, and whether launches find as much there. They are measured only if asked for.
-std::vector<std::string> hill_case_names();
+// Returns cases that are measured only if asked for. Hills have the same houses at the same places on flat ground and
+// on hills of 10, 30 and 100 m: they show the cost of a terrain, and whether launches find as much there. Plains have a
+// town on a plain of 100 km and an antenna 1 to 40 km away in the sky: few rays meet the town, and no window helps.
+std::vector<std::string> further_case_names();
 
 struct StudyCase {
   std::string name;

@@ -12,6 +12,7 @@
 #include "base/digits.hpp"
 #include "base/times.hpp"
 #include "output/run_advice.hpp"
+#include "radio/missed_unknown.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 #include "wavetracer/stages.hpp"
 
@@ -105,9 +106,18 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
-// Says what rays may have missed; empty if unknown.
+// Says in how many frames it is not known what rays have missed, and why; empty if there are none.
+std::string missed_unknown_line(const Run& run, const Totals& totals) {
+  const MissedCounts& of = totals.missed;
+  if (of.unknown == 0) return "";
+  const std::string frames =
+      of.unknown < totals.frames ? fmt::format(" in {} of {} frames", grouped(of.unknown), grouped(totals.frames)) : "";
+  return fmt::format("{:<11}unknown{}: {}\n", of.frames > 0 ? "" : "missed", frames, missed_unknown_reason(run.config));
+}
+
+// Says what rays may have missed; empty without rays.
 std::string missed_line(const Run& run, const Totals& totals) {
-  if (totals.missed.frames == 0) return "";
+  if (totals.missed.frames == 0) return missed_unknown_line(run, totals);
   const Missed missed = estimate_missed(totals.missed);
   const bool none = missed.paths.estimate < 0.5;
   const std::string about =
@@ -118,7 +128,8 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      missed.power_share.low, missed.power_share.high,
                      none                    ? ""
                      : run.config.trace.rays ? ": a higher number of trace.rays finds more of them"
-                                             : ": a higher trace.recall finds more of them");
+                                             : ": a higher trace.recall finds more of them") +
+         missed_unknown_line(run, totals);
 }
 
 // Says what beams have not followed; empty without beams.

@@ -40,11 +40,8 @@ void check_files(const Shard& shard) {
 }
 
 Json encode_missed(const MissedCounts& missed) {
-  return {{"frames", missed.frames},
-          {"paths", missed.paths},
-          {"powers", missed.powers},
-          {"amplitude", missed.amplitude},
-          {"power", missed.power}};
+  return {{"frames", missed.frames}, {"unknown", missed.unknown},     {"paths", missed.paths},
+          {"powers", missed.powers}, {"amplitude", missed.amplitude}, {"power", missed.power}};
 }
 
 Json encode_certificate(const Certificate& of) {
@@ -61,6 +58,7 @@ Certificate decode_certificate(const Json& json) {
 MissedCounts decode_missed(const Json& json) {
   MissedCounts out;
   out.frames = whole_at<uint64_t>(json, "frames");
+  if (json.contains("unknown")) out.unknown = whole_at<uint64_t>(json, "unknown");
   const std::vector<uint64_t> paths = whole_list<uint64_t>(json, "paths");
   if (paths.size() != out.paths.size()) refuse("the counts of paths of the four quarters of a launch are wrong");
   std::ranges::copy(paths, out.paths.begin());
@@ -159,7 +157,7 @@ std::string encode_manifest_line(const Shard& shard) {
   json["segments_per_depth"] = t.segments_per_depth;
   if (t.left_out.all > 0)
     json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
-  if (t.missed.frames > 0) json["missed"] = encode_missed(t.missed);
+  if (t.missed.frames + t.missed.unknown > 0) json["missed"] = encode_missed(t.missed);
   if (t.certificate.frames > 0) json["certificate"] = encode_certificate(t.certificate);
   if (t.late.discoveries > 0)
     json["late"] = {{"discoveries", t.late.discoveries},

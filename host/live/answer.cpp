@@ -152,6 +152,18 @@ void write_missed(Line& line, const Missed& missed) {
   line.raw("}");
 }
 
+// Writes to which depth beams have found all paths of the frame, and but for what.
+void write_certificate(Line& line, const Certificate& of) {
+  line.key("certificate");
+  line.raw("{\"depth\":");
+  line.integer(of.depth);
+  line.key("left_out_sr");
+  line.number(of.left_out_sr);
+  line.key("left_out_share");
+  line.number(of.left_out_share());
+  line.raw("}");
+}
+
 Json vector_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
@@ -234,6 +246,11 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, con
     write_links(line, frame, figures, form.detail);
   }
   if (result.missed.frames > 0) write_missed(line, estimate_missed(result.missed));
+  if (result.missed.unknown > 0) {
+    line.key("missed_unknown");
+    line.raw("true");
+  }
+  if (result.certificate.frames > 0) write_certificate(line, result.certificate);
   if (!result.warnings.empty()) {
     line.key("warnings");
     line.list(0, result.warnings.size(), [&](size_t i) { line.text(result.warnings[i]); });

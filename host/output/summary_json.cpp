@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 #include "output/cache_json.hpp"
 #include "output/median.hpp"
 #include "output/run_advice.hpp"
+#include "radio/missed_unknown.hpp"
 
 namespace wavetracer {
 namespace {
@@ -57,6 +59,19 @@ Json range(const MissedRange& of) {
   return {{"estimate", three_digits(of.estimate)}, {"low", three_digits(of.low)}, {"high", three_digits(of.high)}};
 }
 
+// Writes what rays may have missed, where it is not known, and to which depth beams have found all paths.
+void put_missed(const Run& run, const Totals& totals, Json& json) {
+  if (totals.missed.frames > 0) {
+    const Missed missed = estimate_missed(totals.missed);
+    json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
+  }
+  if (totals.missed.unknown > 0)
+    json["missed_unknown"] = {{"frames", totals.missed.unknown}, {"reason", missed_unknown_reason(run.config)}};
+  if (const Certificate& of = totals.certificate; of.frames > 0)
+    json["certificate"] = {
+        {"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share()}};
+}
+
 // Returns nothing if the text is not in the form of range().
 std::optional<MissedRange> read_range(const Json& json, const char* name) {
   const auto found = json.is_object() ? json.find(name) : json.end();
@@ -68,6 +83,17 @@ std::optional<MissedRange> read_range(const Json& json, const char* name) {
     *value = number->get<double>();
   }
   return out;
+}
+
+// Returns nothing if a number is missing or cannot be one of a certificate.
+std::optional<CertificateFacts> read_certificate(const Json& json) {
+  const auto found = json.find("certificate");
+  if (found == json.end() || !found->is_object()) return {};
+  const auto depth = found->find("depth"), sr = found->find("left_out_sr"), share = found->find("left_out_share");
+  if (depth == found->end() || !depth->is_number_unsigned() || *depth > std::numeric_limits<uint32_t>::max()) return {};
+  for (const auto& number : {sr, share})
+    if (number == found->end() || !number->is_number() || !(number->get<double>() >= 0)) return {};
+  return CertificateFacts{*depth, *sr, *share};
 }
 
 // Writes for each feature whether it was on, and if not, why.
@@ -139,13 +165,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["features"] = features(summary.features);
   json["counts"] = counts(totals);
   json["paths_by_kind"] = path_counts(totals.kinds);
-  if (totals.missed.frames > 0) {
-    const Missed missed = estimate_missed(totals.missed);
-    json["missed"] = {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
-  }
-  if (const Certificate& of = totals.certificate; of.frames > 0)
-    json["certificate"] = {
-        {"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share()}};
+  put_missed(run, totals, json);
   if (totals.late.discoveries > 0)
     json["late"] = {{"discoveries", totals.late.discoveries},
                     {"paths", totals.late.paths},
@@ -184,6 +204,10 @@ SummaryFacts read_summary_json(const std::filesystem::path& file) {
     const auto paths = read_range(*missed, "paths"), power_share = read_range(*missed, "power_share");
     if (paths && power_share) out.missed = Missed{*paths, *power_share};
   }
+  if (const auto unknown = json.find("missed_unknown"); unknown != json.end() && unknown->is_object())
+    if (const auto reason = unknown->find("reason"); reason != unknown->end() && reason->is_string())
+      out.missed_unknown = *reason;
+  out.certificate = read_certificate(json);
   return out;
 }
 

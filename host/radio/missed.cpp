@@ -67,19 +67,24 @@ MissedCounts counts_of_rows(const Paths& paths, size_t first, size_t end) {
 }  // namespace
 
 void add_part(MissedCounts& sum, const MissedCounts& more) {
+  if (sum.unknown + more.unknown > 0) {
+    sum = {.unknown = 1};
+    return;
+  }
+  const uint64_t frames = std::max(sum.frames, more.frames);
+  add(sum, more);
+  sum.frames = frames;
+}
+
+void add(MissedCounts& sum, const MissedCounts& more) {
+  sum.frames += more.frames;
+  sum.unknown += more.unknown;
   for (size_t k = 0; k < sum.paths.size(); ++k) {
     sum.paths[k] += more.paths[k];
     sum.powers[k] += more.powers[k];
   }
   sum.amplitude += more.amplitude;
   sum.power += more.power;
-  sum.frames = std::max(sum.frames, more.frames);
-}
-
-void add(MissedCounts& sum, const MissedCounts& more) {
-  const uint64_t frames = sum.frames + more.frames;
-  add_part(sum, more);
-  sum.frames = frames;
 }
 
 MissedCounts missed_counts(const Paths& paths, size_t first, size_t end) {

@@ -306,6 +306,8 @@ const fs::path& SavedRun::file() const { return state_->path; }
 const std::string& SavedRun::version() const { return state_->version; }
 const std::string& SavedRun::device() const { return state_->summary.device; }
 const std::optional<Missed>& SavedRun::missed() const { return state_->summary.missed; }
+const std::string& SavedRun::missed_unknown() const { return state_->summary.missed_unknown; }
+const std::optional<CertificateFacts>& SavedRun::certificate() const { return state_->summary.certificate; }
 const std::string& SavedRun::config_text() const { return state_->config; }
 double SavedRun::frequency_hz() const { return state_->frequency_hz; }
 const std::vector<RadioEnd>& SavedRun::transmitters() const { return state_->transmitters; }

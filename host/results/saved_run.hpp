@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "output/summary_json.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/output.hpp"
@@ -55,7 +56,9 @@ class SavedRun {
   const std::string& version() const;           // version of the program that wrote it
   const std::string& device() const;            // from the summary.json beside it; empty if there is none
   const std::optional<Missed>& missed() const;  // from the same file; nothing if unknown
-  const std::string& config_text() const;       // TOML, with absolute paths
+  const std::string& missed_unknown() const;    // why frames do not know what was missed; empty if all know it
+  const std::optional<CertificateFacts>& certificate() const;  // from the same file; nothing without beams
+  const std::string& config_text() const;                      // TOML, with absolute paths
   double frequency_hz() const;
   // Name, antenna, polarization and orientation are as configured; positions of moving ends are in frames.
   const std::vector<RadioEnd>& transmitters() const;

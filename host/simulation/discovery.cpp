@@ -79,6 +79,7 @@ DiscoveryCounts Discovery::find(const DeviceScene& scene, const Launch& launch) 
   DiscoveryCounts counts = nothing_yet(follower);
   const uint64_t total = launch.total();
   if (counts.segments_per_depth.empty() || total == 0) return counts;
+  counts.rays_each = static_cast<double>(launch.rays_each());
   follower.begin_launch();
   const uint64_t size = std::min(batch_rays_, total);
   reserve(size);
@@ -108,6 +109,7 @@ DiscoveryCounts Discovery::find_all(const DeviceScene& scene, std::span<const La
     for (const Launch& launch : launches) source_.launch(rays, launch, 0, launch.total());
   });
   counts.rays = total;
+  counts.rays_each = static_cast<double>(launches.front().rays_each());
   tell(total, total);
   return counts;
 }
@@ -131,6 +133,7 @@ DiscoveryCounts Discovery::find_refined(const DeviceScene& scene, const std::vec
       more = refinement_->descend();  // refine
     }
   }
+  counts.rays_each = static_cast<double>(counts.rays) / static_cast<double>(who.size());
   counts.share_once = refinement_->share_once();
   counts.end = refinement_->end();
   return counts;

@@ -4,30 +4,13 @@
 
 #include <algorithm>
 
-#include "radio/path_power.hpp"
+#include "simulation/late_paths.hpp"
 #include "simulation/launch_share.hpp"
+#include "simulation/launch_spacing.hpp"
 #include "simulation/recall_warning.hpp"
 #include "simulation/tracing_depth.hpp"
 
 namespace wavetracer {
-namespace {
-
-double power_of_all(const Paths& paths) {
-  double sum = 0;
-  for (size_t row = 0; row < paths.size(); ++row) sum += power_of(paths, row);
-  return sum;
-}
-
-// Counts paths that were found late: every known path is among all, except those whose sequences were dropped in this
-// frame.
-LateCounts late_counts(const Paths& known, const Paths& all) {
-  LateCounts out{.discoveries = 1, .paths = all.size() - std::min(known.size(), all.size()), .all = power_of_all(all)};
-  if (out.paths > 0) out.power = std::max(out.all - power_of_all(known), 0.0);
-  out.largest_share = out.power_share();
-  return out;
-}
-
-}  // namespace
 
 // PoCL compiles a kernel for the shape of its first launch, which would take most of the first frame. So what a frame
 // launches is launched before, by few rays of one transmitter, and forgotten.
@@ -107,10 +90,10 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   if (!task.only_compiles()) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
   const bool spheres = plan_.trace.by_spheres();
-  if (s_.cache || spheres || s_.beams) out.paths.quarters.clear();  // their quarters do not estimate misses
-  const auto few = few_met_warning(found, plan_.has_surfaces() && !spheres);
-  if (few) account.warn(*few);
-  if (found.rays > 0 && !few) out.missed = missed_counts(out.paths, 0, out.paths.size());
+  if (const auto text = witness_.hear(found, warm_frames_ == 0, plan_.has_surfaces() && !spheres)) account.warn(*text);
+  const bool told = !s_.cache && !spheres && witness_.tells();
+  if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
+  if (found.rays > 0) out.missed = told ? missed_counts(out.paths, 0, out.paths.size()) : MissedCounts{.unknown = 1};
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, plan_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
@@ -218,15 +201,21 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
     if (s_.windows) *ends = s_.windows->of(*ends, world, tables);
   }
   if (!tables.values.empty()) s_.discovery->set_heights(tables.values);
+  DiscoveryCounts out;
+  const double spread_m2 = widest_spread_m2(transmitters, tables.values, s_.slopes.has_value(),
+                                            block ? block->solved : world.links, world.receivers);
   if (!plan_.trace.rays) {
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
-    return s_.discovery->find_refined(s_.device_scene, transmitters, warm_frames_);
+    out = s_.discovery->find_refined(s_.device_scene, transmitters, warm_frames_);
+  } else {
+    std::vector<Launch> launches =
+        frame_launches(plan_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
+    for (Launch& launch : launches)
+      if (task.only_compiles()) launch.share = few_directions(launch.rays);
+    out = s_.discovery->find_all(s_.device_scene, launches);
   }
-  std::vector<Launch> launches =
-      frame_launches(plan_.trace, std::move(transmitters), std::move(listeners), warm_frames_);
-  for (Launch& launch : launches)
-    if (task.only_compiles()) launch.share = few_directions(launch.rays);
-  return s_.discovery->find_all(s_.device_scene, launches);
+  out.spread_m2 = spread_m2;
+  return out;
 }
 
 // The thesis' method: a ray that passes a receiver's sphere is a path.

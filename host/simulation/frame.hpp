@@ -7,6 +7,7 @@
 #include "simulation/discovery_clock.hpp"
 #include "simulation/frame_account.hpp"
 #include "simulation/frame_task.hpp"
+#include "simulation/recall_warning.hpp"
 #include "simulation/setup.hpp"
 
 namespace wavetracer {
@@ -42,8 +43,9 @@ class FrameLoop {
   Setup& s_;
   const RunPlan& plan_;
   DiscoveryClock clock_;
-  DiscoveryMark discovery_;   // that of the drive
-  RadioEnds ends_;            // those of the frame
+  DiscoveryMark discovery_;  // that of the drive
+  RadioEnds ends_;           // those of the frame
+  RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one
 };
 

@@ -54,6 +54,8 @@ struct DiscoveryCounts {
   // For a refined launch: the share of sequences that a single sample met, and why the launch ended.
   double share_once = 0;
   LaunchEnd end = LaunchEnd::recall;
+  // The largest area that rays share at the other end of a link (launch_spacing.hpp), and the rays of each transmitter.
+  double spread_m2 = 0, rays_each = 0;
   std::optional<BeamCounts> beams = {};  // set by a discovery by beams, which launches no rays
 
   // Adds the segments of `alive` rays. ended: the number of them that ended after each number of hits.
@@ -69,6 +71,7 @@ struct DiscoveryCounts {
     rays += more.rays;
     hits += more.hits;
     unread += more.unread;
+    if (rays_each == 0) rays_each = more.rays_each;  // transmitters come first
     if (segments_per_depth.size() < more.segments_per_depth.size())
       segments_per_depth.resize(more.segments_per_depth.size());
     for (size_t k = 0; k < more.segments_per_depth.size(); ++k) segments_per_depth[k] += more.segments_per_depth[k];

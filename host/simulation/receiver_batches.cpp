@@ -108,8 +108,15 @@ FrameResult joined_batches(std::vector<FrameResult> batches) {
   out.paths = joined_paths(batches);
   out.carriers = joined_carriers(batches);
   for (const FrameResult& batch : batches) add_counts(out, batch);
-  const bool told = std::ranges::any_of(batches, [](const FrameResult& batch) { return batch.missed.frames > 0; });
-  if (told) out.missed = missed_counts(out.paths, 0, out.paths.size());
+  const auto any = [&](uint64_t MissedCounts::*frames) {
+    return std::ranges::any_of(batches, [&](const FrameResult& batch) { return batch.missed.*frames > 0; });
+  };
+  if (any(&MissedCounts::unknown)) {
+    out.missed.unknown = 1;
+    out.paths.quarters.clear();
+  } else if (any(&MissedCounts::frames)) {
+    out.missed = missed_counts(out.paths, 0, out.paths.size());
+  }
   out.world = std::move(batches.front().world);
   for (size_t i = 1; i < batches.size(); ++i)
     append(out.world.links, batches[i].world.links, 0, batches[i].world.links.size());

@@ -89,6 +89,10 @@ json missed_ranges(const Missed& missed) {
   return {{"paths", range(missed.paths)}, {"power_share", range(missed.power_share)}};
 }
 
+json certificate_row(const CertificateFacts& of) {
+  return {{"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share}};
+}
+
 json box(const PageBounds& of, const glm::dvec3& centre_m) {
   const glm::dvec3 lower = of.lower - centre_m, upper = of.upper - centre_m;
   return {{lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z}};
@@ -122,6 +126,8 @@ json run_facts(const SavedRun& run, const SavedWorld& world, const ViewOptions& 
           {"link_budget", link_budget_row(world.config.radio)},
           {"transmitters", transmitter_rows(run)},
           {"missed", run.missed() ? missed_ranges(*run.missed()) : json()},
+          {"missed_unknown", run.missed_unknown()},
+          {"certificate", run.certificate() ? certificate_row(*run.certificate()) : json()},
           {"instances", instance_rows(run, world)}};
 }
 

@@ -98,7 +98,7 @@ struct FrameResult {
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook
   FrameCounts counts;
-  MissedCounts missed;      // frames = 0 with a ray cache or trace.reception = "sphere", and if no rays were launched
+  MissedCounts missed;      // unknown = 1 with a ray cache or trace.reception = "sphere", and where a warning says so
   Certificate certificate;  // with trace.discovery = "beams", else of no frames
   LateCounts late;          // set in a frame that launches rays after frames that did not, with trace.discover_every_s
   StageSeconds seconds;     // device stages only in frames that were profiled (Simulation::profile_every)

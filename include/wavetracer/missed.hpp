@@ -13,7 +13,8 @@ struct Paths;
 
 // Counts that add up over frames. Powers are sums of |a|^2.
 struct MissedCounts {
-  uint64_t frames = 0;  // 0: there is no estimate
+  uint64_t frames = 0;   // with an estimate; 0: there is none
+  uint64_t unknown = 0;  // frames whose rays do not show what they missed; nothing else counts these
   // [k]: paths that depend on rays and that k + 1 quarters found; [0] also counts paths that no quarter found alone,
   // because their parts come from different quarters.
   std::array<uint64_t, 4> paths{};
@@ -33,7 +34,7 @@ struct Missed {
 };
 
 void add(MissedCounts& sum, const MissedCounts& more);
-// Adds the counts of another part of the same frames.
+// Adds the counts of another part of the same frame; if one of them is unknown, all is.
 void add_part(MissedCounts& sum, const MissedCounts& more);
 
 // Counts rows first to end - 1 as one frame. Empty if it is not known which rays have found them.

@@ -108,8 +108,8 @@ class Frame(Unique):
     @property
     def missed(self) -> dict[str, dict[str, float]] | None:
         """Estimates of the paths that the rays of the frame have missed: missed["paths"] and missed["power_share"],
-        each with "estimate", and "low" to "high", the interval that contains the true value in 95 cases of 100. None if
-        it is not known."""
+        each with "estimate", and "low" to "high", the interval that contains the true value in 95 cases of 100. None
+        with beams, and where the rays do not show it; then `warnings` says why, unless the configuration does."""
         of = library.wavetracer_frame_missed(self._handle)
         if np.isnan(of.paths):
             return None

@@ -114,6 +114,25 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   CHECK(contains(report(), ": a higher trace.recall finds more of them\n"));
 }
 
+TEST_CASE("where rays do not show what they missed, the report says so, and why, instead of \"probably none\"") {
+  SampleRun sample;
+  Results results{totals_of(sample.frames()), {}, {}};
+  const auto report = [&] { return app::report(sample.run(), results, false); };
+  results.totals.frames = 30;
+  results.totals.missed = {.unknown = 30};
+  CHECK(contains(report(),
+                 "\nmissed     unknown: the rays do not show it, as a warning says; a higher number of "
+                 "trace.rays does, and trace.discovery = \"beams\" misses none\n"));
+  CHECK_FALSE(contains(report(), "probably none"));
+  results.totals.missed = {.frames = 27, .unknown = 3, .paths = {0, 0, 0, 9}, .power = 1};
+  CHECK(contains(report(), "\nmissed     probably none of 5 paths"));
+  CHECK(contains(report(), "\n           unknown in 3 of 30 frames: the rays do not show it"));
+  sample.config.cache.kind = "open";
+  CHECK(contains(report(), " frames: the answers of a ray cache are no independent rays\n"));
+  sample.config.trace.reception = "sphere";
+  CHECK(contains(report(), " frames: the spheres of receivers catch no exact paths\n"));
+}
+
 TEST_CASE("with beams the report says to which depth it is complete, and but for what") {
   const SampleRun sample;
   Results results{totals_of(sample.frames()), {}, {}};

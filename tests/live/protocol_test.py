@@ -175,6 +175,35 @@ def station():
     print("a station sends and receives")
 
 
+def beams_and_sparse_rays():
+    """With beams answers have their certificate in place of an estimate; rays that do not show what they missed have none,
+    neither for the frame nor for its links."""
+    beams = CONFIG.replace("rays = 50000", 'discovery = "beams"')
+    with Server(config=beams) as server, server.connect() as client:
+        client.hello()
+        answer = client.ask(frame(0, 0.0, POSES))
+        certificate = answer["certificate"]
+        expect(certificate["depth"] == 4 and 0 <= certificate["left_out_sr"] < 1e-6, certificate)
+        # rsu and the two cars send.
+        share = certificate["left_out_sr"] / (3 * 4 * math.pi)
+        expect(math.isclose(certificate["left_out_share"], share, rel_tol=1e-12), certificate)
+        expect("missed" not in answer and "missed_unknown" not in answer, answer)
+        expect(any(link["paths"] for link in answer["links"]), answer)
+        expect(all(link["missed_power_share"] is None for link in answer["links"]), answer)
+    far = CONFIG.replace("[8.0, 8.0, 6.0]", "[0.0, 0.0, 150.0]").replace("rays = 50000", "rays = 100")
+    with Server(config=far) as server, server.connect() as client:
+        client.hello()
+        answer = client.ask(frame(0, 0.0, POSES))
+        expect("missed" not in answer and "certificate" not in answer and answer["missed_unknown"] is True, answer)
+        expect(any("it is not known how many paths they missed" in text for text in answer["warnings"]), answer)
+        expect(all(link["missed_power_share"] is None for link in answer["links"]), answer)
+    with Server() as server, server.connect() as client:
+        client.hello()
+        answer = client.ask(frame(0, 0.0, POSES))
+        expect("missed" in answer and "certificate" not in answer and "missed_unknown" not in answer, answer)
+    print("certificates of beams, and rays that do not show what they missed")
+
+
 def two_clients():
     """Each has its own vehicles, though they share ids and places."""
     with Server() as server, server.connect() as one, server.connect() as two:
@@ -284,6 +313,7 @@ def main():
     steps_and_detail("tcp:127.0.0.1:0")
     with tempfile.TemporaryDirectory() as folder:
         steps_and_detail(f"unix:{folder}/live.sock")
+    beams_and_sparse_rays()
     station()
     two_clients()
     between_poses()

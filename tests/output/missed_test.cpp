@@ -97,6 +97,33 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   CHECK_FALSE(Json::parse(slurp(written[2])).contains("certificate"));
 }
 
+TEST_CASE(
+    "frames that do not know what was missed are counted, in shards too; an unknown block makes its frame unknown") {
+  const SampleRun sample;
+  std::vector<FrameResult> frames = drive(sample, 3, 12);
+  for (const size_t i : {2, 8}) frames[i].missed = {.unknown = 1};
+  const TemporaryFolder folder;
+  const auto unknown_of = [](const std::filesystem::path& file) { return Json::parse(slurp(file)); };
+  const Json whole = unknown_of(write_outputs(folder.path() / "whole", sample.run(), frames)[2]);
+  CHECK(whole.at("missed_unknown").at("frames") == 2);
+  CHECK(whole.at("missed_unknown").at("reason").get<std::string>().starts_with("the rays do not show it"));
+  CHECK(whole.contains("missed"));
+  Shards shards(folder.path(), sample_identity(12));
+  shards.write(sample.run(), Frames(frames).first(4));
+  shards.write(sample.run(), Frames(frames).subspan(4));
+  const Json merged = unknown_of(shards.merge(sample.run(), {})[2]);
+  CHECK(merged.at("missed_unknown") == whole.at("missed_unknown"));
+  CHECK(merged.at("missed") == whole.at("missed"));
+
+  Totals sum;
+  for (const size_t i : {0, 2, 0}) add_block(sum, totals_of({&frames[i], 1}));
+  CHECK(sum.missed.frames == 0);
+  CHECK(sum.missed.unknown == 1);
+  CHECK(sum.missed.power == 0);
+  const Json none = unknown_of(write_outputs(folder.path() / "none", sample.run(), drive(sample, 3, 4))[2]);
+  CHECK_FALSE(none.contains("missed_unknown"));
+}
+
 TEST_CASE("a manifest that names other quarters of a launch than four is refused, and says which line") {
   const TemporaryFolder folder;
   const SampleRun sample;

@@ -291,4 +291,9 @@ TEST_CASE("what was missed is read from summary.json and links.csv, where they a
   CHECK(link_table(run).warning.find("what was missed on links is not shown") != std::string::npos);
   std::ofstream(folder.path() / "summary.json") << "{\"device\": 1, \"missed\": {\"paths\": {\"estimate\": \"x\"}}}";
   CHECK_FALSE(SavedRun(folder.path()).missed());
+  CHECK(SavedRun(folder.path()).missed_unknown() == "");
+  std::ofstream(folder.path() / "summary.json") << "{\"missed_unknown\": {\"frames\": 1, \"reason\": \"why\"}}";
+  CHECK(SavedRun(folder.path()).missed_unknown() == "why");
+  std::ofstream(folder.path() / "summary.json") << "{\"missed_unknown\": {\"frames\": 1, \"reason\": 7}}";
+  CHECK(SavedRun(folder.path()).missed_unknown() == "");
 }

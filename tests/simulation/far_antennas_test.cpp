@@ -98,7 +98,45 @@ TEST_CASE("where few rays meet anything there is no estimate of what was missed,
   const FrameResult frame = run(config_of(file.path(), {{4500, 3, 4000}}, {{1, 1, 1}}, 20000, 2));
   CHECK(says_few_met(frame));
   CHECK(frame.missed.frames == 0);
+  CHECK(frame.missed.unknown == 1);
+  CHECK(frame.paths.quarters.empty());
   const FrameResult street_level = run(config_of(file.path(), {{1, 2, 2}}, {{1, 1, 1}}, 20000, 2));
   CHECK_FALSE(says_few_met(street_level));
   CHECK(street_level.missed.frames == 1);
+}
+
+TEST_CASE("a town on a wide plain, seen from far away: launches that lose paths do not say \"probably none\"") {
+  // The plain is around every antenna, so no window helps: rays meet the plain, and hardly one of them meets the town.
+  std::vector<Quad> quads{{{-50000, -50000, 0}, {100000, 0, 0}, {0, 100000, 0}}};
+  for (int i = -2; i < 2; ++i)
+    for (int k = -2; k < 2; ++k) {
+      const glm::dvec3 at{50 * i + 10, 50 * k + 10, 0}, x{30 + 2 * i, 0, 0}, y{0, 30 - k, 0}, z{0, 0, 14 + i + 3 * k};
+      quads.insert(quads.end(), {{at, x, z}, {at + y, x, z}, {at, y, z}, {at + x, y, z}, {at + z, x, y}});
+    }
+  const SceneFile file(quads);
+  const Points streets{{5, 5, 1.5}, {-45, 20, 1.5}, {55, -60, 1.5}, {5, -80, 1.5}};
+  for (const glm::dvec3& p : {glm::dvec3(12000, 7000, 8000), {3000, 1700, 2000}, {30000, 17000, 20000}}) {
+    CAPTURE(p.x);
+    Config config = config_of(file.path(), {p}, streets, 10000, 3);
+    config.trace.discovery = "beams";
+    const FrameResult all = run(config);
+    CHECK(all.certificate.frames == 1);
+    config.trace.discovery = "rays";
+    for (const std::optional<uint64_t> rays : {std::optional<uint64_t>(10000), {200000}, {}}) {
+      config.trace.rays = rays;
+      const FrameResult found = run(config);
+      CHECK(found.counts.hits > found.counts.rays / 50);  // those of the plain
+      if (missing(all.paths, found.paths) == 0) continue;
+      CHECK(found.missed.frames == 0);
+      CHECK(found.missed.unknown == 1);
+      CHECK(found.paths.quarters.empty());  // so links have no estimate either
+      CHECK(std::ranges::any_of(found.warnings, [](const std::string& text) {
+        return text.find("m and more apart where a receiver is") != std::string::npos;
+      }));
+    }
+  }
+  const FrameResult near = run(config_of(file.path(), {{10, 5, 20}}, streets, 10000, 3));
+  CHECK(near.missed.frames == 1);
+  CHECK(near.missed.unknown == 0);
+  CHECK(near.paths.quarters.size() == near.paths.size());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests when a refined launch that ended early gives a warning, and what the warning advises.
+// Tests when a refined launch that ended early gives a warning, what the warning advises, and which launches do not
+// show what they missed.
 #include "simulation/recall_warning.hpp"
 
 #include <doctest/doctest.h>
@@ -79,4 +80,44 @@ TEST_CASE("rays of which few met anything tell nothing; a thousand, or a fiftiet
   CHECK(few_met_warning(found, true).value_or("").find("it is not known how many paths they missed") !=
         std::string::npos);
   CHECK_FALSE(few_met_warning({}, true).has_value());  // no rays were launched
+}
+
+TEST_CASE("rays of which houses may lie between tell nothing; the warning has a number that is enough") {
+  DiscoveryCounts found;
+  found.rays = 100000;
+  found.spread_m2 = 1e5 * 29.9 * 29.9;
+  CHECK_FALSE(far_apart_warning(found, 1e5).has_value());
+  CHECK(far_apart_warning(found, 99000).has_value());
+  found.spread_m2 = 1e5 * 230 * 230;
+  const std::string text = far_apart_warning(found, 1e5).value_or("");
+  CHECK(text.starts_with("rays are 200 m and more apart where a receiver is"));
+  CHECK(text.find("above 6e+06;") != std::string::npos);  // 1e5 (230 / 30)^2
+  CHECK_FALSE(far_apart_warning(found, 6e6).has_value());
+  found.rays = 0;
+  CHECK_FALSE(far_apart_warning(found, 1e5).has_value());
+}
+
+TEST_CASE("a frame without rays tells what the one before it told; warm frames add rays, and a cold one forgets") {
+  DiscoveryCounts sparse, none;
+  sparse.rays = sparse.hits = 10000;
+  sparse.rays_each = 10000;
+  sparse.spread_m2 = 25000.0 * 30 * 30;
+  RayWitness witness;
+  CHECK(witness.tells());
+  CHECK(witness.hear(sparse, true, true).has_value());
+  CHECK_FALSE(witness.tells());
+  CHECK_FALSE(witness.hear(none, false, true).has_value());
+  CHECK_FALSE(witness.tells());
+  CHECK(witness.hear(sparse, false, true).has_value());
+  CHECK_FALSE(witness.hear(sparse, false, true).has_value());  // the third launch: 30,000 rays in all
+  CHECK(witness.tells());
+  CHECK(witness.hear(sparse, true, true).has_value());
+  CHECK_FALSE(witness.hear(sparse, true, false).has_value());  // there is nothing to be met
+  DiscoveryCounts lost = sparse;
+  lost.hits = 10;
+  lost.spread_m2 = 0;
+  CHECK(witness.hear(lost, true, true).value_or("").starts_with("less than 2% of the rays"));
+  CHECK_FALSE(witness.tells());
+  CHECK_FALSE(witness.hear(none, true, true).has_value());
+  CHECK(witness.tells());  // a cold frame without rays has nothing to miss
 }

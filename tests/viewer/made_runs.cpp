@@ -59,9 +59,17 @@ void add_path(Paths& paths, uint32_t frame, const Link& link, const EndState& fr
 }
 
 // Adds counts of all the paths of a frame.
-void add_counts(FrameResult& frame) {
+void add_counts(FrameResult& frame, MadeRun::Found found = MadeRun::Found::rays) {
   frame.counts.paths = frame.paths.size();
-  frame.missed = missed_counts(frame.paths, 0, frame.paths.size());
+  if (found == MadeRun::Found::rays) {
+    frame.missed = missed_counts(frame.paths, 0, frame.paths.size());
+    return;
+  }
+  frame.paths.quarters.clear();
+  if (found == MadeRun::Found::beams)
+    frame.certificate = {.frames = 1, .depth = 5, .ends = 3, .left_out_sr = 0x1p-30};
+  else
+    frame.missed = {.unknown = 1};
 }
 
 RunSummary made_summary() {
@@ -116,7 +124,7 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
     for (const Link& link : world.links)
       for (uint32_t k = 0; k < made.paths_a_link; ++k)
         add_path(frame.paths, f, link, world.transmitters[link.tx], world.receivers[link.rx], k);
-    add_counts(frame);
+    add_counts(frame, made.found);
   }
   write_outputs(folder, {config, scene, instances, models, made_summary()}, frames);
 }

@@ -71,6 +71,23 @@ kept = np.concatenate([page.js("wavetracer.setFrame(arguments[0]); return Array.
 assert np.allclose(np.sort(kept), np.sort(gain)[-50:], atol=0.011), (np.sort(kept)[:3], np.sort(gain)[-50:][:3])
 page.check_clean()
 
+# The certificate of beams takes the place of what was missed; a page never says "probably none" of rays that do not show it.
+page = Page(folder, "beams")
+assert page.text("missed") == "", page.text("missed")
+said = "Beams have found every path of up to 5 reflections, but for beams of 2\u00b710\u207b\u2079 sr in all, 2\u00b710\u207b\u00b9\u00b9 of the directions."
+assert page.text("certificate") == said, page.text("certificate")
+page.choose("transmitter", 0)
+page.choose("receiver", 1)
+assert "Path gain" in page.text("link_figures") and "Missed" not in page.text("link_figures"), page.text("link_figures")
+page.check_clean()
+page = Page(folder, "sparse")
+assert page.text("missed").startswith("It is not known what rays have missed: the rays do not show it"), page.text("missed")
+assert page.text("certificate") == "" and "probably" not in page.text("missed")
+page.choose("transmitter", 0)
+page.choose("receiver", 1)
+assert "Path gain" in page.text("link_figures") and "Missed" not in page.text("link_figures"), page.text("link_figures")
+page.check_clean()
+
 # A narrow window: nothing is wider than it, and the picture is still there.
 page = Page(folder, "drive", width=390, height=844, dark=False)
 assert page.js("return document.documentElement.scrollWidth") <= 390
@@ -79,4 +96,4 @@ assert size["width"] > 380 and size["height"] > 300, size
 page.click(size["width"] / 2, size["height"] / 2)
 page.screenshot("narrow")
 page.check_clean()
-print("hostile, empty, single, long, missing, capped and narrow pages are right")
+print("hostile, empty, single, long, missing, capped, beams, sparse and narrow pages are right")

@@ -24,18 +24,31 @@ function rows_table(rows) {
 // Turns 0.021 into "2.1 %", 3e-7 into "3\u00b710\u207b\u2077".
 function share_text(share) {
   if (!Number.isFinite(share)) return "unknown";
-  if (share === 0 || share >= 0.001) return `${+(100 * share).toPrecision(2)} %`;
+  return share === 0 || share >= 0.001 ? `${+(100 * share).toPrecision(2)} %` : small_text(share);
+}
+
+// Writes a number below 1 as a digit and a power of ten.
+function small_text(share) {
   const power = Math.floor(Math.log10(share)), digits = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
   return `${+(share / 10 ** power).toPrecision(1)}\u00b710\u207b${[...String(-power)].map((c) => digits[Number(c)]).join("")}`;
 }
 
-// Describes what rays may have missed in the run; empty if unknown.
+// Describes what rays may have missed in the run; empty without rays.
 function missed_text() {
-  if (!meta.missed) return "";
+  const unknown = meta.missed_unknown ? `It is not known what rays have missed${meta.missed ? " in some frames" : ""}: ${meta.missed_unknown}.` : "";
+  if (!meta.missed) return unknown;
   const {paths: [paths, low, high], power_share: [share, least, most]} = meta.missed;
   const about = paths < 0.5 ? "probably missed none" : `missed about ${Math.round(paths)}`;
   return `Rays have ${about} of ${meta.paths[1]} paths (${Math.round(low)} to ${Math.ceil(high)}), `
-    + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}).`;
+    + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}). ${unknown}`.trim();
+}
+
+// Says to which depth beams have found all paths, and but for what; empty without beams.
+function certificate_text() {
+  if (!meta.certificate) return "";
+  const {depth, left_out_sr: solid_angle, left_out_share: share} = meta.certificate;
+  const but = solid_angle > 0 ? `, but for beams of ${small_text(solid_angle)} sr in all, ${share_text(share)} of the directions` : "";
+  return `Beams have found every path of up to ${depth} ${depth === 1 ? "reflection" : "reflections"}${but}.`;
 }
 
 // Returns rows of the run's link budget for a gain; none without one.

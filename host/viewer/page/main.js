@@ -261,6 +261,7 @@ function write_facts() {
     ...grids.map(({name, columns, rows}) => `map ${name} of ${columns} \u00d7 ${rows} receivers`),
     ...(meta.instances.length ? [count(meta.instances.filter(is_taken).length, "vehicle", "vehicles")] : []), `wavetracer ${meta.version}`].join(", ");
   control("missed").textContent = missed_text();
+  control("certificate").textContent = certificate_text();
   if (all === 0) warnings.push("This run has no paths.");
   for (const warning of warnings) control("warnings").append(element("li", warning));
   for (const name of [...new Set(world.solids.map(([, name]) => name))])
