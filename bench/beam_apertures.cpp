@@ -89,15 +89,15 @@ Json run(const Options& options) {
   lists.apertures.write(roots(from), 0, Stage::beam_gather);
   Sequences set(context, 1 << 18);
   set.clear();
-  BeamGather gather(context, tree.stack);
+  BeamGather gather(context, tree.depth);
   BeamVisible visible(context);
   Json rows = Json::array();
   uint32_t count = 6;
   for (uint32_t depth = 1; depth <= options.depth && count > 0; ++depth) {
     lists.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
-    const uint32_t chunks = gather(tree, device, lists, 0, count, false, most_chunks);
+    const uint32_t chunks = gather(tree, device, lists, 0, count, 0, most_chunks);
     if (chunks > most_chunks) throw RuntimeError("too many candidates for a figure");
-    visible(tree, device, lists, chunks, {.depth = depth, .max_depth = options.depth + 1}, set.trie());
+    visible(tree, device, lists, 0, chunks, {.depth = depth, .max_depth = options.depth + 1}, set.trie());
     count = lists.counters.read_one(0, Stage::beam_visible).apertures;
     if (count > most_apertures) throw RuntimeError("too many apertures for a figure");
     std::vector<wt_aperture> found = lists.next.read();
