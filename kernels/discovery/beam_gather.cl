@@ -42,15 +42,14 @@ inline int may_reflect(const wt_scene_view* at, uint surface) {
 }
 
 // Looks at one facet: it is listed if it may be seen or may hide others.
-inline void look_at(const wt_scene_view* at, uint f, const local wt_beam_walk* walk, uint* recent, local wt_look* look,
-                    uint k) {
+inline void look_at(const wt_scene_view* at, uint f, const local wt_beam_walk* walk, local wt_look* look, uint k) {
   look->listed[k] = look->is_screen[k] = 0;
   const global wt_facet* facet = at->facets + f;
   wt_outline o;
   wt_load_outline(facet, at->corners, at->apex, &o);
   wt_view_box box;
   if (wt_outline_outside(at->lit, &o) || !wt_box_of(&at->view, &o, at->lit, &box) ||
-      wt_outline_hidden(&walk->screens, recent, &o))
+      wt_outline_hidden(&walk->screens, &o))
     return;
   const int reflects = may_reflect(at, facet->surface);
   wt_hider hider;
@@ -90,14 +89,14 @@ inline void make_room(local wt_list* list, uint more, global wt_chunk* chunks, g
 }
 
 // Looks at the first `count` facets that wait, lists them in their order, and keeps the largest as screens.
-inline void look_at_facets(const wt_scene_view* at, uint count, local wt_beam_walk* walk, uint* recent,
-                           local wt_look* look, local wt_list* list, global wt_chunk* chunks,
-                           global wt_beam_candidate* candidates, global wt_beam_counters* counters, uint capacity) {
+inline void look_at_facets(const wt_scene_view* at, uint count, local wt_beam_walk* walk, local wt_look* look,
+                           local wt_list* list, global wt_chunk* chunks, global wt_beam_candidate* candidates,
+                           global wt_beam_counters* counters, uint capacity) {
   const uint lane = wt_lane();
   for (uint k = 0; k < count && WT_LANES == 1; ++k) wt_prefetch(at->facets + wt_leaf_first(walk->reached[k]));
   for (uint k = 0; k < count && WT_LANES == 1; ++k)
     wt_prefetch(at->corners + 3 * (size_t)at->facets[wt_leaf_first(walk->reached[k])].first_corner);
-  for (uint k = lane; k < count; k += WT_LANES) look_at(at, wt_leaf_first(walk->reached[k]), walk, recent, look, k);
+  for (uint k = lane; k < count; k += WT_LANES) look_at(at, wt_leaf_first(walk->reached[k]), walk, look, k);
   WT_SYNC();
   if (lane == 0)
     for (uint k = 0; k < count; ++k)
@@ -158,13 +157,12 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
                       .walls = args.walls};
   wt_load_view(lit, &at.view);
   at.reach = wt_reach_of(nodes, at.apex);
-  uint recent = 0, recent_facet = 0;
   while (walk.top > 0 || walk.waiting > 0) {
     if (walk.waiting >= WT_BATCH || walk.top == 0)
-      look_at_facets(&at, min(walk.waiting, WT_BATCH), &walk, &recent_facet, &look, &list, chunks, candidates, counters,
+      look_at_facets(&at, min(walk.waiting, WT_BATCH), &walk, &look, &list, chunks, candidates, counters,
                      args.capacity);
     else
-      wt_descend(nodes, at.apex, at.view.n, &walk, &recent);
+      wt_descend(nodes, at.apex, at.view.n, &walk);
   }
   if (lane == 0 && list.last < args.capacity) chunks[list.last] = (wt_chunk){i, list.first, WT_NONE, list.count};
 }
