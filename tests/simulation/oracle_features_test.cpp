@@ -137,11 +137,15 @@ double widest_sector_rad(const Scene& scene, const std::array<dvec3, 2>& edge, c
 }  // namespace
 
 TEST_CASE("the small lists with diffraction and transmission: every path at the defaults") {
-  for (const std::string name : {"simple_wedge", "floor_wall", "box_one_screen"}) {
-    CAPTURE(name);
-    const reference::Case list = reference::load_case(project / "tests/reference/oracle" / (name + ".json"));
-    CHECK(compare(list, run(config_for(list, project / "tests/reference/scenes")).paths).recall == 1);
-  }
+  for (const std::string name : {"simple_wedge", "floor_wall", "box_one_screen"})
+    for (const DiscoveryWay discovery : {DiscoveryWay("rays"), DiscoveryWay("beams")}) {
+      CAPTURE(name);
+      CAPTURE(discovery == "beams");
+      const reference::Case list = reference::load_case(project / "tests/reference/oracle" / (name + ".json"));
+      Config config = config_for(list, project / "tests/reference/scenes");
+      config.trace.discovery = discovery;
+      CHECK(compare(list, run(config).paths).recall == 1);
+    }
 }
 
 TEST_CASE("a street canyon with cars: every path of the list, and of its kinds") {
@@ -160,10 +164,15 @@ TEST_CASE("a street canyon with cars: every path of the list, and of its kinds")
 TEST_CASE("munich, transmission: every path, no other") {
   const auto list = munich("munich_transmission");
   if (!list) return;
-  const reference::Comparison c = compare(*list, run(config_for(*list, shared / "scenes")).paths);
-  CHECK(c.recall == 1);
-  CHECK(c.extra == 0);
-  CHECK(c.kinds.at("transmission").reference > 0);
+  for (const DiscoveryWay discovery : {DiscoveryWay("rays"), DiscoveryWay("beams")}) {
+    CAPTURE(discovery == "beams");
+    Config config = config_for(*list, shared / "scenes");
+    config.trace.discovery = discovery;
+    const reference::Comparison c = compare(*list, run(config).paths);
+    CHECK(c.recall == 1);
+    CHECK(c.extra == 0);
+    CHECK(c.kinds.at("transmission").reference > 0);
+  }
 }
 
 // If buildings touch, the list has two wedges, one for each mesh. The faces of both together leave no sector wider than
