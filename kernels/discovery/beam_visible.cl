@@ -2,15 +2,15 @@
 // beam_visible: the parts of facets that an image sees through an aperture and that nothing hides. Each part enters its
 // sequence into the trie and becomes an aperture of the next depth, unless this is the last one. A group of WT_LANES
 // work-items takes WT_TARGETS candidates one after the other; the other candidates of the aperture are what may hide
-// them, and each lane looks at some of these. A group that has worked for long stores the pieces that are
-// left, and beam_waiting goes on with each of them in a group of its own.
+// them, and each lane looks at some of these. A group that has worked for long stores the pieces that are left, and
+// beam_waiting goes on with each of them in a group of its own.
 #include "lib/shadow.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
-// The work of a group: it has this much patience; a look at a chunk of candidates takes 1 of it, and a cut 4. Little
-// patience is best for GPUs: 32 gave 55 ms in a street where 128 gave 67 (H100). It is the same for all devices,
-// because it decides which pieces are looked at once a part of a facet was seen.
+// A group does this much work for one candidate; a look at a chunk of candidates counts 1, and a cut WT_CUT_WORK. It is
+// the same for all devices, because it decides which pieces are looked at once a part of a facet was seen. GPUs want
+// little (docs/design/measurements.md).
 #define WT_PATIENCE 32
 #define WT_CUT_WORK 4
 
