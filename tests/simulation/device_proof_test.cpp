@@ -106,8 +106,8 @@ TEST_CASE("a ray cache that finds no key fails its check, and no other") {
 TEST_CASE("beams that lose small pieces fail the check of paths, and no other") {
   const CheckedFeatures beams{.instances = true, .beams = true};
   CHECK(failed_checks(beams).all == "");
-  const BrokenLine broken("kernels/discovery/beam_visible.cl", "pieces.count = sr > WT_LEAST_SR;",
-                          "pieces.count = sr > 0.01;");
+  const BrokenLine broken("kernels/discovery/beam_visible.cl", "counts.count = sr > WT_LEAST_SR;",
+                          "counts.count = sr > 0.01;");
   fails_first("paths", beams);
 }
 
