@@ -11,6 +11,7 @@
 #include "passes/beam_visible.hpp"
 #include "passes/sequences.hpp"
 #include "scene/load.hpp"
+#include "simulation/beam_tracing.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/error.hpp"
 
@@ -38,28 +39,6 @@ Json corners_of(const wt_aperture& aperture, const glm::dvec3& origin_m) {
   return out;
 }
 
-// The six faces of a cube around the antenna.
-std::vector<wt_aperture> roots(const glm::dvec3& from) {
-  std::vector<wt_aperture> out;
-  for (int face = 0; face < 6; ++face) {
-    wt_aperture root{};
-    root.count = 4;
-    root.node = WT_ROOT;
-    root.surface = root.own = WT_NONE;
-    const int axis = face / 2;
-    for (int k = 0; k < 3; ++k) root.image[k] = from[k];
-    for (int corner = 0; corner < 4; ++corner) {
-      double* const at = root.corners + 3 * corner;
-      std::copy_n(root.image, 3, at);
-      at[axis] += face % 2 ? 1 : -1;
-      at[(axis + 1) % 3] += corner == 0 || corner == 3 ? -1 : 1;
-      at[(axis + 2) % 3] += corner < 2 ? -1 : 1;
-    }
-    out.push_back(root);
-  }
-  return out;
-}
-
 Json facet_rows(const Facets& facets, const Scene& scene) {
   Json out = Json::array();
   for (const wt_facet& facet : facets.facets) {
@@ -81,18 +60,20 @@ Json run(const Options& options) {
   const DeviceScene device = make_device_scene(context, scene, false);
   const Facets facets = WorldFacets(scene, {}).at({}, {});
   const BeamTree tree = make_beam_tree(context, facets);
-  const glm::dvec3 from = glm::dvec3(options.at_m[0], options.at_m[1], options.at_m[2]) - scene.origin_m;
+  const Launcher end{.transmitter = 0,
+                     .position_m = glm::dvec3(options.at_m[0], options.at_m[1], options.at_m[2]) - scene.origin_m};
 
   BeamLists lists(context);
   lists.apertures = context.buffer<wt_aperture>(most_apertures, "apertures");
   lists.next = context.buffer<wt_aperture>(most_apertures, "apertures");
-  lists.apertures.write(roots(from), 0, Stage::beam_gather);
+  const std::vector<wt_aperture> roots = beam_roots({&end, 1});
+  lists.apertures.write(roots, 0, Stage::beam_gather);
   Sequences set(context, 1 << 18);
   set.clear();
   BeamGather gather(context, tree.depth);
   BeamVisible visible(context);
   Json rows = Json::array();
-  uint32_t count = 6;
+  auto count = static_cast<uint32_t>(roots.size());
   for (uint32_t depth = 1; depth <= options.depth && count > 0; ++depth) {
     lists.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
     const uint32_t chunks = gather(tree, device, lists, 0, count, 0, most_chunks);

@@ -99,7 +99,8 @@ double apertures(N n) { return n.items("beam_gather/beam_gather") / n.tuning.gat
 double candidates_of_beams(N n) {
   return n.items("beam_visible/beam_visible") / n.tuning.visible_lanes * n.tuning.visible_targets;
 }
-double waiting_pieces(N n) { return n.items("beam_visible/beam_waiting") / n.tuning.visible_lanes; }
+// Those without a piece count too, since a round has as many groups as any other.
+double waiting_groups(N n) { return n.items("beam_visible/beam_waiting") / n.tuning.visible_lanes; }
 
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
@@ -131,7 +132,8 @@ constexpr KernelCost costs[] = {
     {"beam_gather/beam_gather", "beams", "apertures", apertures, always<sizeof(wt_aperture)>, scene_operations},
     {"beam_visible/beam_visible", "beams", "candidates", candidates_of_beams, always<sizeof(wt_beam_candidate)>,
      nothing},
-    {"beam_visible/beam_waiting", "beams", "pieces", waiting_pieces, always<sizeof(wt_waiting_piece)>, nothing},
+    {"beam_visible/beam_waiting", "beams", "groups, one piece or none each", waiting_groups,
+     always<sizeof(wt_waiting_piece)>, nothing},
 
     {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},

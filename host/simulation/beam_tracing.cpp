@@ -24,8 +24,7 @@ BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::v
       facets_(scene, models),
       lists_(context) {}
 
-// Six faces of a cube around each end.
-uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
+std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends) {
   std::vector<wt_aperture> roots;
   for (const Launcher& end : ends) {
     wt_aperture root{};
@@ -46,6 +45,11 @@ uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
         roots.push_back(root);
       }
   }
+  return roots;
+}
+
+uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
+  const std::vector<wt_aperture> roots = beam_roots(ends);
   if (lists_.apertures.size() < roots.size())
     lists_.apertures =
         context_.buffer<wt_aperture>(std::max<size_t>(roots.size(), least_apertures), {"apertures", advice::links});

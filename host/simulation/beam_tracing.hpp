@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "passes/beam_gather.hpp"
@@ -13,6 +14,9 @@
 #include "simulation/launch.hpp"
 
 namespace wavetracer {
+
+// The first apertures of beams: the six faces of a cube around each end.
+std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends);
 
 class BeamTracing {
  public:

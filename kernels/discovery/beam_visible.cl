@@ -109,7 +109,7 @@ inline void look(const wt_world* world, const wt_view* view, double3 apex, const
     if (counts->count == 0) break;
     --counts->count;
     const uint next = shared->pieces.next[counts->count];
-    if (wt_lane() == 0) wt_copy_walls(shared->pieces.walls + counts->count, &shared->pieces.passed);
+    if (wt_lane() == 0) shared->pieces.passed = shared->pieces.walls[counts->count];
     wt_copy_polygon(shared->pieces.piece + counts->count, &shared->pieces.whole);
     if (!seen_whole(world, view, apex, target, next, out, shared, counts)) continue;
     if (node == WT_NONE) node = enter(out, world->aperture->node, target->surface, shared);
