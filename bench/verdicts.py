@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verdicts on the claims of A. Zhdanov's thesis on each device.
 
-Usage: verdicts.py [--instead-of DEVICE] [--apart TEXT] [--note TEXT] THESIS_MD...
+Usage: verdicts.py [--add] [--instead-of DEVICE] [--apart TEXT] [--note TEXT] THESIS_MD...
 
 Each file is a thesis.md that `wavetracer thesis` has written, for all experiments or for some. The files of one device
 are put together, and replace all verdicts of that device in bench/results/verdicts.csv; report.py makes
-docs/thesis_verdicts.md of that file. --instead-of also removes the verdicts of another device, by the name that the page gives it. --apart is
+docs/thesis_verdicts.md of that file. With --add they replace only those of their figures. --instead-of also removes the verdicts of another device, by the name that the page gives it. --apart is
 for runs with other settings: they have a column of their own, whose name is that of the device and this text. The note is printed behind the
 date: it says what else one must know of these runs.
 """
@@ -105,8 +105,8 @@ def page(rows):
     return "\n".join(lines) + "\n"
 
 
-def merged(rows, texts, note="", instead_of=None, apart=""):
-    """`rows` with those of new runs in place of all others of their devices. Two runs of one device must not have the
+def merged(rows, texts, note="", instead_of=None, apart="", add=False):
+    """`rows` with those of new runs in place of all others of their devices, or with `add` of their figures there. Two runs of one device must not have the
     same figure. Files without a claim add nothing."""
     new = []
     for text in texts:
@@ -119,19 +119,21 @@ def merged(rows, texts, note="", instead_of=None, apart=""):
     if not new:
         sys.exit("no file has a table of verdicts with a claim")
     gone = {shown(row["device"]) for row in new} | {instead_of}
-    return sorted([row for row in rows if shown(row["device"]) not in gone] + new,
+    figures = {row["figure"] for row in new}
+    return sorted([row for row in rows if shown(row["device"]) not in gone or (add and row["figure"] not in figures)] + new,
                   key=lambda row: (shown(row["device"]) != "two cores", row["device"], place(row)))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", type=pathlib.Path)
+    parser.add_argument("--add", action="store_true")
     parser.add_argument("--instead-of")
     parser.add_argument("--apart", default="")
     parser.add_argument("--note", default="")
     options = parser.parse_args()
     rows = merged(read(FILE) if FILE.exists() else [], [path.read_text(encoding="utf-8") for path in options.files], options.note,
-                  options.instead_of, options.apart)
+                  options.instead_of, options.apart, options.add)
     with open(FILE, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         writer.writeheader()

@@ -136,10 +136,16 @@ std::string missed_line(const Run& run, const Totals& totals) {
 std::string certificate_line(const Totals& totals) {
   const Certificate& of = totals.certificate;
   if (of.frames == 0) return "";
-  return fmt::format(
-      "complete   every path of up to {} reflections, but for beams of {:.2g} sr in all, {:.2g} of the "
-      "directions\n",
-      of.depth, of.left_out_sr, of.left_out_share());
+  std::string out = of.any_depth ? std::string("complete   every path of any number of reflections")
+                                 : fmt::format("complete   every path of up to {} reflections", of.depth);
+  if (of.floor_db) out += fmt::format(" with a gain of {} dB or more between isotropic antennas", *of.floor_db);
+  out +=
+      fmt::format(", but for beams of {:.2g} sr in all, {:.2g} of the directions", of.left_out_sr, of.left_out_share());
+  if (of.left_out_power > 0)
+    out += fmt::format("; a link misses at most {:.0f} dB through them", 10 * std::log10(of.left_out_power));
+  if (of.floor_db)
+    out += fmt::format("\n           weaker beams, with {:.2g} of the power, were not followed", of.weak_share());
+  return out + "\n";
 }
 
 // Says what tracing did, for users who tune it.

@@ -108,7 +108,7 @@ Table cache_table() {
           {.name = "first_depth",
            .slot = c(&CacheConfig::first_depth),
            .unit = "segments of a ray, counted from 1",
-           .range = {1, 32},
+           .range = {1, 64},
            .doc = "The first segment of a ray that the cache may answer; earlier segments are always traced. "
                   "Neighbouring rays are launched together, so a cache saves least at the first segments. "
                   "1: all segments may be answered."},

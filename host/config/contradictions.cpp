@@ -119,6 +119,23 @@ void check_beams(const Config& config, Found& out) {
                                taker.does, taker.key)});
 }
 
+// The floor bounds paths that mirrors alone make: an edge or a rough surface sends waves elsewhere.
+void check_floor(const Config& config, Found& out) {
+  const TraceConfig& trace = config.trace;
+  if (!trace.floor_db) return;
+  const auto refuse = [&](const char* key, const std::string& why) {
+    out.push_back({{"trace.floor_db", key}, fmt::format("trace.floor_db = {} {}", *trace.floor_db, why)});
+  };
+  if (!trace.by_beams())
+    refuse("trace.discovery",
+           "leaves out beams that are too weak, but rays are not left out: remove trace.floor_db, or use "
+           "trace.discovery = \"beams\"");
+  const char* const nothing = "says nothing of the power of waves that {}: remove trace.floor_db, or use {} = false";
+  for (const auto& [key, is_on, waves] : {std::tuple{"trace.diffraction", trace.diffraction, "an edge diffracts"},
+                                          std::tuple{"trace.scattering", trace.scattering, "a surface scatters"}})
+    if (is_on) refuse(key, fmt::format(fmt::runtime(nothing), waves, key));
+}
+
 // Reception by spheres counts each ray as one sample of the directions that reach a receiver.
 void check_reception(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
@@ -254,6 +271,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_rays(config, out);
   check_discoveries(config, out);
   check_beams(config, out);
+  check_floor(config, out);
   check_reception(config, out);
   check_features(config, out);
   check_link_budget(config.radio, out);

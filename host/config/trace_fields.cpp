@@ -71,9 +71,18 @@ Table trace_table() {
           {.name = "max_depth",
            .slot = t(&TraceConfig::max_depth),
            .unit = "interactions",
-           .range = {0, 32},
+           .range = {0, 64},
            .doc = "The largest number of interactions of one path. 0 computes the line of sight only. "
                   "Beyond 5, a path in a street canyon carries little power."},
+          {.name = "floor_db",
+           .slot = t(&TraceConfig::floor_db),
+           .unit = "dB",
+           .range = {-400, 0},
+           .doc = "Only with discovery = \"beams\", and without diffraction and scattering: the path gain between "
+                  "isotropic antennas, without their own gains, below which a path need not be found. Beams whose "
+                  "paths are all weaker are not followed, so a large max_depth costs little: with max_depth = 64 the "
+                  "list has every path above this gain, whatever its number of reflections. The run tells the power "
+                  "of the beams that were not followed. Weaker paths that are found are kept."},
           {.name = "reflection", .slot = t(&TraceConfig::reflection), .doc = "Specular reflection."},
           {.name = "diffraction",
            .slot = t(&TraceConfig::diffraction),
@@ -116,7 +125,7 @@ Table trace_table() {
           {.name = "max_transmissions",
            .slot = t(&TraceConfig::max_transmissions),
            .unit = "transmissions per path",
-           .range = {1, 32},
+           .range = {1, 64},
            .doc = "The largest number of transmissions of one path. Each also counts as an interaction for max_depth. "
                   "A path through one building or vehicle needs 2."},
           {.name = "scattering",

@@ -45,14 +45,24 @@ Json encode_missed(const MissedCounts& missed) {
 }
 
 Json encode_certificate(const Certificate& of) {
-  return {{"frames", of.frames}, {"depth", of.depth}, {"ends", of.ends}, {"left_out_sr", of.left_out_sr}};
+  Json json = {{"frames", of.frames},           {"depth", of.depth},
+               {"any_depth", of.any_depth},     {"ends", of.ends},
+               {"left_out_sr", of.left_out_sr}, {"left_out_power", of.left_out_power},
+               {"weak_sr", of.weak_sr}};
+  if (of.floor_db) json["floor_db"] = *of.floor_db;
+  return json;
 }
 
 Certificate decode_certificate(const Json& json) {
-  return {.frames = whole_at<uint64_t>(json, "frames"),
-          .depth = whole_at<uint32_t>(json, "depth"),
-          .ends = whole_at<uint64_t>(json, "ends"),
-          .left_out_sr = json.at("left_out_sr")};
+  Certificate out{.frames = whole_at<uint64_t>(json, "frames"),
+                  .depth = whole_at<uint32_t>(json, "depth"),
+                  .any_depth = json.at("any_depth"),
+                  .ends = whole_at<uint64_t>(json, "ends"),
+                  .left_out_sr = json.at("left_out_sr"),
+                  .left_out_power = json.at("left_out_power"),
+                  .weak_sr = json.at("weak_sr")};
+  if (json.contains("floor_db")) out.floor_db = json.at("floor_db");
+  return out;
 }
 
 MissedCounts decode_missed(const Json& json) {

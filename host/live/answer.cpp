@@ -161,6 +161,15 @@ void write_certificate(Line& line, const Certificate& of) {
   line.number(of.left_out_sr);
   line.key("left_out_share");
   line.number(of.left_out_share());
+  line.key("left_out_power");
+  line.number(of.left_out_power);
+  line.raw(of.any_depth ? ",\"any_depth\":true" : ",\"any_depth\":false");
+  if (of.floor_db) {
+    line.key("floor_db");
+    line.number(*of.floor_db);
+    line.key("weak_share");
+    line.number(of.weak_share());
+  }
   line.raw("}");
 }
 

@@ -59,6 +59,18 @@ Json range(const MissedRange& of) {
   return {{"estimate", three_digits(of.estimate)}, {"low", three_digits(of.low)}, {"high", three_digits(of.high)}};
 }
 
+Json certificate(const Certificate& of) {
+  Json json = {{"depth", of.depth},
+               {"any_depth", of.any_depth},
+               {"left_out_sr", of.left_out_sr},
+               {"left_out_share", of.left_out_share()},
+               {"left_out_power", of.left_out_power}};
+  if (!of.floor_db) return json;
+  json["floor_db"] = *of.floor_db;
+  json["weak_share"] = of.weak_share();
+  return json;
+}
+
 // Writes what rays may have missed, where it is not known, and to which depth beams have found all paths.
 void put_missed(const Run& run, const Totals& totals, Json& json) {
   if (totals.missed.frames > 0) {
@@ -67,9 +79,7 @@ void put_missed(const Run& run, const Totals& totals, Json& json) {
   }
   if (totals.missed.unknown > 0)
     json["missed_unknown"] = {{"frames", totals.missed.unknown}, {"reason", missed_unknown_reason(run.config)}};
-  if (const Certificate& of = totals.certificate; of.frames > 0)
-    json["certificate"] = {
-        {"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share()}};
+  if (totals.certificate.frames > 0) json["certificate"] = certificate(totals.certificate);
 }
 
 // Returns nothing if the text is not in the form of range().
@@ -89,11 +99,24 @@ std::optional<MissedRange> read_range(const Json& json, const char* name) {
 std::optional<CertificateFacts> read_certificate(const Json& json) {
   const auto found = json.find("certificate");
   if (found == json.end() || !found->is_object()) return {};
-  const auto depth = found->find("depth"), sr = found->find("left_out_sr"), share = found->find("left_out_share");
+  CertificateFacts out;
+  const auto depth = found->find("depth"), any = found->find("any_depth"), floor = found->find("floor_db");
   if (depth == found->end() || !depth->is_number_unsigned() || *depth > std::numeric_limits<uint32_t>::max()) return {};
-  for (const auto& number : {sr, share})
-    if (number == found->end() || !number->is_number() || !(number->get<double>() >= 0)) return {};
-  return CertificateFacts{*depth, *sr, *share};
+  out.depth = *depth;
+  if (any != found->end() && any->is_boolean()) out.any_depth = *any;
+  // Takes a number that is not negative.
+  const auto take = [&found](const char* name, double& value) {
+    const auto number = found->find(name);
+    if (number == found->end() || !number->is_number() || !(number->get<double>() >= 0)) return false;
+    value = *number;
+    return true;
+  };
+  if (!take("left_out_sr", out.left_out_sr) || !take("left_out_share", out.left_out_share)) return {};
+  take("left_out_power", out.left_out_power);
+  if (floor == found->end() || !floor->is_number()) return out;
+  out.floor_db = *floor;
+  if (!take("weak_share", out.weak_share)) return {};
+  return out;
 }
 
 // Writes for each feature whether it was on, and if not, why.

@@ -9,6 +9,10 @@ inline constexpr const char* links =
     "Ask for fewer links at a time (links.max_distance_m, links.transmitters, links.receivers; with diffraction a "
     "lower trace.batch_receivers, where frames reuse nothing), lower trace.max_depth, trace.max_diffractions or "
     "trace.diffraction_rays, or choose a device with more memory";
+// Lists of discovery by beams.
+inline constexpr const char* beams =
+    "Lower trace.max_depth, or raise trace.floor_db where it is given; trace.discovery = \"rays\" needs no such list. Or "
+    "choose a device with more memory";
 inline constexpr const char* tiles =
     "Raise trace.tile_m (twice as long tiles are a quarter as many), or choose a device with more memory";
 inline constexpr const char* scene = "Use a smaller scene, or choose a device with more memory";

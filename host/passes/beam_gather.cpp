@@ -18,12 +18,12 @@ uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, 
                                 uint32_t count, uint32_t walls, uint32_t most) {
   constexpr uint32_t least = 1 << 11;
   const auto reserve = [&](size_t chunks) {
-    lists.chunks = context_.buffer<wt_chunk>(chunks, {"beam candidates", advice::links});
-    lists.candidates = context_.buffer<wt_beam_candidate>(chunks * WT_CHUNK, {"beam candidates", advice::links});
+    lists.chunks = context_.buffer<wt_chunk>(chunks, {"beam candidates", advice::beams});
+    lists.candidates = context_.buffer<wt_beam_candidate>(chunks * WT_CHUNK, {"beam candidates", advice::beams});
   };
   if (lists.chunks.size() == 0) reserve(least);
   if (lists.lit_spaces.size() < count)
-    lists.lit_spaces = context_.buffer<wt_lit_space>(std::bit_ceil(count), {"beams", advice::links});
+    lists.lit_spaces = context_.buffer<wt_lit_space>(std::bit_ceil(count), {"beams", advice::beams});
   const auto restart = [&] {
     const uint32_t none = 0;
     context_.fill(lists.counters, &none, sizeof none, offsetof(wt_beam_counters, chunks), sizeof none,

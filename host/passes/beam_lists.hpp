@@ -17,4 +17,11 @@ struct BeamLists {
   gpu::Buffer<wt_beam_counters> counters;
 };
 
+// The power that beams keep at mirrors, and that below which they are not followed.
+struct BeamMirrors {
+  gpu::Buffer<float> reflectances;     // bounds, WT_COSINES for each material
+  gpu::Buffer<uint32_t> materials_of;  // the material of each surface of the world
+  wt_floor floor;
+};
+
 }  // namespace wavetracer

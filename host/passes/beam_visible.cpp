@@ -16,6 +16,19 @@ gpu::Definitions definitions_of(const Tuning& tuning) {
           {"WT_TARGETS", std::to_string(tuning.visible_targets) + "u"}};
 }
 
+// round: 0 for beam_visible, whose count is that of chunks.
+wt_beam_arguments arguments_of(const BeamLists& lists, uint32_t first_aperture, uint32_t count, uint32_t round,
+                               const BeamStep& step, const Trie& set) {
+  return {.first = first_aperture,
+          .count = count,
+          .capacity = static_cast<uint32_t>(lists.next.size()),
+          .waiting_capacity = static_cast<uint32_t>(lists.waiting.size()),
+          .trie_mask = static_cast<uint32_t>(set.table.size() - 1),
+          .round = round,
+          .last = step.depth == step.max_depth,
+          .walls = step.walls};
+}
+
 }  // namespace
 
 BeamVisible::BeamVisible(gpu::Context& context)
@@ -26,17 +39,11 @@ BeamVisible::BeamVisible(gpu::Context& context)
       visible_(context, definitions_of(tuning_of(context.info()))),
       waiting_(context, definitions_of(tuning_of(context.info()))) {}
 
-wt_beam_counters BeamVisible::run(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists,
-                                  uint32_t first_aperture, uint32_t chunks, const BeamStep& step, const Trie& set) {
+wt_beam_counters BeamVisible::run(const BeamTree& tree, const DeviceScene& scene, const BeamMirrors& mirrors,
+                                  BeamLists& lists, uint32_t first_aperture, uint32_t chunks, const BeamStep& step,
+                                  const Trie& set) {
   const auto arguments = [&](uint32_t count, uint32_t round) {
-    return wt_beam_arguments{.first = first_aperture,
-                             .count = count,
-                             .capacity = static_cast<uint32_t>(lists.next.size()),
-                             .waiting_capacity = static_cast<uint32_t>(lists.waiting.size()),
-                             .trie_mask = static_cast<uint32_t>(set.table.size() - 1),
-                             .round = round,
-                             .last = step.depth == step.max_depth,
-                             .walls = step.walls};
+    return arguments_of(lists, first_aperture, count, round, step, set);
   };
   // Sets the numbers of pieces that wait to 0: both, or that of one round.
   const auto clear_waiting = [&](uint32_t first, uint32_t count) {
@@ -53,11 +60,14 @@ wt_beam_counters BeamVisible::run(const BeamTree& tree, const DeviceScene& scene
                                              .lit_spaces = lists.lit_spaces,
                                              .chunks = lists.chunks,
                                              .candidates = lists.candidates,
+                                             .reflectances = mirrors.reflectances,
+                                             .materials_of = mirrors.materials_of,
                                              .table = set.table,
                                              .quarters = set.quarters,
                                              .next = lists.next,
                                              .waiting = lists.waiting,
                                              .counters = lists.counters,
+                                             .limit = mirrors.floor,
                                              .args = arguments(chunks, 0)});
   // The host asks after some rounds whether pieces still wait. Rounds without pieces take next to no time.
   for (uint32_t round = 1;; ++round) {
@@ -75,30 +85,34 @@ wt_beam_counters BeamVisible::run(const BeamTree& tree, const DeviceScene& scene
                                                .lit_spaces = lists.lit_spaces,
                                                .chunks = lists.chunks,
                                                .candidates = lists.candidates,
+                                               .reflectances = mirrors.reflectances,
+                                               .materials_of = mirrors.materials_of,
                                                .pieces = lists.pieces,
                                                .table = set.table,
                                                .quarters = set.quarters,
                                                .next = lists.next,
                                                .waiting = lists.waiting,
                                                .counters = lists.counters,
+                                               .limit = mirrors.floor,
                                                .args = arguments(0, round)});
   }
 }
 
-void BeamVisible::operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
-                             uint32_t chunks, const BeamStep& step, const Trie& set) {
+void BeamVisible::operator()(const BeamTree& tree, const DeviceScene& scene, const BeamMirrors& mirrors,
+                             BeamLists& lists, uint32_t first_aperture, uint32_t chunks, const BeamStep& step,
+                             const Trie& set) {
   const auto reserve = [&](size_t pieces) {
     for (gpu::Buffer<wt_waiting_piece>* list : {&lists.pieces, &lists.waiting})
-      *list = context_.buffer<wt_waiting_piece>(pieces, {"pieces", advice::links});
+      *list = context_.buffer<wt_waiting_piece>(pieces, {"pieces", advice::beams});
   };
   if (lists.waiting.size() == 0) reserve(least_waiting);
   const wt_beam_counters before = lists.counters.read_one(0, Stage::beam_visible);
   for (;;) {
-    const wt_beam_counters now = run(tree, scene, lists, first_aperture, chunks, step, set);
+    const wt_beam_counters now = run(tree, scene, mirrors, lists, first_aperture, chunks, step, set);
     if (now.trie_overflow != 0 || (now.most_waiting == 0 && now.apertures <= lists.next.size())) return;
     if (now.most_waiting > 0) reserve(now.most_waiting + now.most_waiting / 4);
     if (now.apertures > lists.next.size()) {
-      auto more = context_.buffer<wt_aperture>(now.apertures + now.apertures / 4, {"apertures", advice::links});
+      auto more = context_.buffer<wt_aperture>(now.apertures + now.apertures / 4, {"apertures", advice::beams});
       context_.copy(lists.next, more, before.apertures * sizeof(wt_aperture), Stage::beam_visible);
       lists.next = std::move(more);
     }

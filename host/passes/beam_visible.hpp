@@ -21,15 +21,16 @@ class BeamVisible {
  public:
   explicit BeamVisible(gpu::Context& context);
   // Looks at the candidates of the first `chunks` of lists.chunks, which beam_gather made for apertures from
-  // first_aperture on, and appends to lists.next. All quarters have found the sequences. If the trie is too small,
-  // wt_beam_counters::trie_overflow is set, and all must begin again.
-  void operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
-                  uint32_t chunks, const BeamStep& step, const Trie& set);
+  // first_aperture on, and appends to lists.next, unless all paths of a piece are below mirrors.floor. All quarters
+  // have found the sequences. If the trie is too small, wt_beam_counters::trie_overflow is set, and all must begin
+  // again.
+  void operator()(const BeamTree& tree, const DeviceScene& scene, const BeamMirrors& mirrors, BeamLists& lists,
+                  uint32_t first_aperture, uint32_t chunks, const BeamStep& step, const Trie& set);
 
  private:
   // Runs both kernels until no pieces wait or their list is too short. Returns the counters.
-  wt_beam_counters run(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first_aperture,
-                       uint32_t chunks, const BeamStep& step, const Trie& set);
+  wt_beam_counters run(const BeamTree& tree, const DeviceScene& scene, const BeamMirrors& mirrors, BeamLists& lists,
+                       uint32_t first_aperture, uint32_t chunks, const BeamStep& step, const Trie& set);
 
   gpu::Context& context_;
   uint32_t lanes_, targets_, groups_;

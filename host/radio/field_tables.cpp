@@ -1,59 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials of all scenes are in one list, part after part; surfaces of the world point into it.
 #include "radio/field_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "radio/air.hpp"
 #include "radio/antenna.hpp"
 #include "radio/cells.hpp"
 #include "radio/constants.hpp"
-#include "radio/material.hpp"
+#include "radio/material_table.hpp"
 #include "scene/tiles.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
-
-// The materials of the surfaces of one scene; materials that no surface uses are not asked for.
-std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
-  std::vector<bool> is_used(scene.materials.size());
-  for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
-  std::vector<device::wt_material> records(scene.materials.size());
-  for (size_t i = 0; i < is_used.size(); ++i) {
-    if (!is_used[i]) continue;
-    const Material& material = scene.materials[i];
-    const std::complex<double> permittivity = complex_permittivity(material, frequency_hz);
-    records[i] = {.permittivity = {permittivity.real(), permittivity.imag()},
-                  .thickness_m = material.thickness_m,
-                  .scattering = material.scattering,
-                  .cross_polar = material.scattering_cross_polar,
-                  .lobe = static_cast<uint32_t>(material.scattering_lobe),
-                  .padding = 0};
-  }
-  return records;
-}
-
-void add_materials(FieldTables& tables, const Scene& scene, const Config& config, std::span<const Scene> models,
-                   std::span<const Instance> instances) {
-  std::vector<uint32_t> first;  // start of each part's materials
-  const auto add_part = [&](const Scene& part) {
-    first.push_back(static_cast<uint32_t>(tables.materials.size()));
-    const auto records = materials_at(part, config.radio.frequency_hz);
-    tables.materials.insert(tables.materials.end(), records.begin(), records.end());
-  };
-  const auto add_surfaces = [&](const Scene& part, uint32_t first_material) {
-    for (const Surface& surface : part.surfaces) tables.materials_of.push_back(first_material + surface.material);
-  };
-  add_part(scene);
-  for (const Scene& model : models) add_part(model);
-  add_surfaces(scene, first[0]);
-  for (const Instance& instance : instances) add_surfaces(models[instance.model], first[1 + instance.model]);
-}
 
 void add_antennas(FieldTables& tables, const Config& config) {
   tables.transmitters = static_cast<uint32_t>(config.transmitters.size());
@@ -95,7 +57,9 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   if (config.trace.reflection) tables.reflections = config.trace.max_depth;
   if (config.trace.transmission)
     tables.transmissions = std::min(config.trace.max_transmissions, config.trace.max_depth);
-  add_materials(tables, scene, config, models, instances);
+  MaterialTable table = make_material_table(scene, models, instances, config.radio.frequency_hz);
+  tables.materials = std::move(table.materials);
+  tables.materials_of = std::move(table.materials_of);
   add_antennas(tables, config);
   tables.air = air_at(config.air, config.radio.frequency_hz);
   tables.volumes = volume_table(scene);

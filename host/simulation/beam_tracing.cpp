@@ -3,6 +3,11 @@
 // into their list.
 #include "simulation/beam_tracing.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/moving.h"
@@ -14,15 +19,39 @@ constexpr uint32_t most_chunks = 1 << 17;         // in one block
 constexpr uint32_t apertures_together = 1 << 15;  // in one block
 constexpr uint32_t least_apertures = 1 << 12;
 
+// The box of all places; without any it holds nothing, and every length is too large.
+void set_box(std::span<const glm::dvec3> places, wt_floor& floor) {
+  for (int axis = 0; axis < 3; ++axis) {
+    floor.low[axis] = std::numeric_limits<double>::infinity();
+    floor.high[axis] = -floor.low[axis];
+    for (const glm::dvec3& place : places) {
+      floor.low[axis] = std::min(floor.low[axis], place[axis]);
+      floor.high[axis] = std::max(floor.high[axis], place[axis]);
+    }
+  }
+}
+
+// The length of a path that has the least gain that is followed, if it loses nothing at mirrors, m.
+double reach_m(const BeamOptions& options) {
+  if (!options.floor_db) return std::numeric_limits<double>::infinity();
+  return options.wavelength_m / (4 * std::numbers::pi) * std::pow(10.0, -*options.floor_db / 20);
+}
+
+double units(const uint32_t (&sum)[2]) { return sum[1] * 0x1p32 + sum[0]; }
+
 }  // namespace
 
 BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
-                         uint32_t max_transmissions, const FrameWatch* watch)
+                         const BeamOptions& options, const FrameWatch* watch)
     : context_(context),
-      max_transmissions_(max_transmissions),
+      max_transmissions_(options.max_transmissions),
+      floor_db_(options.floor_db),
       watch_(watch),
       facets_(scene, models),
-      lists_(context) {}
+      lists_(context),
+      mirrors_{.reflectances = context.buffer(options.mirrors.bounds, "reflectances"),
+               .materials_of = context.buffer(options.mirrors.materials_of, "materials of surfaces"),
+               .floor = {.low = {}, .high = {}, .reach_m = reach_m(options)}} {}
 
 std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends) {
   std::vector<wt_aperture> roots;
@@ -32,6 +61,7 @@ std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends) {
     root.count = 4;
     root.node = WT_ROOT | end.transmitter;
     root.surface = WT_NONE;
+    root.kept = 1.0f;
     root.own = end.source == WT_NONE ? WT_NONE : end.source & ~WT_OWN;
     for (const double sign : {-1.0, 1.0})
       for (int axis = 0; axis < 3; ++axis) {
@@ -52,13 +82,14 @@ uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
   const std::vector<wt_aperture> roots = beam_roots(ends);
   if (lists_.apertures.size() < roots.size())
     lists_.apertures =
-        context_.buffer<wt_aperture>(std::max<size_t>(roots.size(), least_apertures), {"apertures", advice::links});
+        context_.buffer<wt_aperture>(std::max<size_t>(roots.size(), least_apertures), {"apertures", advice::beams});
   lists_.apertures.write(roots, 0, Stage::beam_gather);
   if (lists_.next.size() == 0)
-    lists_.next = context_.buffer<wt_aperture>(least_apertures, {"apertures", advice::links});
+    lists_.next = context_.buffer<wt_aperture>(least_apertures, {"apertures", advice::beams});
   lists_.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
   counts_ = {};
   counts_.ends = ends.size();
+  counts_.floor_db = floor_db_;
   return static_cast<uint32_t>(roots.size());
 }
 
@@ -71,13 +102,16 @@ void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<co
   if (!visible_) visible_.emplace(context_);
 }
 
-BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launcher>& ends, uint32_t max_depth,
-                             Sequences& set) {
+BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launcher>& ends,
+                             std::span<const glm::dvec3> receivers, uint32_t max_depth, Sequences& set) {
+  set_box(receivers, mirrors_.floor);
   uint32_t apertures = start(ends);
   for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
     if (watch_) watch_->tell("rays", depth - 1, max_depth);
     // Each wall that a wave passes also counts as an interaction.
     const uint32_t walls = std::min(max_transmissions_, max_depth - depth);
+    // The last depth makes no apertures, and a beam that passes fewer walls than it might may meet more behind them.
+    counts_.any_depth = depth < max_depth && walls == max_transmissions_;
     if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .walls = walls}, set)) {
       set.regrow(max_depth);
       apertures = start(ends);
@@ -93,7 +127,9 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launche
   if (watch_) watch_->tell("rays", max_depth, max_depth);
   const wt_beam_counters end = lists_.counters.read_one(0, Stage::beam_visible);
   counts_.depth = max_depth;
-  counts_.left_out_sr = (end.left_out[1] * 0x1p32 + end.left_out[0]) * WT_SR_UNIT;
+  counts_.left_out_sr = units(end.left_out) * WT_SR_UNIT;
+  counts_.thin_sr = units(end.thin) * WT_SR_UNIT;
+  counts_.weak_sr = units(end.weak) * WT_WEAK_SR_UNIT;
   return counts_;
 }
 
@@ -105,7 +141,7 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped
-    (*visible_)(tree_, scene, lists_, block, chunks, step, set.trie());
+    (*visible_)(tree_, scene, mirrors_, lists_, block, chunks, step, set.trie());
   };
   const auto too_long = [](uint32_t) {
     throw gpu::BufferError(

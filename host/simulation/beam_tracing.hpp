@@ -3,6 +3,7 @@
 // for beams that are too thin to follow, whose solid angle is told (docs/design/beams.md).
 #pragma once
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "passes/beam_gather.hpp"
 #include "passes/beam_visible.hpp"
 #include "passes/sequences.hpp"
+#include "radio/reflectance_bounds.hpp"
 #include "simulation/frame_watch.hpp"
 #include "simulation/launch.hpp"
 
@@ -18,16 +20,24 @@ namespace wavetracer {
 // The first apertures of beams: the six faces of a cube around each end.
 std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends);
 
+struct BeamOptions {
+  uint32_t max_transmissions = 0;  // surfaces that are not opaque that a path may pass; each is an interaction too
+  ReflectanceBounds mirrors;       // those of the surfaces of the world
+  // The gain between isotropic antennas below which a path need not be found, and the wavelength that it is for.
+  std::optional<double> floor_db = {};
+  double wavelength_m = 1;
+};
+
 class BeamTracing {
  public:
-  // max_transmissions: surfaces that are not opaque that a path may pass; each counts as an interaction too.
-  BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, uint32_t max_transmissions,
+  BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, const BeamOptions& options,
               const FrameWatch* watch = nullptr);
   // Places the instances, before the first discovery and whenever they have moved.
   void set_world(const std::vector<Instance>& instances, std::span<const Placement> placements);
-  // Enters all sequences of at most max_depth surfaces that these ends see, with every quarter. scene: with the
-  // surfaces that the triangles name.
-  BeamCounts find(const DeviceScene& scene, const std::vector<Launcher>& ends, uint32_t max_depth, Sequences& set);
+  // Enters all sequences of at most max_depth surfaces that these ends see, with every quarter, unless all paths over
+  // them to receivers at these places (recentred, m) are too weak. scene: with the surfaces that the triangles name.
+  BeamCounts find(const DeviceScene& scene, const std::vector<Launcher>& ends, std::span<const glm::dvec3> receivers,
+                  uint32_t max_depth, Sequences& set);
 
  private:
   // Looks through all apertures of a depth. Returns false if the set must grow, and all must begin again.
@@ -37,6 +47,7 @@ class BeamTracing {
 
   gpu::Context& context_;
   uint32_t max_transmissions_;
+  std::optional<double> floor_db_;
   const FrameWatch* watch_;
   WorldFacets facets_;
   BeamTree tree_;
@@ -44,6 +55,7 @@ class BeamTracing {
   std::optional<BeamVisible> visible_;
   uint32_t depth_ = 0;  // the trees of this depth that gather_ can walk
   BeamLists lists_;
+  BeamMirrors mirrors_;
   BeamCounts counts_;
 };
 

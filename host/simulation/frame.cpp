@@ -180,7 +180,10 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
   if (!fleet.instances.empty()) s_.beams->set_world(fleet.instances, world.instances);
   DiscoveryCounts out;
   const uint32_t depth = tracing_depth(plan_.trace).sequences;
-  out.beams = s_.beams->find(s_.device_scene, ends, task.only_compiles() ? std::min(depth, 2u) : depth,
+  std::vector<glm::dvec3> receivers;
+  for (const EndState& end : world.receivers)
+    if (end.present) receivers.push_back(end.position_m);
+  out.beams = s_.beams->find(s_.device_scene, ends, receivers, task.only_compiles() ? std::min(depth, 2u) : depth,
                              s_.discovery->sequences());  // beam_gather, beam_visible
   return out;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "radio/constants.hpp"
 #include "wavetracer/stages.hpp"
@@ -23,9 +24,16 @@ void FrameAccount::discovered(const DiscoveryCounts& found) {
   result.counts.rays = found.rays;
   result.counts.hits = found.hits;
   for (const uint64_t segments : found.segments_per_depth) result.counts.segments += segments;
-  if (found.beams)
-    result.certificate = {
-        .frames = 1, .depth = found.beams->depth, .ends = found.beams->ends, .left_out_sr = found.beams->left_out_sr};
+  if (!found.beams) return;
+  const BeamCounts& beams = *found.beams;
+  result.certificate = {.frames = 1,
+                        .depth = beams.depth,
+                        .any_depth = beams.any_depth,
+                        .ends = beams.ends,
+                        .left_out_sr = beams.left_out_sr,
+                        .left_out_power = beams.thin_sr / (4 * std::numbers::pi),
+                        .weak_sr = beams.weak_sr,
+                        .floor_db = beams.floor_db};
 }
 
 void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_count, const Uncounted& besides) {

@@ -40,10 +40,13 @@ enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 
 // The counts of a discovery by beams.
 struct BeamCounts {
-  uint32_t depth = 0;       // reflections
-  uint64_t ends = 0;        // ends that were looked from
-  uint64_t kept_whole = 0;  // pieces that something hides in part, but that were followed whole
-  double left_out_sr = 0;   // solid angle of beams that were not followed, a bound of the sum over all ends
+  uint32_t depth = 0;      // reflections
+  uint64_t ends = 0;       // ends that were looked from
+  bool any_depth = false;  // no beam was left to follow at the last depth
+  // Bounds of solid angles, added up over all ends: of beams that were too thin to follow; of these, each times the
+  // share of its power that mirrors have left; and the latter of beams whose paths are too weak.
+  double left_out_sr = 0, thin_sr = 0, weak_sr = 0;
+  std::optional<double> floor_db = {};  // the gain below which a path is too weak
 };
 
 // The counts that discovery adds to FrameCounts.

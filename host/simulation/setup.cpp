@@ -77,8 +77,12 @@ std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan,
 std::unique_ptr<BeamTracing> make_beams(gpu::Context& context, const RunPlan& plan, const FrameWatch& watch) {
   if (!plan.trace.by_beams()) return nullptr;
   const Fleet& fleet = plan.world.fleet;
-  auto out = std::make_unique<BeamTracing>(context, plan.scene, fleet.models,
-                                           plan.trace.transmission ? plan.trace.max_transmissions : 0, &watch);
+  const BeamOptions options{
+      .max_transmissions = plan.trace.transmission ? plan.trace.max_transmissions : 0,
+      .mirrors = make_reflectance_bounds(plan.scene, fleet.models, fleet.instances, carriers_hz(plan.asked.radio)),
+      .floor_db = plan.trace.floor_db,
+      .wavelength_m = longest_wavelength_m(plan.asked.radio)};
+  auto out = std::make_unique<BeamTracing>(context, plan.scene, fleet.models, options, &watch);
   out->set_world(fleet.instances, plan.world.state(0).instances);
   return out;
 }

@@ -90,7 +90,13 @@ json missed_ranges(const Missed& missed) {
 }
 
 json certificate_row(const CertificateFacts& of) {
-  return {{"depth", of.depth}, {"left_out_sr", of.left_out_sr}, {"left_out_share", of.left_out_share}};
+  return {{"depth", of.depth},
+          {"any_depth", of.any_depth},
+          {"left_out_sr", of.left_out_sr},
+          {"left_out_share", of.left_out_share},
+          {"left_out_power", of.left_out_power},
+          {"floor_db", of.floor_db ? json(*of.floor_db) : json()},
+          {"weak_share", of.weak_share}};
 }
 
 json box(const PageBounds& of, const glm::dvec3& centre_m) {

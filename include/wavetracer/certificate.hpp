@@ -4,28 +4,46 @@
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 namespace wavetracer {
 
-// Every path of at most `depth` reflections was found, unless one of its points lies in a beam that was too thin to
-// follow.
+// Every path of at most `depth` reflections was found that is not weaker than floor_db, unless one of its points lies
+// in a beam that was too thin to follow.
 struct Certificate {
   uint64_t frames = 0;     // frames that it is about; 0: there is no certificate
   uint32_t depth = 0;      // the smallest of all frames
+  bool any_depth = false;  // in all frames, no path has more reflections than that
   uint64_t ends = 0;       // ends from which beams were followed, added up over all frames
-  double left_out_sr = 0;  // a bound of the solid angle of the beams that were not followed, over all ends and frames
+  double left_out_sr = 0;  // a bound of the solid angle of the beams that were too thin, over all ends and frames
+  // A bound of the power in these beams, where an isotropic antenna sends 1 W. It is the largest of all frames, so no
+  // link of any frame can miss more, but for the gain of its transmitter's antenna.
+  double left_out_power = 0;
+  // A bound of the solid angle of the beams that were not followed because they are weaker than floor_db, each times
+  // the share of its power that mirrors have left, over all ends and frames.
+  double weak_sr = 0;
+  std::optional<double> floor_db = {};  // gain between isotropic antennas, dB; nothing: all beams were followed
 
   // The share of all directions of all ends.
-  double left_out_share() const {
-    return ends == 0 ? 0.0 : left_out_sr / (4.0 * std::numbers::pi * static_cast<double>(ends));
+  double left_out_share() const { return share_of_all(left_out_sr); }
+  // The share of the power of all ends, whose antennas are isotropic.
+  double weak_share() const { return share_of_all(weak_sr); }
+
+ private:
+  double share_of_all(double sr) const {
+    return ends == 0 ? 0.0 : sr / (4.0 * std::numbers::pi * static_cast<double>(ends));
   }
 };
 
 inline void add(Certificate& sum, const Certificate& more) {
+  sum.any_depth = (sum.frames == 0 || sum.any_depth) && (more.frames == 0 || more.any_depth);
+  if (more.floor_db) sum.floor_db = more.floor_db;  // a run has one
   sum.depth = sum.frames == 0 ? more.depth : more.frames == 0 ? sum.depth : std::min(sum.depth, more.depth);
   sum.frames += more.frames;
   sum.ends += more.ends;
   sum.left_out_sr += more.left_out_sr;
+  sum.left_out_power = std::max(sum.left_out_power, more.left_out_power);
+  sum.weak_sr += more.weak_sr;
 }
 
 // Adds the certificate of other links of the same frame.

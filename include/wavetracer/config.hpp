@@ -197,13 +197,13 @@ struct TraceConfig {
   double discover_every_s = 0;  // time between frames that launch rays, if frames reuse sequences; 0: all launch rays
   uint32_t forget_frames = 50;  // a sequence that no ray has met for this many frames is dropped
   uint32_t max_depth = 5;
+  std::optional<double> floor_db = {};  // with discovery = "beams": weaker paths need not be found; not given: all are
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
-  uint32_t max_diffractions = 1;                  // per path, 1 to 8
-  bool free_edges = true;                         // edges of one face diffract as half planes
-  bool edge_ends = false;                         // a static edge's wave ends with the wave of its corner
-  std::optional<uint64_t> diffraction_rays = {};  // per receiver; not given: a tenth of rays, at least 100,000
-  uint32_t max_transmissions = 2;                 // per path
-  double tile_m = 5;                              // largest side length of a tile of scattering
+  uint32_t max_diffractions = 1, max_transmissions = 2;  // per path
+  bool free_edges = true;                                // edges of one face diffract as half planes
+  bool edge_ends = false;                                // a static edge's wave ends with the wave of its corner
+  std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000
+  double tile_m = 5;                                     // largest side length of a tile of scattering
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;

@@ -109,13 +109,18 @@ typedef struct wavetracer_missed {
   double power_share, power_share_low, power_share_high; /* relative to the power that was found */
 } wavetracer_missed;
 
-/* The certificate of a frame with trace.discovery = "beams": it has every path of at most `depth` reflections, unless a
-   point of the path lies in one of the beams that were too thin to follow. Without beams the last two values are NaN.
- */
+/* The certificate of a frame with trace.discovery = "beams": it has every path of at most `depth` reflections whose
+   gain between isotropic antennas is floor_db or more, unless a point of the path lies in one of the beams that were
+   too thin to follow. Without beams depth and any_depth are 0, and the other values are NaN. */
 typedef struct wavetracer_certificate {
   uint32_t depth;
-  double left_out_sr;    /* a bound of the solid angle of these beams, over all ends */
+  uint32_t any_depth;    /* not 0: no such path has more reflections */
+  double left_out_sr;    /* a bound of the solid angle of the thin beams, over all ends */
   double left_out_share; /* the same, of all directions of all ends */
+  double left_out_power; /* a bound of the power in these beams, where an isotropic antenna sends 1 W: a link misses no
+                            more through them, but for the gain of its transmitter's antenna */
+  double floor_db;       /* trace.floor_db; -infinity if it is not given */
+  double weak_share;     /* a bound of the share of the power in beams that were not followed because they are weaker */
 } wavetracer_certificate;
 
 /* 0 for null */
@@ -125,7 +130,7 @@ uint32_t wavetracer_frame_rx_ports(const wavetracer_frame* self); /* 1, or 2 if 
 uint32_t wavetracer_frame_tx_ports(const wavetracer_frame* self);
 wavetracer_counts wavetracer_frame_counts(const wavetracer_frame* self);           /* all 0 for null */
 wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self);           /* all NaN for null */
-wavetracer_certificate wavetracer_frame_certificate(const wavetracer_frame* self); /* 0 and NaN for null */
+wavetracer_certificate wavetracer_frame_certificate(const wavetracer_frame* self); /* as without beams for null */
 const char* wavetracer_frame_warnings(const wavetracer_frame* self); /* as wavetracer_warnings; lives as the frame */
 
 /* Results are columns with the names of the datasets in paths.h5. */

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// beam_visible: the parts of facets that an image sees through an aperture and that nothing hides. Each part enters its
-// sequence into the trie and becomes an aperture of the next depth, unless this is the last one. A group of WT_LANES
-// work-items takes WT_TARGETS candidates one after the other; the other candidates of the aperture are what may hide
-// them, and each lane looks at some of these. A group that has worked for long stores the pieces that are left, and
-// beam_waiting goes on with each of them in a group of its own.
+// beam_visible: the parts of facets that an image sees through an aperture and that nothing hides. Each part whose
+// paths are not too weak enters its sequence into the trie and becomes an aperture, unless this depth is the last. A
+// group of WT_LANES work-items takes WT_TARGETS candidates; the other candidates of the aperture may hide them, and
+// each lane looks at some of these. A group that has worked for long stores the pieces that are left, and beam_waiting
+// goes on with each of them in a group of its own.
+#include "lib/floor.clh"
 #include "lib/shadow.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
@@ -14,8 +15,9 @@
 #define WT_PATIENCE 32
 #define WT_CUT_WORK 4
 
-// The tables that groups write.
+// The tables that groups write, and the rule that says which pieces they follow.
 typedef struct {
+  wt_mirrors mirrors;
   global ulong* table;
   global uint* quarters;
   global wt_aperture* next;
@@ -112,12 +114,15 @@ inline void look(const wt_world* world, const wt_view* view, double3 apex, const
     if (wt_lane() == 0) shared->pieces.passed = shared->pieces.walls[counts->count];
     wt_copy_polygon(shared->pieces.piece + counts->count, &shared->pieces.whole);
     if (!seen_whole(world, view, apex, target, next, out, shared, counts)) continue;
+    float kept;
+    if (!wt_is_followed(&out->mirrors, world->aperture->kept, apex, target, &shared->pieces.whole, &kept, counts))
+      continue;
     if (node == WT_NONE) node = enter(out, world->aperture->node, target->surface, shared);
     if (node == WT_NONE || out->args.last) return;
     if (wt_lane() == 0) shared->slot = atomic_inc(&out->counters->apertures);
     WT_SYNC();
     if (shared->slot < out->args.capacity)
-      wt_store_aperture(out->next + shared->slot, node, world->aperture->passed, apex, target, &shared->pieces);
+      wt_store_aperture(out->next + shared->slot, node, world->aperture->passed, kept, apex, target, &shared->pieces);
     WT_SYNC();
   }
 }
@@ -132,7 +137,7 @@ inline void look_at(const wt_world* world, const global wt_lit_space* lit, uint 
   wt_load_view(lit, &view);
   wt_target target;
   wt_set_target(world, candidate, apex, &target);
-  wt_piece_counts counts = {.count = 1, .patience = WT_PATIENCE, .left_out = 0, .height = target.height};
+  wt_piece_counts counts = {.count = 1, .patience = WT_PATIENCE, .left_out = 0, .weak = 0, .height = target.height};
   if (from) {
     for (uint k = wt_lane(); k < from->count; k += WT_LANES) wt_set_corner(pieces->piece, k, from->u[k], from->v[k]);
     if (wt_lane() == 0) {
@@ -151,17 +156,22 @@ inline void look_at(const wt_world* world, const global wt_lit_space* lit, uint 
   if (wt_lane() == 0) pieces->next[0] = from ? from->next : world->chunks[candidate / WT_CHUNK].first * WT_CHUNK;
   WT_SYNC();
   look(world, &view, apex, &target, out, shared, &counts);
-  if (wt_lane() == 0 && counts.left_out > 0) wt_add_left_out(out->counters, counts.left_out);
+  if (wt_lane() != 0) return;
+  if (counts.weak > 0) wt_add_units(out->counters->weak, counts.weak);
+  if (counts.left_out == 0) return;
+  wt_add_units(out->counters->left_out, counts.left_out);
+  wt_add_units(out->counters->thin, (ulong)ceil((double)counts.left_out * world->aperture->kept));
 }
 
 kernel void beam_visible(const global wt_facet* facets, const global double* corners,
                          const global wt_exact_surface* surfaces, const global wt_aperture* apertures,
                          const global wt_lit_space* lit_spaces, const global wt_chunk* chunks,
-                         const global wt_beam_candidate* candidates, global ulong* table, global uint* quarters,
+                         const global wt_beam_candidate* candidates, const global float* reflectances,
+                         const global uint* materials_of, global ulong* table, global uint* quarters,
                          global wt_aperture* next, global wt_waiting_piece* waiting, global wt_beam_counters* counters,
-                         wt_beam_arguments args) {
+                         wt_floor limit, wt_beam_arguments args) {
   local wt_shared shared;
-  const wt_results out = {table, quarters, next, waiting, counters, args};
+  const wt_results out = {{reflectances, materials_of, limit}, table, quarters, next, waiting, counters, args};
   for (uint k = 0; k < WT_TARGETS; ++k) {
     const uint candidate = get_group_id(0) * WT_TARGETS + k, chunk = candidate / WT_CHUNK;
     if (chunk >= args.count || candidate % WT_CHUNK >= chunks[chunk].count || !candidates[candidate].may_reflect)
@@ -176,11 +186,12 @@ kernel void beam_visible(const global wt_facet* facets, const global double* cor
 kernel void beam_waiting(const global wt_facet* facets, const global double* corners,
                          const global wt_exact_surface* surfaces, const global wt_aperture* apertures,
                          const global wt_lit_space* lit_spaces, const global wt_chunk* chunks,
-                         const global wt_beam_candidate* candidates, const global wt_waiting_piece* pieces,
-                         global ulong* table, global uint* quarters, global wt_aperture* next,
-                         global wt_waiting_piece* waiting, global wt_beam_counters* counters, wt_beam_arguments args) {
+                         const global wt_beam_candidate* candidates, const global float* reflectances,
+                         const global uint* materials_of, const global wt_waiting_piece* pieces, global ulong* table,
+                         global uint* quarters, global wt_aperture* next, global wt_waiting_piece* waiting,
+                         global wt_beam_counters* counters, wt_floor limit, wt_beam_arguments args) {
   local wt_shared shared;
-  const wt_results out = {table, quarters, next, waiting, counters, args};
+  const wt_results out = {{reflectances, materials_of, limit}, table, quarters, next, waiting, counters, args};
   const uint count = min(counters->waiting[1 - args.round % 2], args.waiting_capacity);
   for (uint i = get_group_id(0); i < count; i += get_num_groups(0)) {
     const uint candidate = pieces[i].candidate, aperture = chunks[candidate / WT_CHUNK].aperture;

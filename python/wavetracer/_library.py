@@ -37,7 +37,9 @@ class Missed(ctypes.Structure):
 
 
 class Certificate(ctypes.Structure):
-    _fields_ = [("depth", ctypes.c_uint32), ("left_out_sr", ctypes.c_double), ("left_out_share", ctypes.c_double)]
+    _fields_ = [("depth", ctypes.c_uint32), ("any_depth", ctypes.c_uint32)] + [
+        (name, ctypes.c_double)
+        for name in ("left_out_sr", "left_out_share", "left_out_power", "floor_db", "weak_share")]
 
 
 class Column(ctypes.Structure):

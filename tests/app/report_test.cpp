@@ -141,6 +141,19 @@ TEST_CASE("with beams the report says to which depth it is complete, and but for
   CHECK(contains(app::report(sample.run(), results, false),
                  "\ncomplete   every path of up to 5 reflections, but for beams of 1.6e-09 sr in all, 2.1e-11 of the "
                  "directions\n"));
+  results.totals.certificate = {.frames = 3,
+                                .depth = 64,
+                                .any_depth = true,
+                                .ends = 6,
+                                .left_out_sr = 1.6e-9,
+                                .left_out_power = 2e-12,
+                                .weak_sr = 0.75,
+                                .floor_db = -140};
+  CHECK(
+      contains(app::report(sample.run(), results, false),
+               "\ncomplete   every path of any number of reflections with a gain of -140 dB or more between isotropic "
+               "antennas, but for beams of 1.6e-09 sr in all, 2.1e-11 of the directions; a link misses at most -117 "
+               "dB through them\n           weaker beams, with 0.0099 of the power, were not followed\n"));
 }
 
 TEST_CASE("the report says what frames without rays may lack") {

@@ -134,7 +134,7 @@ TEST_CASE("numbers of the cache outside their range: value and limit are named, 
       {"position_step_m", "0.0009", "0.001", "1000", "1001.0", "a number from 0.001 to 1000 (m)"},
       {"residual_value", "-0.1", "0", "1000000", "1e+300",
        "a number from 0 to 1000000 (L1 norm of metres and direction components)"},
-      {"first_depth", "0", "1", "32", "33", "an integer from 1 to 32 (segments of a ray, counted from 1)"},
+      {"first_depth", "0", "1", "64", "65", "an integer from 1 to 64 (segments of a ray, counted from 1)"},
   };
   for (const Limit& limit : limits) {
     for (const std::string& value : {limit.below, limit.above}) {

@@ -107,7 +107,7 @@ TEST_CASE("wrong types say what is expected") {
 TEST_CASE("numbers outside their range, NaN and infinity") {
   check_contains(error_of(scene + "trace.rays = 0\n" + ends),
                  "trace.rays = 0 is out of range: it must be an integer from 1 to");
-  check_contains(error_of(scene + "trace.max_depth = 33\n" + ends), "from 0 to 32");
+  check_contains(error_of(scene + "trace.max_depth = 65\n" + ends), "from 0 to 64");
   check_contains(error_of(scene + "trace.max_depth = -1\n" + ends), "trace.max_depth = -1 is out of range");
   check_contains(error_of(scene + "radio.frequency_hz = nan\n" + ends), "radio.frequency_hz = nan is out of range");
   check_contains(error_of(scene + "radio.frequency_hz = inf\n" + ends), "out of range");
@@ -155,7 +155,7 @@ TEST_CASE("what is missing or said twice") {
 TEST_CASE("all mistakes are reported at once, in the order of the file") {
   CHECK(error_of("zzz = 1\ntrace.max_depth = 99\naaa = 1\n" + scene + ends) ==
         "a.toml:1:1: unknown key \"zzz\"\n"
-        "a.toml:2:19: trace.max_depth = 99 is out of range: it must be an integer from 0 to 32 (interactions)\n"
+        "a.toml:2:19: trace.max_depth = 99 is out of range: it must be an integer from 0 to 64 (interactions)\n"
         "a.toml:3:1: unknown key \"aaa\"");
 }
 

@@ -91,6 +91,7 @@ TEST_CASE("every key of the contract is in the table, once") {
                           "output.shard_frames",
                           "trace.rays",
                           "trace.max_depth",
+                          "trace.floor_db",
                           "trace.reflection",
                           "trace.diffraction",
                           "trace.transmission",

@@ -244,6 +244,19 @@ TEST_CASE("discovery by beams is refused where something needs rays") {
   check_contains(error_of(scene + "trace.discovery = \"beam\"\n" + ends), "did you mean \"beams\"");
 }
 
+TEST_CASE("a floor is refused without beams, and where edges or rough surfaces send waves") {
+  const std::string floor = "trace.floor_db = -140\n", beams = scene + "trace.discovery = \"beams\"\n" + floor;
+  CHECK(error_of(beams + "trace.max_depth = 64\ntrace.transmission = true\n" + ends) == "no error");
+  check_contains(error_of(scene + floor + ends),
+                 "trace.floor_db = -140 leaves out beams that are too weak, but rays are not left out: remove "
+                 "trace.floor_db, or use trace.discovery = \"beams\"");
+  check_contains(error_of(beams + "trace.diffraction = true\n" + ends),
+                 "trace.floor_db = -140 says nothing of the power of waves that an edge diffracts: remove");
+  check_contains(error_of(beams + "trace.scattering = true\n" + ends),
+                 "trace.floor_db = -140 says nothing of the power of waves that a surface scatters: remove");
+  check_contains(error_of(scene + "trace.floor_db = 3\n" + ends), "trace.floor_db = 3 is out of range");
+}
+
 TEST_CASE("frames without rays are refused where something needs the rays of every frame") {
   const std::string spared = scene + "trace.discover_every_s = 0.1\n";
   CHECK(error_of(spared + ends) == "no error");

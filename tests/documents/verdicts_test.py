@@ -42,6 +42,8 @@ def check_merging():
     assert verdicts.merged(old, [no_claims, first, second], note="a note", instead_of="GPU 1") == rows
     apart = verdicts.merged(rows, [page("GPU 2", "long", ("figure-6.1", "old", "exceeded"))], apart="500 cycles")
     assert [row["device"] for row in apart[4:]] == ["GPU 2", "GPU 2, 500 cycles"], apart
+    more = verdicts.merged(apart, [page("GPU 2", "more", ("figure-6.2", "two", "refuted"))], apart="500 cycles", add=True)
+    assert [row["claim"] for row in more if row["device"] == "GPU 2, 500 cycles"] == ["old", "two"], more
     whole = verdicts.page(apart)
     assert "| claim | two cores | GPU 2 | GPU 2, 500 cycles |" in whole and "| old |  | **refuted**: 2 | **exceeded**: 1.20 |" in whole, whole
     assert whole.endswith("## cache-step\n\n| claim | two cores |\n| --- | --- |\n| step | **in part**: 1.20 |\n"), whole

@@ -116,7 +116,7 @@ static void check_nulls(void) {
   CHECK(wavetracer_config_text(NULL) == NULL);
   CHECK(wavetracer_warnings(NULL) == NULL);
   CHECK(wavetracer_frame_counts(NULL).paths == 0);
-  CHECK(isnan(wavetracer_frame_missed(NULL).paths) && isnan(wavetracer_frame_certificate(NULL).left_out_sr));
+  CHECK(isnan(wavetracer_frame_missed(NULL).paths) && isnan(wavetracer_frame_certificate(NULL).floor_db));
   CHECK(wavetracer_run_frame(NULL, 0, &error) == NULL);
   check_error(error, WAVETRACER_USAGE, "self is null");
   CHECK(wavetracer_write(NULL, "out", NULL, 0, &error) == 0);

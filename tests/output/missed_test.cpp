@@ -29,7 +29,14 @@ std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t
                     .amplitude = 3e-3,
                     .power = 3e-6 + 1e-8 * frame.frame};
   for (FrameResult& frame : frames)
-    frame.certificate = {.frames = 1, .depth = 5 - frame.frame % 2, .ends = 2, .left_out_sr = 0x1p-30 * frame.frame};
+    frame.certificate = {.frames = 1,
+                         .depth = 5 - frame.frame % 2,
+                         .any_depth = frame.frame != 7,
+                         .ends = 2,
+                         .left_out_sr = 0x1p-30 * frame.frame,
+                         .left_out_power = 0x1p-40 * (frame.frame % 5),
+                         .weak_sr = 0x1p-7,
+                         .floor_db = -140};
   for (FrameResult& frame : frames)
     if (frame.frame % 2 == 0) frame.late = {1, frame.frame, 1e-9 * frame.frame, 2e-6, 5e-4 * frame.frame};
   return frames;
@@ -64,6 +71,10 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   CHECK(both["certificate"]["depth"] == 4);
   CHECK(both["certificate"]["left_out_sr"] == 75 * 0x1p-30);
   CHECK(both["certificate"]["left_out_share"] == doctest::Approx(75 * 0x1p-30 / (80 * 3.14159265358979)));
+  CHECK(both["certificate"]["any_depth"] == false);
+  CHECK(both["certificate"]["left_out_power"] == 4 * 0x1p-40);  // the largest of all frames
+  CHECK(both["certificate"]["floor_db"] == -140);
+  CHECK(both["certificate"]["weak_share"] == doctest::Approx(10 * 0x1p-7 / (80 * 3.14159265358979)));
   {
     Shards killed(folder.path(), sample_identity(12));
     killed.write(sample.run(), drive(sample, 3, 6));
@@ -87,6 +98,8 @@ TEST_CASE("blocks of a frame are one frame; where nothing is known, nothing is s
   CHECK(sum.certificate.frames == 1);
   CHECK(sum.certificate.ends == 6);
   CHECK(sum.certificate.left_out_sr == 9 * 0x1p-30);
+  CHECK(sum.certificate.left_out_power == 3 * 0x1p-40);  // blocks have other links
+  CHECK(sum.certificate.any_depth);
   add(sum, totals_of({&frames[1], 1}));
   CHECK(sum.certificate.frames == 2);
   CHECK(sum.missed.frames == 2);

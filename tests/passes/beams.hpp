@@ -66,12 +66,13 @@ inline SeenByBeams seen_by_beams(const std::vector<Corners>& triangles, const gl
                                  size_t slots = 1 << 16, uint32_t max_transmissions = 0) {
   const Scene scene = scene_of_triangles(triangles);
   const DeviceScene device = make_device_scene(context(), scene, false);
-  BeamTracing beams(context(), scene, {}, max_transmissions);
+  BeamTracing beams(context(), scene, {},
+                    {.max_transmissions = max_transmissions, .mirrors = lossless_mirrors(triangles.size())});
   beams.set_world({}, {});
   Sequences set(context(), slots);
   set.clear();
   SeenByBeams out;
-  out.counts = beams.find(device, {{.transmitter = 0, .position_m = from}}, max_depth, set);
+  out.counts = beams.find(device, {{.transmitter = 0, .position_m = from}}, {}, max_depth, set);
   const std::vector<uint64_t> table = set.table().read();
   for (uint64_t word : table) {
     if (word == WT_EMPTY) continue;

@@ -365,6 +365,13 @@ def main():
         assert beams.missed is None and unknown.certificate is None
         assert beams.certificate["depth"] == 2 and 0 <= beams.certificate["left_out_sr"] < 1e-6
         assert 0 <= beams.certificate["left_out_share"] <= beams.certificate["left_out_sr"]
+        assert 0 <= beams.certificate["left_out_power"] <= beams.certificate["left_out_sr"]
+        assert beams.certificate["any_depth"] is False and "floor_db" not in beams.certificate
+    with wavetracer.Simulation(DRIVE, trace={"discovery": "beams", "max_depth": 64, "floor_db": -100}) as simulation:
+        floor = simulation.run_frame(0).certificate
+        assert floor["any_depth"] is True and floor["floor_db"] == -100 and 0 < floor["weak_share"] < 1, floor
+    raises(2, "trace.floor_db = -100 leaves out beams that are too weak, but rays are not left out",
+           lambda: wavetracer.Simulation(DRIVE, trace={"floor_db": -100}))
     del unknown, beams
     # A view outlives its frame, and the frame its simulation.
     delay, copy = frames[0]["delay_s"], frames[0]["delay_s"].copy()

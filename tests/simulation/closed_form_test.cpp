@@ -73,6 +73,7 @@ void check_box_by_beams(const glm::dvec3& corner, const glm::dvec3& size, const 
   CHECK(frame.missed.frames == 0);
   CHECK(frame.certificate.frames == 1);
   CHECK(frame.certificate.depth == static_cast<uint32_t>(depth));
+  CHECK_FALSE(frame.certificate.any_depth);
   CHECK(frame.certificate.ends == 1);
   CHECK(frame.certificate.left_out_share() < 1e-9);
   for (uint32_t rx = 0; rx < inside.size(); ++rx) {

@@ -67,7 +67,14 @@ void add_counts(FrameResult& frame, MadeRun::Found found = MadeRun::Found::rays)
   }
   frame.paths.quarters.clear();
   if (found == MadeRun::Found::beams)
-    frame.certificate = {.frames = 1, .depth = 5, .ends = 3, .left_out_sr = 0x1p-30};
+    frame.certificate = {.frames = 1,
+                         .depth = 5,
+                         .any_depth = true,
+                         .ends = 3,
+                         .left_out_sr = 0x1p-30,
+                         .left_out_power = 1e-11,
+                         .weak_sr = 0.377,
+                         .floor_db = -120};
   else
     frame.missed = {.unknown = 1};
 }

@@ -18,6 +18,10 @@
 #define WT_LEAST_SR 1e-13
 // Solid angles are added up as integers of this unit (2^-60 sr), so that their sum does not depend on any order.
 #define WT_SR_UNIT 8.673617379884035e-19
+// The unit of sums that may be the whole sphere of many ends (2^-40 sr).
+#define WT_WEAK_SR_UNIT 9.094947017729282e-13
+// A material's bounds of its power reflectance, one for each of this many equal ranges of the cosine of incidence.
+#define WT_COSINES 64u
 
 // A convex part of a surface: triangles of one surface, put together. Its corners go around the normal.
 typedef struct {
@@ -39,7 +43,7 @@ typedef struct {
   wt_uint surface;  // the mirror; WT_NONE at a root
   wt_uint own;      // the instance that carries the end; it neither reflects nor hides at a root. WT_NONE: no instance
   wt_uint passed;   // walls that waves have passed on their way to the mirror
-  wt_uint padding;
+  float kept;       // a bound of the share of the power that is left after all mirrors, this one too; 1 at a root
 } wt_aperture;
 
 // The most planes of a lit space: sides, the mirror, and the sides of a box.
@@ -86,9 +90,11 @@ typedef struct {
   wt_walls walls;
 } wt_waiting_piece;
 
-// Counters of the kernels.
+// Counters of the kernels. A sum of solid angles has two words, low and high.
 typedef struct {
-  wt_uint left_out[2];    // solid angle of pieces that are not followed, in WT_SR_UNIT: low word, high word
+  wt_uint left_out[2];    // pieces that are not followed because they are thin, in WT_SR_UNIT
+  wt_uint thin[2];        // the same, each times the share of the power that is left there
+  wt_uint weak[2];        // pieces whose paths are too weak to follow, times that share, in WT_WEAK_SR_UNIT
   wt_uint chunks;         // may exceed the capacity: grow and run again
   wt_uint apertures;      // as chunks
   wt_uint trie_overflow;  // not 0: no slot was found
@@ -106,5 +112,11 @@ typedef struct {
   wt_uint last;   // not 0: nodes are entered, and no apertures are made
   wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
 } wt_beam_arguments;
+
+// The power below which paths are not followed (lib/floor.clh). All receivers are in the box, recentred coordinates, m.
+typedef struct {
+  double low[3], high[3];
+  double reach_m;  // the length of a path that loses nothing at mirrors and has this power; infinity: all are followed
+} wt_floor;
 
 #endif

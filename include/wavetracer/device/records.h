@@ -7,7 +7,7 @@
 #include "wavetracer/device/types.h"
 
 // The longest chain of interactions; private arrays of the exact solve have this size.
-#define WT_MAX_DEPTH 32u
+#define WT_MAX_DEPTH 64u
 
 // A point closer than this to a surface's plane is on that surface: the surface does not hide an antenna there, and
 // does not reflect or scatter to it. This is ten times the float32 rounding of coordinates of a kilometre, and less

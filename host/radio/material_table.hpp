@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of all scenes of a world in one list, part after part; the surfaces of the world point into it.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wavetracer/device/field_records.h"
+#include "wavetracer/scene.hpp"
+#include "wavetracer/world_state.hpp"
+
+namespace wavetracer {
+
+struct MaterialTable {
+  std::vector<device::wt_material> materials;  // at one frequency; those that no surface uses are all zeros
+  std::vector<uint32_t> materials_of;          // the material of each surface of the world
+};
+
+// Throws ConfigError for a material that some surface uses and that is not known at this frequency.
+MaterialTable make_material_table(const Scene& scene, std::span<const Scene> models,
+                                  std::span<const Instance> instances, double frequency_hz);
+
+}  // namespace wavetracer
