@@ -28,6 +28,7 @@ struct Options {
   size_t runs = 7;
   unsigned largest = 0;  // a power of two; 0 means one that suits the device
   bool peers = true, variants = false;
+  VariantOptions tunings;
 };
 
 struct Case {
@@ -230,12 +231,33 @@ int main(int argc, char** argv) {
   app.add_option("--cub", options.cub, "the program built of bench/peers/cub_sort.cu");
   app.add_flag("!--no-peers", options.peers, "leave out all peers but that of --cub");
   app.add_flag("--variants", options.variants,
-               "only the tunings of the radix sort that sort_variants.cpp lists, beside CUB if --cub is given");
+               "only the radix sort by groups, with every tuning of the options below, beside CUB if --cub is given");
+  bench::VariantOptions& tunings = options.tunings;
+  const auto list = [&](const char* name, auto& values, const char* text) {
+    return app.add_option(name, values, text)->delimiter(',')->capture_default_str()->group("With --variants");
+  };
+  list("--powers", tunings.powers, "of two: numbers of keys")->check(CLI::Range(8, 28));
+  list("--shapes", tunings.shapes, "keys, with a word each or without")
+      ->check(CLI::IsMember({"u32", "u32+u32", "u64", "u64+u32"}));
+  list("--ranks", tunings.ranks, "ways to rank")->check(CLI::IsMember({"columns", "masks", "votes", "match"}));
+  list("--items", tunings.items, "work-items of a group")->check(CLI::Range(64, 1024));
+  list("--item-keys", tunings.item_keys, "keys of a work-item")->check(CLI::Range(1, 64));
+  list("--columns", tunings.columns, "for the ranks by columns")->check(CLI::Range(2, 256));
+  list("--late", tunings.late, "1: values are read late")->check(CLI::Range(0, 1));
+  list("--windows", tunings.windows, "earlier tiles looked at together")->check(CLI::Range(1, 32));
+  list("--looks", tunings.looks, "in vain until a group counts an earlier tile itself");
+  list("--registers", tunings.registers, "most registers of a work-item; 0: the compiler's choice");
+  list("--tickets", tunings.tickets, "1: groups take the next tile, 0: that of their number")->check(CLI::Range(0, 1));
+  list("--count-groups", tunings.count_groups, "groups that count")->check(CLI::Range(1, 1 << 20));
   CLI11_PARSE(app, argc, argv);
   try {
     const std::string command = bench::command_line(argc, argv);
+    tunings.device = options.device;
+    tunings.cub = options.cub;
+    tunings.runs = options.runs;
+    tunings.largest = options.largest;
     if (options.variants)
-      bench::measure_sort_variants({options.device, options.cub, options.runs, options.largest}, command);
+      bench::measure_sort_variants(tunings, command);
     else
       bench::Bench(options, command).run();
   } catch (const Error& error) {

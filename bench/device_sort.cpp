@@ -22,12 +22,12 @@ std::vector<uint32_t> travelling_words(size_t n) {
   return words;
 }
 
-// A pass of eight bits reads the keys to count them, then reads and writes keys and words (see D. Merrill and A.
-// Grimshaw, "High performance and scalable radix sorting", PPL 2011). Indices are not read before the first pass.
+// The keys are read once to count all digits, or by chunks once for each; a pass of eight bits reads and writes keys
+// and words (A. Adinets and D. Merrill, "Onesweep", arXiv 2206.01784). Indices are not read before the first pass.
 template <class Key>
-double radix_bytes(Payload payload, unsigned bits) {
-  const unsigned passes = (bits + 7) / 8, word = payload == Payload::none ? 0 : 4;
-  return passes * (3.0 * sizeof(Key) + 2.0 * word) - (payload == Payload::index ? word : 0);
+double radix_bytes(Payload payload, unsigned bits, bool chunks) {
+  const unsigned passes = (bits + 7) / 8, word = payload == Payload::none ? 0 : 4, counted = chunks ? passes : 1;
+  return passes * 2.0 * (sizeof(Key) + word) + counted * sizeof(Key) - (payload == Payload::index ? word : 0);
 }
 
 }  // namespace
@@ -44,18 +44,20 @@ DeviceKeys<Key>::DeviceKeys(gpu::Context& context, std::vector<Key> keys, unsign
 
 template <class Key>
 typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, SortForm form) {
-  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, form));
+  const bool chunks = form == SortForm::device ? tuning_of(context_.info()).alone : form != SortForm::groups;
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, form), chunks);
 }
 
 template <class Key>
 typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, const RadixTuning& groups) {
-  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, groups));
+  return radix(payload, std::make_shared<RadixSort<Key>>(context_, payload, groups), false);
 }
 
 template <class Key>
-typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort) {
+typename DeviceKeys<Key>::Sort DeviceKeys<Key>::radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort,
+                                                      bool chunks) {
   auto temporary = context_.buffer<uint32_t>(sort->temporary_words(count()), "temporary");
-  return {"radix", payload, radix_bytes<Key>(payload, bits_), [this, sort, temporary, payload]() mutable {
+  return {"radix", payload, radix_bytes<Key>(payload, bits_, chunks), [this, sort, temporary, payload]() mutable {
             if (payload == Payload::none)
               (*sort)(sorted_, count(), temporary, 0, bits_);
             else

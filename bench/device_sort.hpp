@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/gpu.hpp"
@@ -54,6 +55,12 @@ class DeviceKeys {
   // changed.
   size_t wrong(const Sort& sort) const;
 
+  // Keys and values after the last run; without payload no values.
+  using Result = std::pair<std::vector<Key>, std::vector<uint32_t>>;
+  Result result(const Sort& sort) const {
+    return {sorted_.read(), sort.payload == Payload::none ? std::vector<uint32_t>() : values_.read()};
+  }
+
   const std::vector<Key>& keys() const { return keys_; }
 
  private:
@@ -63,7 +70,7 @@ class DeviceKeys {
   gpu::Buffer<Key> given_, sorted_;
   gpu::Buffer<uint32_t> given_values_, values_;
 
-  Sort radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort);
+  Sort radix(Payload payload, std::shared_ptr<RadixSort<Key>> sort, bool chunks);
   uint32_t count() const { return static_cast<uint32_t>(keys_.size()); }
   size_t wrong_by_stable_sort(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;
   size_t wrong_by_rules(const std::vector<Key>& keys, const std::vector<uint32_t>& places) const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <vector>
 
 #include "device_sort.hpp"
@@ -23,28 +24,39 @@ bool wanted(const KernelRows& rows, std::string_view program) {
   });
 }
 
-// bits: those that differ, three or five digits of eight.
+uint32_t parts(uint32_t whole, uint32_t part) { return (whole + part - 1) / part; }
+
+// bits: those that differ, three or five digits of eight. The work of keys is that of the passes together.
 template <class Key>
 void measure_radix(KernelRows& rows, gpu::Context& context, SortForm form, uint32_t n, unsigned bits) {
   const bool groups = form == SortForm::groups;
-  const std::string program = groups ? "radix_sort" : "radix_sort_cpu";
-  if (!wanted(rows, program)) return;
-  const RadixTuning tuning = groups ? radix_groups(context.info(), sizeof(Key), 4) : radix_chunks(context.info());
-  const auto parts = [](uint32_t whole, uint32_t part) { return (whole + part - 1) / part; };
-  const uint32_t chunk = tuning.tile * std::max(1u, parts(parts(n, tuning.tile), tuning.most_chunks));
-  const double passes = bits / 8, digits = 1u << tuning.digit_bits, counts = digits * parts(n, chunk);
-  const double pair_bytes = sizeof(Key) + sizeof(uint32_t);
-  const double tile_counts = groups ? digits / tuning.tile : 0;  // per key
+  if (!wanted(rows, groups ? "radix_sort" : "radix_sort_cpu")) return;
+  const double passes = bits / 8, pair_bytes = sizeof(Key) + sizeof(uint32_t), keys_once = n;
+  std::map<std::string, KernelShare> kernels;
+  if (groups) {
+    const RadixTuning tuning = radix_groups(context.info(), sizeof(Key), 4);
+    const double digits = 1u << tuning.digit_bits, state = digits * parts(n, tuning.tile());
+    const double words_a_key = digits / tuning.tile();
+    kernels = {{"radix_sort/clear", {"words", state, {.bytes = 4}}},
+               {"radix_sort/histogram", {"keys", keys_once, {.bytes = sizeof(Key), .operations = 3 * passes}}},
+               {"radix_sort/starts", {"digits", passes * digits, {.bytes = 8, .operations = 1}}},
+               // A tile clears a word for each digit, writes it twice and reads one at least.
+               {"radix_sort/move", {"keys", passes * n, {.bytes = 2 * pair_bytes + 16 * words_a_key, .operations = 6}}},
+               {"radix_sort/settle", {"keys", keys_once, {.bytes = 2 * pair_bytes}}}};
+  } else {
+    const RadixChunks tuning = radix_chunks(context.info());
+    const uint32_t chunk = tuning.tile * std::max(1u, parts(parts(n, tuning.tile), tuning.most_chunks));
+    const double digits = 1u << tuning.digit_bits, counts = digits * parts(n, chunk);
+    kernels = {{"radix_sort_cpu/count", {"keys", passes * n, {.bytes = sizeof(Key), .operations = 3}}},
+               {"radix_sort_cpu/offsets", {"counts", passes * counts, {.bytes = 8, .operations = 1}}},
+               {"radix_sort_cpu/move", {"keys", passes * n, {.bytes = 2 * pair_bytes, .operations = 6}}},
+               {"radix_sort_cpu/settle", {"keys", keys_once, {.bytes = 2 * pair_bytes}}}};
+  }
   DeviceKeys<Key> keys(context, keys_of_bits<Key>(n, bits), bits);
   const auto sort = keys.radix(Payload::words, form);
   rows.measure(context,
                {.variant = fmt::format("u{} of {} bits + u32, n = 2^{}", 8 * sizeof(Key), bits, std::bit_width(n) - 1),
-                .kernels = {{program + "/count",
-                             {"keys", passes * n, {.bytes = sizeof(Key) + 4 * tile_counts, .operations = 3}}},
-                            {program + "/offsets", {"counts", passes * counts, {.bytes = 8, .operations = 1}}},
-                            {program + "/move",
-                             {"keys", passes * n, {.bytes = 2 * pair_bytes + 4 * tile_counts, .operations = 6}}},
-                            {program + "/settle", {"keys", double{1} * n, {.bytes = 2 * pair_bytes}}}},
+                .kernels = kernels,
                 .run = sort.launch,
                 .wrong = [&] { return keys.wrong(sort); },
                 .prepare = [&] { keys.restore(); }});
@@ -76,9 +88,10 @@ void measure_bitonic(KernelRows& rows, gpu::Context& context, uint32_t n) {
 
 std::span<const std::string> sort_kernels() {
   static const std::vector<std::string> names{
-      "radix_sort/count",         "radix_sort/offsets",     "radix_sort/move",           "radix_sort/settle",
-      "radix_sort_cpu/count",     "radix_sort_cpu/offsets", "radix_sort_cpu/move",       "radix_sort_cpu/settle",
-      "bitonic_sort/sort_blocks", "bitonic_sort/one_step",  "bitonic_sort/merge_blocks", "bitonic_sort/gather"};
+      "radix_sort/clear",      "radix_sort/histogram",     "radix_sort/starts",      "radix_sort/move",
+      "radix_sort/settle",     "radix_sort_cpu/count",     "radix_sort_cpu/offsets", "radix_sort_cpu/move",
+      "radix_sort_cpu/settle", "bitonic_sort/sort_blocks", "bitonic_sort/one_step",  "bitonic_sort/merge_blocks",
+      "bitonic_sort/gather"};
   return names;
 }
 

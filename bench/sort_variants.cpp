@@ -1,66 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 // The multiprocessor of a GPU shares 64 Ki registers and 228 KiB of local memory (sm_90) among the groups that it
-// holds. With 18 keys an item, `move` takes 77 to 128 registers of an item, so that the registers allow for two or
-// three groups of 256 and the local memory for five (ptxas -v of the same source, nvcc 13.0). The tunings below have
-// fewer keys per item, smaller tiles or fewer counters.
+// holds, so the largest tiles are not always the fastest.
 #include "sort_variants.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <vector>
 
 #include "device_sort.hpp"
 #include "json_line.hpp"
 #include "sort_peers.hpp"
 #include "timing.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::bench {
 namespace {
 
-struct Variant {
-  uint32_t items, tile, columns;
-  bool together, late_values;
-  uint32_t most_chunks = 1024;
-};
+constexpr const char* rank_names[] = {"columns", "masks", "votes", "match"};
 
-constexpr Variant keys_alone[] = {{256, 4608, 72, false, false}, {384, 4608, 72, false, false},
-                                  {384, 4608, 64, false, false}, {512, 4608, 72, false, false},
-                                  {384, 4608, 36, false, false}, {256, 3072, 48, false, false},
-                                  {512, 6144, 64, false, false}, {384, 4608, 72, false, false, 2048}};
-constexpr Variant small_pairs[] = {
-    {256, 4608, 72, true, false}, {256, 4608, 72, true, true},       {384, 4608, 64, true, true},
-    {384, 4608, 36, true, false}, {512, 4608, 64, true, false},      {256, 3840, 60, true, true},
-    {384, 3840, 60, true, false}, {256, 3072, 48, true, false},      {384, 2304, 36, true, false},
-    {512, 5120, 64, true, false}, {384, 3840, 60, true, false, 2048}};
-constexpr Variant large_pairs[] = {
-    {256, 4608, 72, false, false}, {384, 4608, 72, false, false},      {512, 4608, 72, false, false},
-    {512, 4608, 64, false, false}, {512, 4608, 72, false, true},       {256, 3072, 48, true, true},
-    {384, 3072, 48, true, false},  {512, 3072, 48, true, false},       {256, 2304, 36, true, false},
-    {384, 2304, 36, true, false},  {512, 4608, 72, false, false, 2048}};
-
-std::string name_of(const Variant& v) {
-  return fmt::format("{} items, tile {}, {} columns{}{}{}", v.items, v.tile, v.columns,
-                     v.together ? ", values beside keys" : "", v.late_values ? ", late values" : "",
-                     v.most_chunks == 1024 ? "" : fmt::format(", {} chunks", v.most_chunks));
+std::string name_of(const RadixTuning& t) {
+  return fmt::format("{}, {} items, {} keys each{}{}, window {}, {} looks, registers {}, {} counting groups{}",
+                     rank_names[static_cast<int>(t.ranks)], t.items, t.item_keys,
+                     t.ranks == RadixRanks::columns ? fmt::format(", {} columns", t.columns) : "",
+                     t.late_values ? ", late values" : "", t.window, t.looks, t.registers, t.count_groups,
+                     t.tickets ? "" : ", no tickets");
 }
 
-// The local memory of `move`: counters or keys, digits of the columns, two words for each of 256 digits.
-size_t local_bytes(const Variant& v, size_t key_bytes) {
-  const size_t tile = v.tile * (key_bytes + (v.together ? 4 : 0)), counters = 256 * 2 * (v.columns + 2);
-  return std::max(tile, counters) + v.columns * (v.tile / v.columns + 4) + 2048;
+// The local memory of `move`: counters or keys, what the ranking needs besides, two words for each of 256 digits.
+size_t local_bytes(const RadixTuning& t, size_t key_bytes) {
+  const size_t warps = t.items / 32, columns = t.ranks == RadixRanks::columns ? t.columns : 0;
+  const size_t counters = 1024 * warps * (columns == 0) + 512 * (columns + 2) * (columns > 0);
+  const size_t more = columns > 0 ? t.tile() + 4 * columns : t.ranks == RadixRanks::masks ? 1024 * warps : 4;
+  return std::max(t.tile() * key_bytes, counters) + more + 2056;
 }
 
-RadixTuning tuning_of_variant(const gpu::DeviceInfo& device, const Variant& v, uint32_t key_bytes) {
-  RadixTuning tuning = radix_groups(device, key_bytes, 4);
-  tuning.items = v.items;
-  tuning.tile = v.tile;
-  tuning.columns = v.columns;
-  tuning.together = v.together;
-  tuning.late_values = v.late_values;
-  tuning.most_chunks = v.most_chunks;
-  return tuning;
+// The tunings that the device has the local memory for.
+std::vector<RadixTuning> tunings_of(const VariantOptions& o, const gpu::DeviceInfo& device, size_t key_bytes,
+                                    bool payload) {
+  std::vector<RadixTuning> found;
+  const auto add = [&](RadixTuning t) {
+    const uint32_t c = t.columns;
+    const bool columns = t.tile() % c == 0 && c <= t.items && t.tile() / c <= 256 && t.tile() / c % 4 == 0;
+    if (t.ranks == RadixRanks::columns && !columns) return;
+    if (local_bytes(t, key_bytes) <= device.local_memory && t.items <= device.max_work_group) found.push_back(t);
+  };
+  for (const std::string& ranks : o.ranks)
+    for (const uint32_t items : o.items)
+      for (const uint32_t item_keys : o.item_keys)
+        for (const uint32_t columns : ranks == "columns" ? o.columns : std::vector<uint32_t>{72})
+          for (const unsigned late : payload ? o.late : std::vector<unsigned>{0})
+            for (const uint32_t window : o.windows)
+              for (const uint32_t looks : o.looks)
+                for (const uint32_t registers : o.registers)
+                  for (const uint32_t groups : o.count_groups)
+                    for (const unsigned tickets : o.tickets)
+                      add({.items = items,
+                           .item_keys = item_keys,
+                           .ranks = static_cast<RadixRanks>(std::ranges::find(rank_names, ranks) - rank_names),
+                           .columns = columns,
+                           .late_values = late != 0,
+                           .window = window,
+                           .looks = looks,
+                           .registers = registers,
+                           .count_groups = groups,
+                           .tickets = tickets != 0});
+  return found;
 }
 
 class Variants {
@@ -69,12 +76,12 @@ class Variants {
       : options_(options), command_(command), context_(options.device) {}
 
   void run() {
-    const unsigned largest = options_.largest ? options_.largest : context_.info().cpu ? 18 : 26;
     std::vector<SortShape> shapes;
     for (const unsigned key_bits : {32u, 64u})
       for (const bool payload : {false, true})
-        for (unsigned power = std::min(20u, largest); power <= largest; power += 2)
-          shapes.push_back({key_bits, payload, 1u << power, key_bits});
+        for (const unsigned power : options_.powers)
+          if (wanted(key_bits, payload) && (options_.largest == 0 || power <= options_.largest))
+            shapes.push_back({key_bits, payload, 1u << power, key_bits});
     if (!options_.cub.empty()) cub_ = run_program(options_.cub, shapes, options_.runs);
     for (const SortShape& shape : shapes) {
       if (shape.key_bits == 32)
@@ -90,6 +97,11 @@ class Variants {
   gpu::Context context_;
   ProgramTimes cub_;
 
+  bool wanted(unsigned key_bits, bool payload) const {
+    const std::string name = fmt::format("u{}{}", key_bits, payload ? "+u32" : "");
+    return std::ranges::find(options_.shapes, name) != options_.shapes.end();
+  }
+
   struct Times {
     std::vector<double> wall;
     std::map<std::string, std::vector<double>> kernels;
@@ -98,22 +110,20 @@ class Variants {
   template <class Key>
   void measure(const SortShape& shape) {
     DeviceKeys<Key> keys(context_, keys_of_bits<Key>(shape.n, shape.bits), shape.bits);
-    std::vector<Variant> variants;
+    std::vector<RadixTuning> variants;
     std::vector<typename DeviceKeys<Key>::Sort> sorts;
     std::vector<size_t> wrong;
-    for (const Variant& v : shape.payload ? sizeof(Key) == 4 ? std::span<const Variant>(small_pairs) : large_pairs
-                                          : std::span<const Variant>(keys_alone)) {
-      if (local_bytes(v, sizeof(Key)) > context_.info().local_memory || v.items > context_.info().max_work_group)
-        continue;
+    typename DeviceKeys<Key>::Result first;
+    for (const RadixTuning& tuning : tunings_of(options_, context_.info(), sizeof(Key), shape.payload)) {
       try {
-        const auto sort = keys.radix(shape.payload ? Payload::words : Payload::none,
-                                     tuning_of_variant(context_.info(), v, sizeof(Key)));
+        const auto sort = keys.radix(shape.payload ? Payload::words : Payload::none, tuning);
         keys.run(sort);  // warm-up
-        wrong.push_back(keys.wrong(sort));
+        if (sorts.empty()) first = keys.result(sort);
+        wrong.push_back(sorts.empty() ? keys.wrong(sort) : keys.result(sort) != first);
         sorts.push_back(sort);
-        variants.push_back(v);
-      } catch (const DeviceError& error) {
-        fmt::print(stderr, "bench_sort: {}: {}\n", name_of(v), error.what());
+        variants.push_back(tuning);
+      } catch (const Error& error) {
+        fmt::print(stderr, "bench_sort: {}: {}\n", name_of(tuning), error.what());
       }
     }
     std::vector<Times> times(sorts.size());
@@ -125,7 +135,7 @@ class Variants {
     for (size_t i = 0; i < sorts.size(); i++) print_variant(shape, variants[i], times[i], wrong[i]);
   }
 
-  void print_variant(const SortShape& shape, const Variant& v, const Times& times, size_t wrong) const {
+  void print_variant(const SortShape& shape, const RadixTuning& v, const Times& times, size_t wrong) const {
     const double n = shape.n, wall = median(times.wall);
     Result result;
     result.bench = "sort_variants";

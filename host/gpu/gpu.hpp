@@ -36,7 +36,8 @@ struct Range {
   bool empty() const { return global[0] == 0 || global[1] == 0 || global[2] == 0; }
 };
 
-// Preprocessor definitions of a program, name -> value. They are part of the cache key.
+// Preprocessor definitions of a program, name -> value. A name that begins with -cl- is an option of the compiler. They
+// are part of the cache key.
 using Definitions = std::map<std::string, std::string>;
 
 class Context;

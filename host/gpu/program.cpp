@@ -21,7 +21,7 @@ std::string definition_options(const std::string& program, const Definitions& de
       throw std::logic_error(
           fmt::format("program {}: definition {}={} has a blank, quote, backslash or second =", program, name, value));
     }
-    options += fmt::format(" -D{}={}", name, value);
+    options += fmt::format(" {}{}={}", name.starts_with("-cl-") ? "" : "-D", name, value);
   }
   return options;
 }

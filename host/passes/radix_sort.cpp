@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host side of kernels/primitives/radix_sort.cl (groups) and radix_sort_cpu.cl (chunks), which have the same kernels.
-// Temporary memory has the layout of kernels/lib/radix.clh.
+// Host side of kernels/primitives/radix_sort.cl (groups) and radix_sort_cpu.cl (chunks). Temporary memory has the
+// layout of kernels/lib/radix_tiles.clh and radix.clh.
 #include "passes/radix_sort.hpp"
 
 #include <fmt/format.h>
@@ -9,27 +9,37 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernel_calls/radix_sort_cpu.hpp"
-
 namespace wavetracer {
 
 namespace {
-
-// Both programs have the same kernels.
-static_assert(calls::radix_sort::count::declared == calls::radix_sort_cpu::count::declared);
-static_assert(calls::radix_sort::offsets::declared == calls::radix_sort_cpu::offsets::declared);
-static_assert(calls::radix_sort::move::declared == calls::radix_sort_cpu::move::declared);
-static_assert(calls::radix_sort::settle::declared == calls::radix_sort_cpu::settle::declared);
 
 constexpr uint32_t flag_words = 16;  // WT_MAX_PASSES
 constexpr uint32_t line_words = 16;  // keys and values of the temporary memory begin at multiples of this
 
 uint32_t ceil_divide(uint32_t a, uint32_t b) { return a / b + (a % b != 0); }
 
+size_t lines_of(uint32_t n) { return (size_t{n} + line_words - 1) / line_words * line_words; }
+
 void require(const char* what, size_t has, size_t needs, uint32_t n) {
   if (has >= needs) return;
   throw std::invalid_argument(
       fmt::format("radix_sort: {} has {} elements, {} are needed to sort {} keys", what, has, needs, n));
+}
+
+// The digits of a range of bits: about as many bits each, the first ones one more. A pass has one.
+struct Digits {
+  uint32_t first_bit, bits, passes;
+  Digits(uint32_t first, uint32_t count, uint32_t widest)
+      : first_bit(first), bits(count), passes(ceil_divide(count, widest)) {}
+  uint32_t shift(uint32_t pass) const { return first_bit + pass * (bits / passes) + std::min(pass, bits % passes); }
+  uint32_t mask(uint32_t pass) const { return (1u << (bits / passes + (pass < bits % passes))) - 1; }
+};
+
+template <class Key>
+gpu::Definitions common_definitions(Payload payload, uint32_t digit_bits) {
+  return {{"WT_KEY", sizeof(Key) == 4 ? "uint" : "ulong"},
+          {"WT_PAYLOAD", std::to_string(static_cast<int>(payload))},
+          {"WT_DIGIT_BITS", std::to_string(digit_bits)}};
 }
 
 }  // namespace
@@ -42,109 +52,155 @@ RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, SortForm form)
     *this = RadixSort(context, payload, radix_groups(context.info(), sizeof(Key), value_bytes));
     return;
   }
-  tuning_ = radix_chunks(context.info());
-  const uint64_t keys = form == SortForm::lines ? 0 : tuning_.direct_bytes / (sizeof(Key) + value_bytes);
-  make_kernels(context, "radix_sort_cpu", {{"WT_SCATTER_KEYS", std::to_string(keys) + "u"}});
+  const RadixChunks tuning = radix_chunks(context.info());
+  const uint64_t keys = form == SortForm::lines ? 0 : tuning.direct_bytes / (sizeof(Key) + value_bytes);
+  gpu::Definitions definitions = common_definitions<Key>(payload, tuning.digit_bits);
+  definitions["WT_SCATTER_KEYS"] = std::to_string(keys) + "u";
+  constexpr const char* program = "radix_sort_cpu";
+  form_ = Chunks{tuning,
+                 {context, definitions, program},
+                 {context, definitions, program},
+                 {context, definitions, program},
+                 {context, definitions, program}};
 }
 
 template <class Key>
-RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, const RadixTuning& groups)
-    : payload_(payload), tuning_(groups) {
-  make_kernels(context, "radix_sort",
-               {{"WT_ITEMS", std::to_string(groups.items)},
-                {"WT_TILE", std::to_string(groups.tile)},
-                {"WT_OFFSET_ITEMS", std::to_string(groups.offset_items)},
-                {"WT_COLUMNS", std::to_string(groups.columns)},
-                {"WT_TOGETHER", groups.together ? "1" : "0"},
-                {"WT_LATE_VALUES", groups.late_values ? "1" : "0"}});
-}
-
-template <class Key>
-void RadixSort<Key>::make_kernels(gpu::Context& context, const char* program, gpu::Definitions definitions) {
-  definitions["WT_KEY"] = sizeof(Key) == 4 ? "uint" : "ulong";
-  definitions["WT_PAYLOAD"] = std::to_string(static_cast<int>(payload_));
-  definitions["WT_DIGIT_BITS"] = std::to_string(tuning_.digit_bits);
-  count_ = {context, definitions, program};
-  offsets_ = {context, definitions, program};
-  move_ = {context, definitions, program};
-  settle_ = {context, definitions, program};
-}
-
-template <class Key>
-uint32_t RadixSort<Key>::chunk_of(uint32_t n) const {
-  return tuning_.tile * std::max(1u, ceil_divide(ceil_divide(n, tuning_.tile), tuning_.most_chunks));
+RadixSort<Key>::RadixSort(gpu::Context& context, Payload payload, const RadixTuning& groups) : payload_(payload) {
+  gpu::Definitions definitions = common_definitions<Key>(payload, groups.digit_bits);
+  definitions["WT_ITEMS"] = std::to_string(groups.items);
+  definitions["WT_KEYS_AN_ITEM"] = std::to_string(groups.item_keys);
+  definitions["WT_RANKS"] = std::to_string(static_cast<int>(groups.ranks));
+  definitions["WT_COLUMNS"] = std::to_string(groups.columns);
+  definitions["WT_LATE_VALUES"] = groups.late_values ? "1" : "0";
+  definitions["WT_WINDOW"] = std::to_string(groups.window) + "u";
+  definitions["WT_LOOKS"] = std::to_string(groups.looks) + "u";
+  definitions["WT_TICKETS"] = groups.tickets ? "1" : "0";
+  definitions["WT_SILENT"] = std::to_string(groups.silent) + "u";
+  definitions["WT_COUNT_ITEMS"] = std::to_string(groups.count_items) + "u";
+  if (groups.registers > 0 && on_nvidia(context.info()))
+    definitions["-cl-nv-maxrregcount"] = std::to_string(groups.registers);
+  form_ = Groups{groups,
+                 {context, definitions},
+                 {context, definitions},
+                 {context, definitions},
+                 {context, definitions},
+                 {context, definitions}};
 }
 
 template <class Key>
 size_t RadixSort<Key>::temporary_words(uint32_t n) const {
-  const size_t lines = (size_t{n} + line_words - 1) / line_words * line_words;
-  const size_t tiles = tuning_.moves_tiles ? ceil_divide(n, tuning_.tile) : 0;
+  const size_t copies = lines_of(n) * (sizeof(Key) / 4 + (payload_ == Payload::none ? 0 : 1));
+  if (const auto* groups = std::get_if<Groups>(&form_)) {
+    const RadixTuning& tuning = groups->tuning;
+    const size_t passes = ceil_divide(key_bits, tuning.digit_bits), tiles = ceil_divide(n, tuning.tile());
+    return 2 * flag_words + copies + (2 * (passes + tiles) << tuning.digit_bits);
+  }
+  const RadixChunks& tuning = std::get<Chunks>(form_).tuning;
   // This is not ceil(n / chunk): that may be more for fewer keys, and a buffer for n keys must suffice for them, too.
-  const size_t chunks = std::min(ceil_divide(n, tuning_.tile), tuning_.most_chunks);
-  const size_t counts = (1 + chunks + tiles) << tuning_.digit_bits;
-  return flag_words + counts + lines * (sizeof(Key) / 4 + (payload_ == Payload::none ? 0 : 1));
+  const size_t chunks = std::min(ceil_divide(n, tuning.tile), tuning.most_chunks);
+  return flag_words + copies + ((1 + chunks) << tuning.digit_bits);
 }
 
 template <class Key>
 void RadixSort<Key>::operator()(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
                                 gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit, Stage stage) {
   if (payload_ != Payload::none) require("values", values.size(), n, n);
-  sort(keys, values, n, temporary, first_bit, end_bit, stage);
+  sort({keys, values, n, temporary, first_bit, end_bit, stage});
 }
 
 template <class Key>
 void RadixSort<Key>::operator()(gpu::Buffer<Key>& keys, uint32_t n, gpu::Buffer<uint32_t>& temporary,
                                 unsigned first_bit, unsigned end_bit, Stage stage) {
   if (payload_ != Payload::none) throw std::logic_error("radix_sort: a sort with a payload was given no values");
-  sort(keys, temporary, n, temporary, first_bit, end_bit, stage);
+  sort({keys, temporary, n, temporary, first_bit, end_bit, stage});
 }
 
 template <class Key>
-void RadixSort<Key>::sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n,
-                          gpu::Buffer<uint32_t>& temporary, unsigned first_bit, unsigned end_bit, Stage stage) {
-  if (first_bit > end_bit || end_bit > key_bits) {
+void RadixSort<Key>::sort(const Call& c) {
+  if (c.first_bit > c.end_bit || c.end_bit > key_bits) {
     throw std::invalid_argument(
-        fmt::format("radix_sort: bits {} to {} are no range of keys of {} bits", first_bit, end_bit, key_bits));
+        fmt::format("radix_sort: bits {} to {} are no range of keys of {} bits", c.first_bit, c.end_bit, key_bits));
   }
-  require("keys", keys.size(), n, n);
-  require("temporary", temporary.size(), temporary_words(n), n);
-  if (n <= 1) {
-    if (n == 1 && payload_ == Payload::index) values.write(std::vector<uint32_t>{0}, 0, stage);
-    return;
+  require("keys", c.keys.size(), c.n, c.n);
+  require("temporary", c.temporary.size(), temporary_words(c.n), c.n);
+  if (c.n > 1)
+    std::visit([&](auto& form) { sort_by(form, c); }, form_);
+  else if (c.n == 1 && payload_ == Payload::index)
+    c.values.write(std::vector<uint32_t>{0}, 0, c.stage);
+}
+
+template <class Key>
+void RadixSort<Key>::sort_by(Chunks& by, const Call& c) {
+  const uint32_t tiles = ceil_divide(c.n, by.tuning.tile);
+  const uint32_t chunk = by.tuning.tile * std::max(1u, ceil_divide(tiles, by.tuning.most_chunks));
+  const gpu::Range chunks{ceil_divide(c.n, chunk), 1};
+  const Digits digits(c.first_bit, c.end_bit - c.first_bit, by.tuning.digit_bits);
+  for (uint32_t pass = 0; pass < digits.passes; ++pass) {
+    const uint32_t shift = digits.shift(pass), mask = digits.mask(pass);
+    by.count(chunks, c.stage,
+             {.keys = c.keys,
+              .temporary = c.temporary,
+              .n = c.n,
+              .chunk = chunk,
+              .pass = pass,
+              .shift = shift,
+              .digit_mask = mask});
+    by.offsets({1, 1}, c.stage, {.temporary = c.temporary, .n = c.n, .chunk = chunk, .pass = pass});
+    by.move(chunks, c.stage,
+            {.keys = c.keys,
+             .values = c.values,
+             .temporary = c.temporary,
+             .n = c.n,
+             .chunk = chunk,
+             .pass = pass,
+             .shift = shift,
+             .digit_mask = mask});
   }
-  const uint32_t chunk = chunk_of(n);
-  const size_t items = tuning_.items;
-  const gpu::Range chunks{items * ceil_divide(n, chunk), items};
-  const gpu::Range moves{items * ceil_divide(n, tuning_.moves_tiles ? tuning_.tile : chunk), items};
-  const uint32_t bits = end_bit - first_bit;
-  const uint32_t passes = ceil_divide(bits, tuning_.digit_bits);
-  for (uint32_t pass = 0, shift = first_bit; pass < passes; ++pass) {
-    const uint32_t width = bits / passes + (pass < bits % passes);
-    const uint32_t mask = (1u << width) - 1;
-    count_(chunks, stage,
-           calls::radix_sort::count{.keys = keys,
-                                    .temporary = temporary,
-                                    .n = n,
-                                    .chunk = chunk,
-                                    .pass = pass,
-                                    .shift = shift,
-                                    .digit_mask = mask});
-    offsets_({size_t{tuning_.offset_groups} * tuning_.offset_items, tuning_.offset_items}, stage,
-             calls::radix_sort::offsets{.temporary = temporary, .n = n, .chunk = chunk, .pass = pass});
-    move_(moves, stage,
-          calls::radix_sort::move{.keys = keys,
-                                  .values = values,
-                                  .temporary = temporary,
-                                  .n = n,
-                                  .chunk = chunk,
-                                  .pass = pass,
-                                  .shift = shift,
-                                  .digit_mask = mask});
-    shift += width;
+  by.settle(chunks, c.stage,
+            {.keys = c.keys,
+             .values = c.values,
+             .temporary = c.temporary,
+             .n = c.n,
+             .chunk = chunk,
+             .passes = digits.passes});
+}
+
+// A count in the words of tiles has 30 bits, so more keys take several launches per pass: each goes on where the last
+// one ended.
+template <class Key>
+void RadixSort<Key>::sort_by(Groups& by, const Call& c) {
+  const RadixTuning& tuning = by.tuning;
+  const Digits digits(c.first_bit, c.end_bit - c.first_bit, tuning.digit_bits);
+  const uint32_t tiles = ceil_divide(c.n, tuning.tile()), most_tiles = std::max(1u, tuning.most_keys / tuning.tile());
+  const size_t items = tuning.count_items, enough = std::min<size_t>(ceil_divide(c.n, 2048), 1024);
+  const uint32_t counted = 8 * tuning.count_items;  // keys that a group counts at once
+  const uint32_t chunk = counted * ceil_divide(ceil_divide(c.n, counted), tuning.count_groups);
+  by.clear({256 * enough, 256}, c.stage, {.temporary = c.temporary, .n = c.n});
+  if (digits.passes > 0) {
+    by.histogram({items * ceil_divide(c.n, chunk), items}, c.stage,
+                 {.keys = c.keys,
+                  .temporary = c.temporary,
+                  .n = c.n,
+                  .chunk = chunk,
+                  .first_bit = digits.first_bit,
+                  .bits = digits.bits,
+                  .passes = digits.passes});
+    by.starts({items * digits.passes, items}, c.stage, {.temporary = c.temporary, .n = c.n});
   }
-  settle_(chunks, stage,
-          calls::radix_sort::settle{
-              .keys = keys, .values = values, .temporary = temporary, .n = n, .chunk = chunk, .passes = passes});
+  for (uint32_t pass = 0; pass < digits.passes; ++pass)
+    for (uint32_t first = 0, turn = 0; first < tiles; first += most_tiles, turn = 1 - turn)
+      by.move({size_t{tuning.items} * std::min(most_tiles, tiles - first), tuning.items}, c.stage,
+              {.keys = c.keys,
+               .values = c.values,
+               .temporary = c.temporary,
+               .n = c.n,
+               .pass = pass,
+               .shift = digits.shift(pass),
+               .digit_mask = digits.mask(pass),
+               .first_tile = first,
+               .turn = turn});
+  by.settle({256 * enough, 256}, c.stage,
+            {.keys = c.keys, .values = c.values, .temporary = c.temporary, .n = c.n, .passes = digits.passes});
 }
 
 template class RadixSort<uint32_t>;

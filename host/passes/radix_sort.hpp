@@ -6,20 +6,24 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <variant>
+
 #include "kernel_calls/radix_sort.hpp"
+#include "kernel_calls/radix_sort_cpu.hpp"
 #include "passes/payload.hpp"
 #include "passes/tuning.hpp"
 
 namespace wavetracer {
 
-// The kernels that sort. groups (kernels/primitives/radix_sort.cl): work-groups that rank tiles in local memory. chunks
+// The kernels that sort. groups (kernels/primitives/radix_sort.cl): work-groups that rank tiles in local memory, and
+// read the keys once for all counts and once for each digit. chunks
 // (radix_sort_cpu.cl beside it): single work-items, each for a long run of keys. lines: chunks that always collect keys
 // in lines before they write them (chunks does so only for large n). device: chunks on CPUs, groups elsewhere. The
 // result is the same.
 enum class SortForm { device, groups, chunks, lines };
 
-// It begins with the least significant digit: a pass counts the digits of every chunk of keys, turns counts into
-// offsets, and moves keys and values between the caller's buffers and the temporary one.
+// It begins with the least significant digit. Passes move keys and values between the caller's buffers and the
+// temporary one. By chunks each pass first counts the digits of every chunk and turns counts into offsets.
 template <class Key>
 class RadixSort {
   static_assert(sizeof(Key) == 4 || sizeof(Key) == 8);
@@ -29,7 +33,7 @@ class RadixSort {
 
   RadixSort(gpu::Context& context, Payload payload, SortForm form = SortForm::device);
   // The form for groups with a tuning of the caller's. Local memory must hold what it asks for: the counters of the
-  // columns or the keys of a tile (with `together` their values, too), and a byte for each key.
+  // ranking or the keys of a tile; besides, with columns a byte for each key, with masks the counters once more.
   RadixSort(gpu::Context& context, Payload payload, const RadixTuning& groups);
 
   // Words of temporary memory that n keys need.
@@ -45,17 +49,36 @@ class RadixSort {
                   unsigned end_bit = key_bits, Stage stage = Stage::sort);
 
  private:
-  void make_kernels(gpu::Context& context, const char* program, gpu::Definitions definitions);
-  uint32_t chunk_of(uint32_t n) const;
-  void sort(gpu::Buffer<Key>& keys, gpu::Buffer<uint32_t>& values, uint32_t n, gpu::Buffer<uint32_t>& temporary,
-            unsigned first_bit, unsigned end_bit, Stage stage);
+  struct Chunks {
+    RadixChunks tuning;
+    gpu::KernelOf<calls::radix_sort_cpu::count> count;
+    gpu::KernelOf<calls::radix_sort_cpu::offsets> offsets;
+    gpu::KernelOf<calls::radix_sort_cpu::move> move;
+    gpu::KernelOf<calls::radix_sort_cpu::settle> settle;
+  };
+  struct Groups {
+    RadixTuning tuning;
+    gpu::KernelOf<calls::radix_sort::clear> clear;
+    gpu::KernelOf<calls::radix_sort::histogram> histogram;
+    gpu::KernelOf<calls::radix_sort::starts> starts;
+    gpu::KernelOf<calls::radix_sort::move> move;
+    gpu::KernelOf<calls::radix_sort::settle> settle;
+  };
+  // The arguments of a call.
+  struct Call {
+    gpu::Buffer<Key>& keys;
+    gpu::Buffer<uint32_t>& values;
+    uint32_t n;
+    gpu::Buffer<uint32_t>& temporary;
+    unsigned first_bit, end_bit;
+    Stage stage;
+  };
+  void sort(const Call& call);
+  void sort_by(Chunks& chunks, const Call& call);
+  void sort_by(Groups& groups, const Call& call);
 
   Payload payload_;
-  RadixTuning tuning_;
-  gpu::KernelOf<calls::radix_sort::count> count_;
-  gpu::KernelOf<calls::radix_sort::offsets> offsets_;
-  gpu::KernelOf<calls::radix_sort::move> move_;
-  gpu::KernelOf<calls::radix_sort::settle> settle_;
+  std::variant<Chunks, Groups> form_;
 };
 
 extern template class RadixSort<uint32_t>;

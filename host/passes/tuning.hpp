@@ -39,18 +39,37 @@ struct BitonicTuning {
   uint32_t step_group;  // work-items per group of the steps over all keys
 };
 
-// The launches of a form of radix_sort.
+// The way radix_sort ranks the keys of a tile (lib/radix_rank.clh); the result is the same. votes and match are
+// instructions of NVIDIA's GPUs, on other devices they are masks.
+enum class RadixRanks { columns, masks, votes, match };
+
+inline bool on_nvidia(const gpu::DeviceInfo& device) { return device.platform.find("NVIDIA") != std::string::npos; }
+
+// The launches of radix_sort by groups.
 struct RadixTuning {
-  uint32_t digit_bits;                   // bits of the widest digit
-  uint32_t items;                        // items per group
-  uint32_t offset_items, offset_groups;  // those of the kernel that turns counts into offsets
-  uint32_t tile;                         // a chunk is a multiple of this many keys
+  uint32_t digit_bits = 8;  // bits of the widest digit
+  uint32_t items = 256;     // items per group; a multiple of 32
+  uint32_t item_keys = 18;  // keys of an item; a group's are its tile
+  RadixRanks ranks = RadixRanks::columns;
+  uint32_t columns = 0;      // columns of a tile, an even number, at most `items` (RadixRanks::columns only)
+  bool late_values = false;  // values are read after the tile is ranked
+  uint32_t window = 4;       // earlier tiles that are looked at together
+  uint32_t looks = 1000;     // after this many looks in vain a group counts an earlier tile itself
+  uint32_t registers = 0;    // the most of an item, on NVIDIA's GPUs; 0: the compiler's choice
+  uint32_t silent = 0;       // for tests: every tile whose number is a multiple of it publishes nothing; 0: none is
+  uint32_t most_keys = 1u << 29;                    // the most keys of a launch, fewer than 2^30
+  uint32_t count_items = 256, count_groups = 1056;  // those of the kernel that counts: items per group, most groups
+  bool tickets = true;  // a group takes the next tile, which others have begun in order; else that of its number
+
+  uint32_t tile() const { return items * item_keys; }
+};
+
+// The launches of radix_sort by single work-items.
+struct RadixChunks {
+  uint32_t digit_bits;  // bits of the widest digit
+  uint32_t tile;        // a chunk is a multiple of this many keys
   uint32_t most_chunks;
-  bool moves_tiles;       // a group moves one tile, not a chunk, and each tile has counts in temporary memory
-  uint32_t columns;       // columns of a tile (groups only)
-  bool together;          // a tile's values lie beside its keys in local memory, not after them (groups only)
-  bool late_values;       // values are read after the tile is ranked (groups only)
-  uint64_t direct_bytes;  // up to this many bytes of keys and values are written without lines (chunks only)
+  uint64_t direct_bytes;  // up to this many bytes of keys and values are written without lines
 };
 
 struct Tuning {
@@ -145,40 +164,30 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
   };
 }
 
-// Radix sort by groups. Tile and columns fill 48 KiB of local memory, and are the fastest of some twenty choices on an
-// H200 (25 G pairs/s at 2^26 instead of 17, bench_sort); or they fill 32 KiB.
-// Values lie beside their keys where the counters of the columns leave room for both. key_bytes, value_bytes: those of
-// an element; 0 without values.
+// Radix sort by groups. key_bytes, value_bytes: those of an element; value_bytes is 0 without values.
+// NVIDIA's GPUs: not measured yet. Others: the counters of the columns fill 48 or 32 KiB of local memory.
 inline RadixTuning radix_groups(const gpu::DeviceInfo& device, uint32_t key_bytes, uint32_t value_bytes) {
+  RadixTuning tuning;
   const bool large = device.local_memory >= 48 << 10;
-  const uint32_t columns = large ? 72 : 32, tile = 64 * columns, counters = 256 * 2 * (columns + 2);
-  return {.digit_bits = 8,
-          .items = 256,
-          .offset_items = large ? 256u : 32u,
-          .offset_groups = 256,  // a group per digit
-          .tile = tile,
-          .most_chunks = 1024,
-          .moves_tiles = true,
-          .columns = columns,
-          .together = value_bytes > 0 && tile * (key_bytes + value_bytes) <= std::max(counters, tile * key_bytes),
-          .late_values = false,
-          .direct_bytes = 0};
+  if (large && on_nvidia(device)) {
+    tuning.ranks = RadixRanks::votes;
+    tuning.items = 384;
+    tuning.item_keys = key_bytes == 4 ? 20 : 12;
+    tuning.late_values = value_bytes > 0;
+    return tuning;
+  }
+  tuning.columns = large ? 72 : 32;
+  tuning.item_keys = tuning.columns / 4;
+  return tuning;
 }
 
 // Radix sort by single work-items. There are eight chunks per core, because PoCL hands the first thread that comes half
 // of all groups (and one) at once, the next half of the rest; the last chunks even that out. Keys and values of 16 MiB
 // still fit into the caches with the copy that they are moved to (measured with 32 MiB of third-level cache).
-inline RadixTuning radix_chunks(const gpu::DeviceInfo& device) {
+inline RadixChunks radix_chunks(const gpu::DeviceInfo& device) {
   return {.digit_bits = 8,
-          .items = 1,
-          .offset_items = 1,
-          .offset_groups = 1,
           .tile = 1024,
           .most_chunks = 8 * std::max(1u, device.compute_units),
-          .moves_tiles = false,
-          .columns = 0,
-          .together = false,
-          .late_values = false,
           .direct_bytes = uint64_t{16} << 20};
 }
 

@@ -69,9 +69,9 @@ TEST_CASE("an embedded program keeps the place of each of its lines") {
     REQUIRE(number >= 1);
     REQUIRE(number <= original.size());
     CHECK(line == original[number - 1]);
-    checked += file == "kernels/lib/memory_order.clh";
+    checked += file == "kernels/lib/memory_order_u32.clh";
   }
-  CHECK(checked == lines_of(read_file(test::source_folder() + "/kernels/lib/memory_order.clh")).size());
+  CHECK(checked == lines_of(read_file(test::source_folder() + "/kernels/lib/memory_order_u32.clh")).size());
 }
 
 TEST_CASE("kernels of tests are found wherever kernels come from, and are not built into the program") {

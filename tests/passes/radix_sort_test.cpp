@@ -92,27 +92,85 @@ TEST_CASE("radix sort: only the bits of the range order") {
   });
 }
 
-TEST_CASE(
-    "radix sort: groups of other sizes, with values beside the keys of a tile and after them, read early and late") {
-  for (const uint32_t items : {256u, 384u, 512u})  // six, four and three keys an item
-    for (const bool together : {false, true})
-      for (const bool late : {false, true}) {
-        CAPTURE(items);
-        CAPTURE(together);
-        CAPTURE(late);
-        const auto check = [&]<class Key>(Payload payload, const SortCase<Key>& c) {
-          RadixTuning tuning = radix_groups(context().info(), sizeof(Key), 4);
-          tuning.items = items;
-          tuning.tile = 1536;
-          tuning.columns = 24;
-          tuning.together = together;
-          tuning.late_values = late;
-          RadixSort<Key> sort(context(), payload, tuning);
-          check_sort(sort, payload, c);
-        };
-        check(Payload::words, SortCase<uint32_t>{random_keys<uint32_t>(4000, 1), 3, 20});
-        check(Payload::index, SortCase<uint64_t>{random_keys<uint64_t>(1700, 2), 30, 48});
+namespace {
+
+// Small tiles, of which a few thousand keys fill many. Groups of 128 have fewer items than digits.
+RadixTuning small_tiles(uint32_t items = 128, uint32_t item_keys = 4, RadixRanks ranks = RadixRanks::masks) {
+  RadixTuning tuning;
+  tuning.items = items;
+  tuning.item_keys = item_keys;
+  tuning.ranks = ranks;
+  tuning.columns = 8;
+  return tuning;
+}
+
+// Sorts keys for which the order of equal ones shows, keys in order, and keys in the opposite order.
+void check_many_tiles(const RadixTuning& tuning) {
+  constexpr uint32_t n = 9 * 512 + 100;
+  std::vector<uint32_t> rising(n), falling(n);
+  std::iota(rising.begin(), rising.end(), 0u);
+  std::iota(falling.rbegin(), falling.rend(), 0u);
+  RadixSort<uint32_t> sort(context(), Payload::words, tuning);
+  for (const auto& keys : {random_keys<uint32_t>(n, 1), random_keys<uint32_t>(n, 3, 0x01000101), rising, falling})
+    check_sort<uint32_t>(sort, Payload::words, {keys, 0, 28});
+}
+
+}  // namespace
+
+TEST_CASE("radix sort: groups and tiles of other sizes and every way to rank") {
+  struct Sizes {
+    uint32_t items, item_keys;
+    RadixRanks ranks;
+  };
+  // votes and match are masks on devices other than NVIDIA's GPUs
+  for (const auto& [items, item_keys, ranks] :
+       {Sizes{128, 4, RadixRanks::columns}, Sizes{128, 4, RadixRanks::masks}, Sizes{384, 1, RadixRanks::masks},
+        Sizes{256, 3, RadixRanks::votes}, Sizes{128, 5, RadixRanks::match}}) {
+    CAPTURE(static_cast<int>(ranks));
+    CAPTURE(items);
+    const RadixTuning tuning = small_tiles(items, item_keys, ranks);
+    RadixSort<uint32_t> sort(context(), Payload::words, tuning);
+    const uint32_t tile = tuning.tile();
+    for (const uint32_t n : {2u, tile - 1, tile, tile + 1, 3 * tile + 5})
+      check_sort<uint32_t>(sort, Payload::words, {random_keys<uint32_t>(n, n), 3, 16});
+    check_sort<uint32_t>(sort, Payload::words, {std::vector<uint32_t>(1100, 7)});
+  }
+}
+
+TEST_CASE("radix sort: values that are read late, and several launches for a pass") {
+  for (const bool wide : {false, true})
+    for (const uint32_t most_tiles : {1u, 2u, 3u, 100u}) {
+      CAPTURE(most_tiles);
+      RadixTuning tuning = small_tiles();
+      tuning.late_values = wide;
+      tuning.most_keys = most_tiles * tuning.tile();
+      if (wide) {
+        RadixSort<uint64_t> sort(context(), Payload::index, tuning);
+        check_sort<uint64_t>(sort, Payload::index, {random_keys<uint64_t>(7 * 512, 2), 30, 48});
+      } else {
+        RadixSort<uint32_t> sort(context(), Payload::words, tuning);
+        check_sort<uint32_t>(sort, Payload::words, {random_keys<uint32_t>(4000, 1), 3, 27});
       }
+    }
+}
+
+TEST_CASE("radix sort: a group that finds nothing published counts earlier tiles itself with the same result") {
+  struct Faults {
+    uint32_t looks, silent, window, items;
+  };
+  for (const auto& [looks, silent, window, items] :
+       {Faults{0, 0, 4, 128}, Faults{3, 1, 1, 256}, Faults{2, 2, 4, 128}}) {
+    CAPTURE(looks);
+    CAPTURE(silent);
+    RadixTuning tuning = small_tiles(items, 512 / items);
+    tuning.looks = looks;
+    tuning.silent = silent;
+    tuning.window = window;
+    tuning.tickets = silent != 2;
+    check_many_tiles(tuning);
+    tuning.most_keys = 3 * tuning.tile();
+    check_many_tiles(tuning);
+  }
 }
 
 TEST_CASE("radix sort: floats by their ordered bits, zeros and NaN included") {
