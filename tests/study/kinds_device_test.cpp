@@ -71,8 +71,10 @@ const std::string& answer(const Kind& kind, const Experiment& experiment) {
 
 Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {
   std::vector<std::string> words = {"thesis", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
-  const bool series = experiment.as<OrderFigure>() != nullptr;
-  if (series || (experiment.study() && experiment.study()->rays.front() == 1000))
+  // The fewest rays of the study, or of all figures of orders.
+  if (experiment.study() && !experiment.one_ray_count())
+    words.insert(words.end(), {"--rays", fmt::format("{0}:{0}", experiment.study()->rays.front())});
+  else if (experiment.as<OrderFigure>())
     words.insert(words.end(), {"--rays", "1000:1000"});
   words.insert(words.end(), {"--frames", "1"});
   return run_program(words);
