@@ -165,14 +165,17 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
 }
 
 // Radix sort by groups. key_bytes, value_bytes: those of an element; value_bytes is 0 without values.
-// NVIDIA's GPUs: not measured yet. Others: the counters of the columns fill 48 or 32 KiB of local memory.
+// NVIDIA's GPUs: bench_sort --variants on an H100 (2026-11-28). Others: the counters of the columns fill 48 or 32 KiB
+// of local memory.
 inline RadixTuning radix_groups(const gpu::DeviceInfo& device, uint32_t key_bytes, uint32_t value_bytes) {
   RadixTuning tuning;
   const bool large = device.local_memory >= 48 << 10;
   if (large && on_nvidia(device)) {
     tuning.ranks = RadixRanks::votes;
-    tuning.items = 384;
-    tuning.item_keys = key_bytes == 4 ? 20 : 12;
+    const bool pairs = key_bytes == 4 && value_bytes > 0;
+    tuning.items = pairs ? 384 : 256;
+    tuning.item_keys = pairs ? 18 : 20;
+    tuning.window = value_bytes > 0 ? 1 : 4;
     tuning.late_values = value_bytes > 0;
     return tuning;
   }
