@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of ray orders, sorts and ray caches for docs/rays_studied.md, of the newest rows; see speed.py."""
 from rows import of_device
-from speed import CPU, H200, digits, markdown, share, sources
+from speed import CPU, H100, H200, digits, markdown, share, sources
 
 
 def orders(groups):
@@ -19,7 +19,7 @@ def orders(groups):
 
 def sorts(groups):
     lines, found = [], []
-    for bits, device, words, peers in ((32, H200, "H200", ["CUB", "Thrust"]), (64, H200, "H200", ["CUB", "Thrust"]),
+    for bits, device, words, peers in ((32, H100, "H100", ["CUB", "Thrust"]), (64, H100, "H100", ["CUB", "Thrust"]),
                                        (32, CPU, "two CPU cores", ["tbb::parallel_sort", "hwy::VQSort, one thread"])):
         for power in (20, 22, 24, 26):
             rows = [of_device(groups, "sort", device, f"u{bits} + u32, n = 2^{power}: radix, against {peer}") for peer in peers]
@@ -28,6 +28,17 @@ def sorts(groups):
                 lines.append([f"{bits}-bit, 2^{power}", words, digits(next(row for row in rows if row)["value"]), beside])
                 found += rows
     return markdown(["keys with a 32-bit payload, random", "device", "Gkeys/s", "speed against others"], lines, 1, 2) + sources(found)
+
+
+def radix_shares(groups):
+    """Returns the speed of the radix sort as a share of CUB's, for keys with and without a word each."""
+    lines, found = [], []
+    for words, shape in (("32 bits", "u32"), ("32 bits and a word each", "u32 + u32"), ("64 bits", "u64"),
+                         ("64 bits and a word each", "u64 + u32")):
+        rows = [of_device(groups, "sort", H100, f"{shape}, n = 2^{power}: radix, against CUB") for power in (20, 22, 24, 26)]
+        lines.append([words] + [digits(row["ratio"]) if row else "" for row in rows])
+        found += [row for row in rows if row]
+    return markdown(["keys", "2^20", "2^22", "2^24", "2^26"], lines, 4) + sources(found)
 
 
 def cached_frames(groups):
@@ -85,4 +96,4 @@ def cache_reads(groups):
     return markdown(["speed beside random reads of 64 bytes"] + [f"{words}, {size}" for words, _, size in columns], lines, len(columns)) + sources(found)
 
 
-TABLES = {"cache_reads": cache_reads, "orders": orders, "sorts": sorts, "cached_frames": cached_frames, "cache_tables": cache_tables}
+TABLES = {"cache_reads": cache_reads, "radix_shares": radix_shares, "orders": orders, "sorts": sorts, "cached_frames": cached_frames, "cache_tables": cache_tables}

@@ -114,7 +114,7 @@ SCALING = [(f"{words}, {'one' if n == 1 else n} {device}{'' if n == 1 else 's'}"
 PARTS = [  # words, benchmark, device, case
     ("nearest hits, 1.6 10^7 rays in order", "trace", H200, "munich, 16000000 rays, hilbert: bvh2"),
     ("nearest hits, 10^6 rays in order", "trace", CPU, "munich, 1000000 rays, hilbert: packet16"),
-    ("sorting 2^26 keys of 32 bits, as a permutation", "sort", H200, "u32 to permutation, n = 2^26: radix, against the fastest peer"),
+    ("sorting 2^26 keys of 32 bits, as a permutation", "sort", H100, "u32 to permutation, n = 2^26: radix, against the fastest peer"),
     ("sorting 2^24 keys of 32 bits, as a permutation", "sort", CPU, "u32 to permutation, n = 2^24: radix, against the fastest peer"),
     ("rays born in order, all ray stages", "order", H200, "munich, 16777216 rays: born in order"),
     ("a start with compiled kernels at hand", "start", CPU, "second start, programs cached"),
