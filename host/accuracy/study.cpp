@@ -31,6 +31,10 @@ class Measurement {
       throw ConfigError(request.file +
                         ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; "
                         "give trajectories instead of them");
+    if (own_.trace.floor_db)
+      throw ConfigError(request.file +
+                        ": the lists of other settings have paths of every gain, but trace.floor_db leaves weak ones "
+                        "out of this one: remove trace.floor_db, and give trace.max_depth the depth of the paths");
   }
 
   Study operator()() {

@@ -76,9 +76,9 @@ void add_validate(CLI::App& program) {
     const std::string mounted =
         config.mounts.empty() ? "" : fmt::format(", antennas per vehicle: {}", config.mounts.size());
     std::cout << fmt::format(
-        "{}: ok\n{}; fixed transmitters: {}, fixed receivers: {}{}{}; {} rays per transmitter, depth {}, {:g} GHz\n",
+        "{}: ok\n{}; fixed transmitters: {}, fixed receivers: {}{}{}; {} per transmitter, depth {}, {:g} GHz\n",
         options->file, scene, config.transmitters.size(), config.receivers.size(), standing, mounted,
-        rays_in_words(config.trace), config.trace.max_depth, config.radio.frequency_hz / 1e9);
+        launch_in_words(config.trace), config.trace.max_depth, config.radio.frequency_hz / 1e9);
   });
 }
 

@@ -56,7 +56,9 @@ void check_inputs(const Config& config) {
   if (!config.scene.generate.empty() && !config.trajectories.generate.empty()) check_streets(config);
 }
 
-std::string rays_in_words(const TraceConfig& trace) { return trace.rays ? grouped(*trace.rays) : "auto"; }
+std::string launch_in_words(const TraceConfig& trace) {
+  return trace.by_beams() ? "beams" : fmt::format("{} rays", trace.rays ? grouped(*trace.rays) : "auto");
+}
 
 void check_output_folder(const fs::path& folder) {
   if (const std::string problem = write_obstacle(folder); !problem.empty())

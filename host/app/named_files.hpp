@@ -12,8 +12,8 @@ namespace wavetracer::app {
 // parsed, and that both have the same streets. Throws InputError or ConfigError.
 void check_inputs(const Config& config);
 
-// Returns trace.rays: a number, or auto.
-std::string rays_in_words(const TraceConfig& trace);
+// Returns what an end sends out in search of paths: a number of rays, "auto rays", or "beams".
+std::string launch_in_words(const TraceConfig& trace);
 
 // Checks that the folder, or its nearest existing ancestor, can be written to. Throws RuntimeError.
 void check_output_folder(const std::filesystem::path& folder);

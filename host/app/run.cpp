@@ -156,8 +156,8 @@ Sharing sharing_of(const RunOptions& options, const Ranks& ranks) {
 void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& progress) {
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
-  progress.line(fmt::format("ready after {:.2f} s on {}; {} rays from each transmitter ({})", ready,
-                            run.summary.device.name, rays_in_words(trace), run.config.transmitters.size()));
+  progress.line(fmt::format("ready after {:.2f} s on {}; {} from each transmitter ({})", ready, run.summary.device.name,
+                            launch_in_words(trace), run.config.transmitters.size()));
   if (warn)
     for (const std::string& warning : run.summary.warnings) progress.line("warning: " + warning);
 }

@@ -97,6 +97,7 @@ std::string around_walls(const Config& config, const Features& features, const S
     add("trace.scattering = true");
   if (features.at("reflection").on || trace.max_depth == 0)
     add(fmt::format("more than trace.max_depth = {}", trace.max_depth));
+  if (trace.floor_db) add(fmt::format("less than trace.floor_db = {}", *trace.floor_db));
   return out;
 }
 

@@ -139,6 +139,14 @@ TEST_CASE("a setting that the configuration excludes has a row that says why") {
   CHECK(row(spheres, "rays", "1,000").measured());
 }
 
+TEST_CASE("a floor is refused, because the lists of other settings have paths of every gain") {
+  const Folder folder;
+  const SceneFile scene = screen();
+  const std::string file =
+      folder.file("floor.toml", config_text(scene, "discovery = \"beams\"\nfloor_db = -120\nmax_depth = 64\n", {rx}));
+  CHECK_THROWS_WITH_AS(studied(file, {1000, 1000}), doctest::Contains("remove trace.floor_db, and"), ConfigError);
+}
+
 TEST_CASE("the program writes table, plot and page; no link is an error; Ctrl-C ends it with 130") {
   if (!device_present()) return;
   const Folder folder;

@@ -181,6 +181,9 @@ TEST_CASE("init, then validate") {
   CHECK(validate.code == 0);
   CHECK(validate.err.empty());
   CHECK(contains(validate.out, file + ": ok\n"));
+  CHECK(contains(validate.out, "; 200,000 rays per transmitter, depth 5"));
+  const Outcome beams = run_program({"validate", "-c", file, "--set", "trace.discovery=beams"});
+  CHECK(contains(beams.out, "; beams per transmitter, depth 5"));
   for (const char* line : {"\nkind = \"none\"\n", "\nhit_point = \"own\"\n", "\nwaypoints = 0\n"})
     CHECK(contains(init.out, line));
 }

@@ -50,6 +50,10 @@ TEST_CASE("two walls of concrete: the first one, where, and how many transmissio
         Texts{"tx0 -> rx0 has no path: its direct line meets \"part-1\" (material-1) after 6 m; "
               "trace.max_transmissions = 2 and trace.max_depth = 2 lets it through 2 walls; what may lead around it: "
               "more than trace.max_depth = 1"});
+  config.trace.diffraction = config.trace.transmission = false;
+  config.trace.discovery = "beams";
+  config.trace.floor_db = -90;
+  CHECK(texts(parts, config).front().ends_with("more than trace.max_depth = 1, less than trace.floor_db = -90"));
 }
 
 TEST_CASE("metal lets nothing through; reflection that is off is named; a link that has a path is not") {
