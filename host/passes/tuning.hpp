@@ -175,7 +175,7 @@ inline RadixTuning radix_groups(const gpu::DeviceInfo& device, uint32_t key_byte
     const bool pairs = key_bytes == 4 && value_bytes > 0;
     tuning.items = pairs ? 384 : 256;
     tuning.item_keys = pairs ? 18 : 20;
-    tuning.window = value_bytes > 0 ? 1 : 4;
+    tuning.window = value_bytes == 0 ? 4 : pairs ? 2 : 1;
     tuning.late_values = value_bytes > 0;
     return tuning;
   }
