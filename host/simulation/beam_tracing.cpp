@@ -41,6 +41,12 @@ double units(const uint32_t (&sum)[2]) { return sum[1] * 0x1p32 + sum[0]; }
 
 }  // namespace
 
+BeamMirrors make_beam_mirrors(gpu::Context& context, const BeamOptions& options) {
+  return {.reflectances = context.buffer(options.mirrors.bounds, "reflectances"),
+          .materials_of = context.buffer(options.mirrors.materials_of, "materials of surfaces"),
+          .floor = {.low = {}, .high = {}, .reach_m = reach_m(options)}};
+}
+
 BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
                          const BeamOptions& options, const FrameWatch* watch)
     : context_(context),
@@ -49,9 +55,7 @@ BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::v
       watch_(watch),
       facets_(scene, models),
       lists_(context),
-      mirrors_{.reflectances = context.buffer(options.mirrors.bounds, "reflectances"),
-               .materials_of = context.buffer(options.mirrors.materials_of, "materials of surfaces"),
-               .floor = {.low = {}, .high = {}, .reach_m = reach_m(options)}} {}
+      mirrors_(make_beam_mirrors(context, options)) {}
 
 std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends) {
   std::vector<wt_aperture> roots;

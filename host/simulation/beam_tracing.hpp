@@ -28,6 +28,9 @@ struct BeamOptions {
   double wavelength_m = 1;
 };
 
+// The mirrors of the options; floor gets its box of receivers with each discovery.
+BeamMirrors make_beam_mirrors(gpu::Context& context, const BeamOptions& options);
+
 class BeamTracing {
  public:
   BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models, const BeamOptions& options,
