@@ -136,13 +136,16 @@ std::string missed_line(const Run& run, const Totals& totals) {
 std::string certificate_line(const Totals& totals) {
   const Certificate& of = totals.certificate;
   if (of.frames == 0) return "";
-  std::string out = of.any_depth ? std::string("complete   every path of any number of reflections")
-                                 : fmt::format("complete   every path of up to {} reflections", of.depth);
+  const char* const steps = of.edges == 0 ? "reflections" : "interactions";
+  std::string out = of.any_depth ? fmt::format("complete   every path of any number of {}", steps)
+                                 : fmt::format("complete   every path of up to {} {}", of.depth, steps);
+  if (of.edges > 0) out += fmt::format(", up to {} of them at edges", of.edges);
   if (of.floor_db) out += fmt::format(" with a gain of {} dB or more between isotropic antennas", *of.floor_db);
   out +=
       fmt::format(", but for beams of {:.2g} sr in all, {:.2g} of the directions", of.left_out_sr, of.left_out_share());
   if (of.left_out_power > 0)
-    out += fmt::format("; a link misses at most {:.0f} dB through them", 10 * std::log10(of.left_out_power));
+    out += fmt::format("; a link misses at most {:.0f} dB through them{}", 10 * std::log10(of.left_out_power),
+                       of.edges > 0 ? " by paths without an edge" : "");
   if (of.floor_db)
     out += fmt::format("\n           weaker beams, with {:.2g} of the power, were not followed", of.weak_share());
   return out + "\n";

@@ -45,9 +45,13 @@ Json encode_missed(const MissedCounts& missed) {
 }
 
 Json encode_certificate(const Certificate& of) {
-  Json json = {{"frames", of.frames},           {"depth", of.depth},
-               {"any_depth", of.any_depth},     {"ends", of.ends},
-               {"left_out_sr", of.left_out_sr}, {"left_out_power", of.left_out_power},
+  Json json = {{"frames", of.frames},
+               {"depth", of.depth},
+               {"any_depth", of.any_depth},
+               {"edges", of.edges},
+               {"ends", of.ends},
+               {"left_out_sr", of.left_out_sr},
+               {"left_out_power", of.left_out_power},
                {"weak_sr", of.weak_sr}};
   if (of.floor_db) json["floor_db"] = *of.floor_db;
   return json;
@@ -56,6 +60,7 @@ Json encode_certificate(const Certificate& of) {
 Certificate decode_certificate(const Json& json) {
   Certificate out{.frames = whole_at<uint64_t>(json, "frames"),
                   .depth = whole_at<uint32_t>(json, "depth"),
+                  .edges = whole_at<uint32_t>(json, "edges"),
                   .any_depth = json.at("any_depth"),
                   .ends = whole_at<uint64_t>(json, "ends"),
                   .left_out_sr = json.at("left_out_sr"),

@@ -253,12 +253,12 @@ wavetracer_missed wavetracer_frame_missed(const wavetracer_frame* self) {
 
 wavetracer_certificate wavetracer_frame_certificate(const wavetracer_frame* self) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (!self || self->result.certificate.frames == 0) return {0, 0, unknown, unknown, unknown, unknown, unknown};
+  if (!self || self->result.certificate.frames == 0) return {0, 0, unknown, unknown, unknown, unknown, unknown, 0};
   const wavetracer::Certificate& of = self->result.certificate;
   return {of.depth,          of.any_depth,
           of.left_out_sr,    of.left_out_share(),
           of.left_out_power, of.floor_db.value_or(-std::numeric_limits<double>::infinity()),
-          of.weak_share()};
+          of.weak_share(),   of.edges};
 }
 
 const char* wavetracer_frame_warnings(const wavetracer_frame* self) { return self ? self->warnings.c_str() : nullptr; }

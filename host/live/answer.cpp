@@ -157,6 +157,8 @@ void write_certificate(Line& line, const Certificate& of) {
   line.key("certificate");
   line.raw("{\"depth\":");
   line.integer(of.depth);
+  line.key("edges");
+  line.integer(of.edges);
   line.key("left_out_sr");
   line.number(of.left_out_sr);
   line.key("left_out_share");

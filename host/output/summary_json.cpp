@@ -62,6 +62,7 @@ Json range(const MissedRange& of) {
 Json certificate(const Certificate& of) {
   Json json = {{"depth", of.depth},
                {"any_depth", of.any_depth},
+               {"edges", of.edges},
                {"left_out_sr", of.left_out_sr},
                {"left_out_share", of.left_out_share()},
                {"left_out_power", of.left_out_power}};
@@ -104,6 +105,8 @@ std::optional<CertificateFacts> read_certificate(const Json& json) {
   if (depth == found->end() || !depth->is_number_unsigned() || *depth > std::numeric_limits<uint32_t>::max()) return {};
   out.depth = *depth;
   if (any != found->end() && any->is_boolean()) out.any_depth = *any;
+  if (const auto edges = found->find("edges"); edges != found->end() && edges->is_number_unsigned())
+    out.edges = static_cast<uint32_t>(std::min<uint64_t>(edges->get<uint64_t>(), out.depth));
   // Takes a number that is not negative.
   const auto take = [&found](const char* name, double& value) {
     const auto number = found->find(name);

@@ -16,7 +16,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
 
 // A certificate as the file has it, see wavetracer/certificate.hpp.
 struct CertificateFacts {
-  uint32_t depth = 0;
+  uint32_t depth = 0, edges = 0;
   bool any_depth = false;
   double left_out_sr = 0, left_out_share = 0, left_out_power = 0, weak_share = 0;
   std::optional<double> floor_db;

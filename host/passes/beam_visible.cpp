@@ -26,7 +26,8 @@ wt_beam_arguments arguments_of(const BeamLists& lists, uint32_t first_aperture, 
           .trie_mask = static_cast<uint32_t>(set.table.size() - 1),
           .round = round,
           .last = step.depth == step.max_depth,
-          .walls = step.walls};
+          .walls = step.walls,
+          .edges = step.edges};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace wavetracer {
 struct BeamStep {
   uint32_t depth = 1, max_depth = 1;  // at the last depth no apertures are made
   uint32_t walls = 0;                 // as for beam_gather
+  bool edges = false;                 // as for beam_gather
 };
 
 class BeamVisible {

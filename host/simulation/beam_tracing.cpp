@@ -51,6 +51,7 @@ BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::v
                          const BeamOptions& options, const FrameWatch* watch)
     : context_(context),
       max_transmissions_(options.max_transmissions),
+      max_diffractions_(options.max_diffractions),
       floor_db_(options.floor_db),
       watch_(watch),
       facets_(scene, models),
@@ -93,6 +94,7 @@ uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
   lists_.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
   counts_ = {};
   counts_.ends = ends.size();
+  counts_.edges = max_diffractions_;
   counts_.floor_db = floor_db_;
   return static_cast<uint32_t>(roots.size());
 }
@@ -116,7 +118,8 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launche
     const uint32_t walls = std::min(max_transmissions_, max_depth - depth);
     // The last depth makes no apertures, and a beam that passes fewer walls than it might may meet more behind them.
     counts_.any_depth = depth < max_depth && walls == max_transmissions_;
-    if (!look(scene, apertures, {.depth = depth, .max_depth = max_depth, .walls = walls}, set)) {
+    if (!look(scene, apertures,
+              {.depth = depth, .max_depth = max_depth, .walls = walls, .edges = max_diffractions_ > 0}, set)) {
       set.regrow(max_depth);
       apertures = start(ends);
       depth = 0;
@@ -141,7 +144,7 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
   uint32_t block = 0;  // its first aperture
   const auto list = [&](uint32_t first, uint32_t end) {
     block = first;
-    return (*gather_)(tree_, scene, lists_, first, end - first, step.walls, most_chunks);
+    return (*gather_)(tree_, scene, lists_, first, end - first, step.walls, step.edges, most_chunks);
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped

@@ -22,6 +22,7 @@ std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends);
 
 struct BeamOptions {
   uint32_t max_transmissions = 0;  // surfaces that are not opaque that a path may pass; each is an interaction too
+  uint32_t max_diffractions = 0;   // edges that a path may go over; 0: edges do not diffract
   ReflectanceBounds mirrors;       // those of the surfaces of the world
   // The gain between isotropic antennas below which a path need not be found, and the wavelength that it is for.
   std::optional<double> floor_db = {};
@@ -50,6 +51,7 @@ class BeamTracing {
 
   gpu::Context& context_;
   uint32_t max_transmissions_;
+  uint32_t max_diffractions_;
   std::optional<double> floor_db_;
   const FrameWatch* watch_;
   WorldFacets facets_;

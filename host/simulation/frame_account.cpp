@@ -28,6 +28,7 @@ void FrameAccount::discovered(const DiscoveryCounts& found) {
   const BeamCounts& beams = *found.beams;
   result.certificate = {.frames = 1,
                         .depth = beams.depth,
+                        .edges = beams.edges,
                         .any_depth = beams.any_depth,
                         .ends = beams.ends,
                         .left_out_sr = beams.left_out_sr,

@@ -40,7 +40,8 @@ enum class LaunchEnd { recall, max_rays, finest, nothing_rare };
 
 // The counts of a discovery by beams.
 struct BeamCounts {
-  uint32_t depth = 0;      // reflections
+  uint32_t depth = 0;      // reflections and diffractions
+  uint32_t edges = 0;      // the most edges of a path; all edges that ends see in their mirrors were found
   uint64_t ends = 0;       // ends that were looked from
   bool any_depth = false;  // no beam was left to follow at the last depth
   // Bounds of solid angles, added up over all ends: of beams that were too thin to follow; of these, each times the

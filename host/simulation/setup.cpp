@@ -73,12 +73,16 @@ std::unique_ptr<RayCache> make_cache(gpu::Context& context, const RunPlan& plan,
                                     choose_shape(context.info(), plan.trace, order), order.launch, reception);
 }
 
+// Paths over more edges than these are found by strings between their ends, not by what each end sees (wedge_chains).
+constexpr uint32_t most_joined_edges = 2;
+
 // The triangles of the first frame are those of all frames where nothing moves.
 std::unique_ptr<BeamTracing> make_beams(gpu::Context& context, const RunPlan& plan, const FrameWatch& watch) {
   if (!plan.trace.by_beams()) return nullptr;
   const Fleet& fleet = plan.world.fleet;
   const BeamOptions options{
       .max_transmissions = plan.trace.transmission ? plan.trace.max_transmissions : 0,
+      .max_diffractions = plan.trace.diffraction ? std::min(plan.trace.max_diffractions, most_joined_edges) : 0,
       .mirrors = make_reflectance_bounds(plan.scene, fleet.models, fleet.instances, carriers_hz(plan.asked.radio)),
       .floor_db = plan.trace.floor_db,
       .wavelength_m = longest_wavelength_m(plan.asked.radio)};

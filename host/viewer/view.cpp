@@ -92,6 +92,7 @@ json missed_ranges(const Missed& missed) {
 json certificate_row(const CertificateFacts& of) {
   return {{"depth", of.depth},
           {"any_depth", of.any_depth},
+          {"edges", of.edges},
           {"left_out_sr", of.left_out_sr},
           {"left_out_share", of.left_out_share},
           {"left_out_power", of.left_out_power},

@@ -8,16 +8,17 @@
 
 namespace wavetracer {
 
-// Every path of at most `depth` reflections was found that is not weaker than floor_db, unless one of its points lies
-// in a beam that was too thin to follow.
+// Every path of at most `depth` interactions, of which at most `edges` are at edges, was found that is not weaker than
+// floor_db, unless one of its points lies in a beam that was too thin to follow.
 struct Certificate {
   uint64_t frames = 0;     // frames that it is about; 0: there is no certificate
   uint32_t depth = 0;      // the smallest of all frames
+  uint32_t edges = 0;      // edges that such a path may go over, the fewest of all frames; 0: reflections only
   bool any_depth = false;  // in all frames, no path has more reflections than that
   uint64_t ends = 0;       // ends from which beams were followed, added up over all frames
   double left_out_sr = 0;  // a bound of the solid angle of the beams that were too thin, over all ends and frames
   // A bound of the power in these beams, where an isotropic antenna sends 1 W. It is the largest of all frames, so no
-  // link of any frame can miss more, but for the gain of its transmitter's antenna.
+  // link of any frame can miss more by reflected paths, but for the gain of its transmitter's antenna.
   double left_out_power = 0;
   // A bound of the solid angle of the beams that were not followed because they are weaker than floor_db, each times
   // the share of its power that mirrors have left, over all ends and frames.
@@ -39,6 +40,7 @@ inline void add(Certificate& sum, const Certificate& more) {
   sum.any_depth = (sum.frames == 0 || sum.any_depth) && (more.frames == 0 || more.any_depth);
   if (more.floor_db) sum.floor_db = more.floor_db;  // a run has one
   sum.depth = sum.frames == 0 ? more.depth : more.frames == 0 ? sum.depth : std::min(sum.depth, more.depth);
+  sum.edges = sum.frames == 0 ? more.edges : more.frames == 0 ? sum.edges : std::min(sum.edges, more.edges);
   sum.frames += more.frames;
   sum.ends += more.ends;
   sum.left_out_sr += more.left_out_sr;

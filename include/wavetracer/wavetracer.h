@@ -109,18 +109,20 @@ typedef struct wavetracer_missed {
   double power_share, power_share_low, power_share_high; /* relative to the power that was found */
 } wavetracer_missed;
 
-/* The certificate of a frame with trace.discovery = "beams": it has every path of at most `depth` reflections whose
-   gain between isotropic antennas is floor_db or more, unless a point of the path lies in one of the beams that were
-   too thin to follow. Without beams depth and any_depth are 0, and the other values are NaN. */
+/* The certificate of a frame with trace.discovery = "beams": it has every path of at most `depth` interactions, of
+   which at most `edges` are at edges, whose gain between isotropic antennas is floor_db or more, unless a point of the
+   path lies in one of the beams that were too thin to follow. Without beams the integers are 0, and the other values
+   are NaN. */
 typedef struct wavetracer_certificate {
   uint32_t depth;
-  uint32_t any_depth;    /* not 0: no such path has more reflections */
+  uint32_t any_depth;    /* not 0: no such path has more interactions */
   double left_out_sr;    /* a bound of the solid angle of the thin beams, over all ends */
   double left_out_share; /* the same, of all directions of all ends */
   double left_out_power; /* a bound of the power in these beams, where an isotropic antenna sends 1 W: a link misses no
-                            more through them, but for the gain of its transmitter's antenna */
+                            more by reflections in them, but for the gain of its transmitter's antenna */
   double floor_db;       /* trace.floor_db; -infinity if it is not given */
   double weak_share;     /* a bound of the share of the power in beams that were not followed because they are weaker */
+  uint32_t edges;        /* 0: the certificate is about reflections alone */
 } wavetracer_certificate;
 
 /* 0 for null */

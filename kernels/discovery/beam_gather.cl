@@ -29,16 +29,18 @@ typedef struct {
   wt_view view;
   double reach;
   uint walls;  // that waves may have passed
+  uint edges;  // not 0: edges diffract
 } wt_scene_view;
 
-// May a surface be the next mirror? The last one may not, nor the instance of the end at a root, nor a plane that the
-// image lies on.
-inline int may_reflect(const wt_scene_view* at, uint surface) {
+// The use of a surface that may be seen. The last mirror has none, nor has the instance of the end at a root. If the
+// image lies in the plane of the surface, only its edges may be seen.
+inline uint use_of(const wt_scene_view* at, uint surface) {
   const global wt_aperture* aperture = at->aperture;
   if (surface == aperture->surface) return 0;
   const global wt_exact_surface* s = at->surfaces + surface;
   if (aperture->own != WT_NONE && s->instance == aperture->own) return 0;
-  return fabs(wt_plane_height(s, at->apex)) > (aperture->surface == WT_NONE ? WT_ON_SURFACE_M : 1e-9);
+  if (fabs(wt_plane_height(s, at->apex)) > (aperture->surface == WT_NONE ? WT_ON_SURFACE_M : 1e-9)) return WT_MIRROR;
+  return at->edges ? WT_EDGE_ON : 0;
 }
 
 // Looks at one facet: it is listed if it may be seen or may hide others.
@@ -51,14 +53,14 @@ inline void look_at(const wt_scene_view* at, uint f, const local wt_beam_walk* w
   if (wt_outline_outside(at->lit, &o) || !wt_box_of(&at->view, &o, at->lit, &box) ||
       wt_outline_hidden(&walk->screens, &o))
     return;
-  const int reflects = may_reflect(at, facet->surface);
+  const uint use = use_of(at, facet->surface);
   wt_hider hider;
   const int hides = wt_may_hide(at->aperture, at->surfaces, facet->surface) &&
                     wt_hidden_space(facet, &at->view, at->apex, &o, &hider);
-  if (!reflects && !hides) return;
+  if (!use && !hides) return;
   look->listed[k] = 1;
   look->candidates[k] =
-      (wt_beam_candidate){box.low_u, box.high_u, box.low_v, box.high_v, box.nearest, box.farthest, f, (uint)reflects};
+      (wt_beam_candidate){box.low_u, box.high_u, box.low_v, box.high_v, box.nearest, box.farthest, f, use};
   look->is_screen[k] = hides && wt_keeps_screen(&walk->screens, wt_screen_size(&box)) &&
                        wt_is_opaque(at->aperture, at->surfaces, facet->surface, at->walls) &&
                        wt_screen_of(&hider, &at->view, at->lit, &o, at->reach, &box, look->screens + k);
@@ -154,7 +156,8 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
                       .aperture = apertures + i,
                       .lit = lit,
                       .apex = wt_vector(apertures[i].image),
-                      .walls = args.walls};
+                      .walls = args.walls,
+                      .edges = args.edges};
   wt_load_view(lit, &at.view);
   at.reach = wt_reach_of(nodes, at.apex);
   while (walk.top > 0 || walk.waiting > 0) {

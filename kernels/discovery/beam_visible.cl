@@ -4,8 +4,7 @@
 // group of WT_LANES work-items takes WT_TARGETS candidates; the other candidates of the aperture may hide them, and
 // each lane looks at some of these. A group that has worked for long stores the pieces that are left, and beam_waiting
 // goes on with each of them in a group of its own.
-#include "lib/floor.clh"
-#include "lib/shadow.clh"
+#include "lib/beam_results.clh"
 #include "lib/trie.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -15,48 +14,6 @@
 #define WT_PATIENCE 32
 #define WT_CUT_WORK 4
 
-// The tables that groups write, and the rule that says which pieces they follow.
-typedef struct {
-  wt_mirrors mirrors;
-  global ulong* table;
-  global uint* quarters;
-  global wt_aperture* next;
-  global wt_waiting_piece* waiting;
-  global wt_beam_counters* counters;
-  wt_beam_arguments args;
-} wt_results;
-
-// Stores a piece of a candidate for beam_waiting.
-inline void store_waiting(const wt_results* out, uint candidate, uint next, const local wt_polygon* p,
-                          const local wt_walls* walls, local wt_shared* shared) {
-  if (wt_lane() == 0) {
-    shared->slot = atomic_inc(out->counters->waiting + out->args.round % 2);
-    if (shared->slot >= out->args.waiting_capacity) atomic_max(&out->counters->most_waiting, shared->slot + 1);
-  }
-  WT_SYNC();
-  if (shared->slot < out->args.waiting_capacity) {
-    global wt_waiting_piece* piece = out->waiting + shared->slot;
-    for (uint k = wt_lane(); k < p->count; k += WT_LANES) {
-      piece->u[k] = p->u[k];
-      piece->v[k] = p->v[k];
-    }
-    if (wt_lane() == 0) {
-      piece->candidate = candidate;
-      piece->next = next;
-      piece->walls = *walls;
-      piece->count = p->count;
-    }
-  }
-  WT_SYNC();
-}
-
-// Stores all pieces that wait.
-inline void store_all_waiting(const wt_results* out, uint candidate, local wt_shared* shared, wt_piece_counts* counts) {
-  for (uint k = 0; k < counts->count; ++k)
-    store_waiting(out, candidate, shared->pieces.next[k], shared->pieces.piece + k, shared->pieces.walls + k, shared);
-  counts->count = 0;
-}
-
 // Takes what the candidates from `next` on hide from the piece in pieces.whole. Returns 1 if it is seen as a whole;
 // else it is hidden, or what is left of it waits.
 inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, const wt_target* target, uint next,
@@ -64,7 +21,7 @@ inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, 
   const wt_view_box box = wt_box_of_piece(view, target, &shared->pieces.whole, shared);
   while (next != WT_NONE) {
     if (counts->patience <= 0) {
-      store_waiting(out, target->candidate, next, &shared->pieces.whole, &shared->pieces.passed, shared);
+      wt_store_waiting(out, target->candidate, next, &shared->pieces.whole, &shared->pieces.passed, shared);
       return 0;
     }
     --counts->patience;
@@ -80,7 +37,7 @@ inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, 
     }
     if (shared->covers) return 0;
     if (counts->count + shared->pieces.shadow.count + 1 > WT_PIECES)
-      store_all_waiting(out, target->candidate, shared, counts);
+      wt_store_all_waiting(out, target->candidate, shared, counts);
     counts->patience -= WT_CUT_WORK;
     wt_split(next, wall, &shared->pieces, counts);
     return 0;
@@ -102,12 +59,13 @@ inline uint enter(const wt_results* out, uint parent, uint surface, local wt_sha
   return shared->node;
 }
 
-// Cuts the pieces that wait until each is seen or hidden. `node`: WT_NONE until a piece is seen.
+// Cuts the pieces that wait until each is seen or hidden. `node`: WT_NONE until a piece is seen. Where edges diffract,
+// a sequence is also entered if a part of the target was left out because it is thin: its edge may be as long as any.
 inline void look(const wt_world* world, const wt_view* view, double3 apex, const wt_target* target,
                  const wt_results* out, local wt_shared* shared, wt_piece_counts* counts) {
   uint node = WT_NONE;
   while (counts->count > 0) {
-    if (counts->patience <= 0) store_all_waiting(out, target->candidate, shared, counts);
+    if (counts->patience <= 0) wt_store_all_waiting(out, target->candidate, shared, counts);
     if (counts->count == 0) break;
     --counts->count;
     const uint next = shared->pieces.next[counts->count];
@@ -125,6 +83,8 @@ inline void look(const wt_world* world, const wt_view* view, double3 apex, const
       wt_store_aperture(out->next + shared->slot, node, world->aperture->passed, kept, apex, target, &shared->pieces);
     WT_SYNC();
   }
+  if (out->args.edges && counts->left_out > 0 && node == WT_NONE)
+    enter(out, world->aperture->node, target->surface, shared);
 }
 
 // Looks at one candidate of an aperture; `from` is the piece that is left of it, or null: it is looked at for the first
@@ -174,9 +134,12 @@ kernel void beam_visible(const global wt_facet* facets, const global double* cor
   const wt_results out = {{reflectances, materials_of, limit}, table, quarters, next, waiting, counters, args};
   for (uint k = 0; k < WT_TARGETS; ++k) {
     const uint candidate = get_group_id(0) * WT_TARGETS + k, chunk = candidate / WT_CHUNK;
-    if (chunk >= args.count || candidate % WT_CHUNK >= chunks[chunk].count || !candidates[candidate].may_reflect)
-      continue;
+    if (chunk >= args.count || candidate % WT_CHUNK >= chunks[chunk].count || !candidates[candidate].use) continue;
     const uint aperture = chunks[chunk].aperture;
+    if (candidates[candidate].use == WT_EDGE_ON) {
+      enter(&out, apertures[aperture].node, facets[candidates[candidate].facet].surface, &shared);
+      continue;
+    }
     const wt_world world = {facets, corners, surfaces, apertures + aperture, chunks, candidates, args.walls};
     look_at(&world, lit_spaces + (aperture - args.first), candidate, 0, &out, &shared);
   }

@@ -39,7 +39,8 @@ class Missed(ctypes.Structure):
 class Certificate(ctypes.Structure):
     _fields_ = [("depth", ctypes.c_uint32), ("any_depth", ctypes.c_uint32)] + [
         (name, ctypes.c_double)
-        for name in ("left_out_sr", "left_out_share", "left_out_power", "floor_db", "weak_share")]
+        for name in ("left_out_sr", "left_out_share", "left_out_power", "floor_db", "weak_share")] + [
+        ("edges", ctypes.c_uint32)]
 
 
 class Column(ctypes.Structure):

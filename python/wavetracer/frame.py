@@ -118,19 +118,19 @@ class Frame(Unique):
 
     @property
     def certificate(self) -> dict[str, float] | None:
-        """With trace.discovery = "beams": the frame has every path of at most certificate["depth"] reflections, unless a
-        point of the path lies in one of the beams that were too thin to follow. certificate["any_depth"] is true if no
-        path has more reflections. certificate["left_out_sr"] is a bound of the solid angle of these beams, over all
-        ends, and certificate["left_out_share"] is the same of all directions of all ends. certificate["left_out_power"]
-        is a bound of the power in them, where an isotropic antenna sends 1 W: a link misses no more through them, but
-        for the gain of its transmitter's antenna. With trace.floor_db all this is about the paths whose gain between
-        isotropic antennas is certificate["floor_db"] or more; weaker beams were not followed, and
-        certificate["weak_share"] is a bound of their share of the power. None without beams."""
+        """With trace.discovery = "beams": the frame has every path of at most certificate["depth"] interactions, of which
+        at most certificate["edges"] are at edges, unless a point of the path lies in one of the beams that were too thin
+        to follow. certificate["any_depth"] is true if no path has more of them. certificate["left_out_sr"] is a bound of
+        the solid angle of these beams, over all ends, and certificate["left_out_share"] is the same of all directions of
+        all ends. certificate["left_out_power"] is a bound of the power in them, where an isotropic antenna sends 1 W: a
+        link misses no more by reflections in them, but for the gain of its transmitter's antenna. With trace.floor_db all
+        this is about the paths whose gain between isotropic antennas is certificate["floor_db"] or more; weaker beams
+        were not followed, and certificate["weak_share"] is a bound of their share of the power. None without beams."""
         of = library.wavetracer_frame_certificate(self._handle)
         if np.isnan(of.left_out_sr):
             return None
-        out = {"depth": of.depth, "any_depth": bool(of.any_depth), "left_out_sr": of.left_out_sr,
-               "left_out_share": of.left_out_share, "left_out_power": of.left_out_power}
+        out = {"depth": of.depth, "any_depth": bool(of.any_depth), "edges": of.edges,
+               "left_out_sr": of.left_out_sr, "left_out_share": of.left_out_share, "left_out_power": of.left_out_power}
         if np.isinf(of.floor_db):
             return out
         return out | {"floor_db": of.floor_db, "weak_share": of.weak_share}

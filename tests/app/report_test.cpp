@@ -141,6 +141,12 @@ TEST_CASE("with beams the report says to which depth it is complete, and but for
   CHECK(contains(app::report(sample.run(), results, false),
                  "\ncomplete   every path of up to 5 reflections, but for beams of 1.6e-09 sr in all, 2.1e-11 of the "
                  "directions\n"));
+  results.totals.certificate = {
+      .frames = 3, .depth = 4, .edges = 2, .ends = 6, .left_out_sr = 1.6e-9, .left_out_power = 2e-12};
+  CHECK(contains(app::report(sample.run(), results, false),
+                 "\ncomplete   every path of up to 4 interactions, up to 2 of them at edges, but for beams "
+                 "of 1.6e-09 sr in all, 2.1e-11 of the directions; a link misses at most -117 dB through them "
+                 "by paths without an edge\n"));
   results.totals.certificate = {.frames = 3,
                                 .depth = 64,
                                 .any_depth = true,

@@ -184,6 +184,7 @@ def beams_and_sparse_rays():
         answer = client.ask(frame(0, 0.0, POSES))
         certificate = answer["certificate"]
         expect(certificate["depth"] == 4 and 0 <= certificate["left_out_sr"] < 1e-6, certificate)
+        expect(certificate["edges"] == 0, certificate)
         expect(certificate["any_depth"] is False and "floor_db" not in certificate, certificate)
         expect(0 <= certificate["left_out_power"] <= certificate["left_out_sr"], certificate)
         # rsu and the two cars send.

@@ -31,6 +31,7 @@ std::vector<FrameResult> drive(const SampleRun& sample, uint32_t first, uint32_t
   for (FrameResult& frame : frames)
     frame.certificate = {.frames = 1,
                          .depth = 5 - frame.frame % 2,
+                         .edges = frame.frame == 5 ? 1u : 2u,
                          .any_depth = frame.frame != 7,
                          .ends = 2,
                          .left_out_sr = 0x1p-30 * frame.frame,
@@ -72,6 +73,7 @@ TEST_CASE("what was missed adds up over frames, at once and in the shards of an 
   CHECK(both["certificate"]["left_out_sr"] == 75 * 0x1p-30);
   CHECK(both["certificate"]["left_out_share"] == doctest::Approx(75 * 0x1p-30 / (80 * 3.14159265358979)));
   CHECK(both["certificate"]["any_depth"] == false);
+  CHECK(both["certificate"]["edges"] == 1);                     // the fewest of all frames
   CHECK(both["certificate"]["left_out_power"] == 4 * 0x1p-40);  // the largest of all frames
   CHECK(both["certificate"]["floor_db"] == -140);
   CHECK(both["certificate"]["weak_share"] == doctest::Approx(10 * 0x1p-7 / (80 * 3.14159265358979)));

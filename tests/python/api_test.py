@@ -366,6 +366,7 @@ def main():
         assert beams.certificate["depth"] == 2 and 0 <= beams.certificate["left_out_sr"] < 1e-6
         assert 0 <= beams.certificate["left_out_share"] <= beams.certificate["left_out_sr"]
         assert 0 <= beams.certificate["left_out_power"] <= beams.certificate["left_out_sr"]
+        assert beams.certificate["edges"] == 0
         assert beams.certificate["any_depth"] is False and "floor_db" not in beams.certificate
     with wavetracer.Simulation(DRIVE, trace={"discovery": "beams", "max_depth": 64, "floor_db": -100}) as simulation:
         floor = simulation.run_frame(0).certificate

@@ -44,6 +44,7 @@ TEST_CASE("the page has the certificate of beams, or says that it is not known w
   CHECK(beams["certificate"]["left_out_sr"] == 0x1p-29);
   CHECK(beams["certificate"]["left_out_share"] == doctest::Approx(0x1p-29 / (6 * 4 * std::acos(-1.0))));
   CHECK(beams["certificate"]["any_depth"] == true);
+  CHECK(beams["certificate"]["edges"] == 2);
   CHECK(beams["certificate"]["left_out_power"] == 1e-11);
   CHECK(beams["certificate"]["floor_db"] == -120);
   CHECK(beams["certificate"]["weak_share"] == doctest::Approx(0.01).epsilon(0.01));

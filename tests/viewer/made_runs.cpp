@@ -69,6 +69,7 @@ void add_counts(FrameResult& frame, MadeRun::Found found = MadeRun::Found::rays)
   if (found == MadeRun::Found::beams)
     frame.certificate = {.frames = 1,
                          .depth = 5,
+                         .edges = 2,
                          .any_depth = true,
                          .ends = 3,
                          .left_out_sr = 0x1p-30,

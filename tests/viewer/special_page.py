@@ -74,9 +74,9 @@ page.check_clean()
 # The certificate of beams takes the place of what was missed; a page never says "probably none" of rays that do not show it.
 page = Page(folder, "beams")
 assert page.text("missed") == "", page.text("missed")
-said = ("Beams have found every path of any number of reflections with a gain of -120 dB or more between isotropic antennas, "
-        "but for beams of 2\u00b710\u207b\u2079 sr in all, 2\u00b710\u207b\u00b9\u00b9 of the directions; a link misses at most -110 dB "
-        "through them. Weaker beams, with 1 % of the power, were not followed.")
+said = ("Beams have found every path of any number of interactions, up to 2 of them at edges with a gain of -120 dB or more between isotropic antennas, "
+        "but for beams of 2\u00b710\u207b\u2079 sr in all, 2\u00b710\u207b\u00b9\u00b9 of the directions; a link misses at most -110 dB through them "
+        "by paths without an edge. Weaker beams, with 1 % of the power, were not followed.")
 assert page.text("certificate") == said, page.text("certificate")
 page.choose("transmitter", 0)
 page.choose("receiver", 1)

@@ -59,13 +59,18 @@ typedef struct {
   wt_uint padding;
 } wt_lit_space;
 
+// Uses of a facet that an image may see: it may be the next mirror; or the image lies in its plane, so that only its
+// edges may be seen.
+#define WT_MIRROR 1u
+#define WT_EDGE_ON 2u
+
 // A facet that an image may see through an aperture, and the part of its view that the facet lies in: a point p from
 // the image on is at (u . p, v . p) / (n . p), and 1 / (n . p) falls with its depth (lib/view.clh).
 typedef struct {
   float low_u, high_u, low_v, high_v;
   float nearest, farthest;  // largest and smallest 1 / (n . p)
   wt_uint facet;
-  wt_uint may_reflect;  // 0: it only hides others
+  wt_uint use;  // 0: it only hides others; WT_MIRROR, WT_EDGE_ON
 } wt_beam_candidate;
 
 typedef struct {
@@ -111,6 +116,7 @@ typedef struct {
   wt_uint round;  // the number of the launch of beam_waiting: 1, 2, ...; 0: beam_visible
   wt_uint last;   // not 0: nodes are entered, and no apertures are made
   wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
+  wt_uint edges;  // not 0: edges diffract, so surfaces are also entered where only their edges may be seen
 } wt_beam_arguments;
 
 // The power below which paths are not followed (lib/floor.clh). All receivers are in the box, recentred coordinates, m.
