@@ -110,7 +110,7 @@ function(wavetracer_optimization target)
     set(option -O2)
   elseif(CMAKE_BUILD_TYPE STREQUAL Release)
     if(target MATCHES "^test_" OR (target MATCHES "^wavetracer" AND
-       folder MATCHES "^(config|imports|maps|jobs|study|plots|accuracy|results|viewer|convert|app)$"))
+       folder MATCHES "^(config|imports|maps|jobs|study|coverage|plots|accuracy|results|viewer|convert|app)$"))
       set(option -O1)
     endif()
   endif()

@@ -22,6 +22,7 @@ void add_thesis(CLI::App& program, Invocation& invocation);
 void add_accuracy(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program);
 void add_plot(CLI::App& program);
+void add_coverage(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_merge(CLI::App& program, Invocation& invocation);
 void add_serve(CLI::App& program, Invocation& invocation);

@@ -5,6 +5,8 @@
 #include "app/command_text.hpp"
 #include "config/field_table.hpp"
 #include "convert/convert.hpp"
+#include "coverage/coverage_map.hpp"
+#include "coverage/write_map.hpp"
 #include "plots/plots.hpp"
 #include "scene/materials.hpp"
 #include "study/experiment.hpp"
@@ -41,6 +43,12 @@ std::vector<std::string> known_values(const CLI::App& program, const std::string
   if (path == "thesis" && name == "experiment") return experiment_names();
   if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
+  if (path == "coverage" && name == "format") return {coverage::format_names.begin(), coverage::format_names.end()};
+  if (path == "coverage" && name == "layers") {
+    std::vector<std::string> names;
+    for (const coverage::LayerKind& layer : coverage::layer_kinds) names.emplace_back(layer.name);
+    return names;
+  }
   if (path == "help" && name == "topic") return help_topics(program);
   if (name.ends_with("-material") || (path == "scene city" && name == "ground")) return material_names();
   return {};

@@ -54,6 +54,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_accuracy(program, invocation);
   wavetracer::app::add_view(program);
   wavetracer::app::add_plot(program);
+  wavetracer::app::add_coverage(program);
   wavetracer::app::add_convert(program);
   wavetracer::app::add_merge(program, invocation);
   wavetracer::app::add_serve(program, invocation);

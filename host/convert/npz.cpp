@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NumPy's format 1.0 (numpy.lib.format) inside PKWARE's zip (APPNOTE 6.3). Entries are deflated at the fastest
+// Writes NumPy's format 1.0 (base/npy.hpp) inside PKWARE's zip (APPNOTE 6.3). Entries are deflated at the fastest
 // level, since many arrays are mostly padding.
 #include "convert/npz.hpp"
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <bit>
 #include <limits>
 #include <new>
+#include "base/npy.hpp"
 #include "base/unicode.hpp"
 #include "wavetracer/error.hpp"
 
@@ -19,18 +20,6 @@ static_assert(std::endian::native == std::endian::little);
 template <typename T>
 void put(std::string& out, T value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string npy_header(const std::string& type, const Npz::Shape& shape) {
-  constexpr size_t alignment = 64, preamble = 10;
-  const std::string dimensions =
-      shape.size() == 1 ? fmt::format("({},)", shape[0]) : fmt::format("({})", fmt::join(shape, ", "));
-  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, dimensions);
-  text.resize((preamble + text.size() + 1 + alignment - 1) / alignment * alignment - preamble, ' ');
-  text.back() = '\n';
-  std::string out("\x93NUMPY\x01\x00", 8);
-  put(out, static_cast<uint16_t>(text.size()));
-  return out + text;
 }
 
 // Returns both parts as one raw deflate stream.

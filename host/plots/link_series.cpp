@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include "base/spelling.hpp"
 #include "output/path_kinds.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/path_power.hpp"
+#include "results/run_choice.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
@@ -90,31 +90,6 @@ std::vector<PathPoint> LinkSeries::paths_of_frame() const {
   std::vector<PathPoint> out;
   std::copy_if(paths.begin(), paths.end(), std::back_inserter(out), [&](const auto& p) { return p.frame == frame; });
   return out;
-}
-
-std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::string& name,
-                                 const std::string& option) {
-  if (name.empty()) return {};
-  std::vector<std::pair<size_t, const std::string*>> near;
-  for (uint32_t i = 0; i < ends.size(); ++i) {
-    if (ends[i].name == name) return i;
-    near.emplace_back(edit_distance(name, ends[i].name), &ends[i].name);
-  }
-  const size_t shown = std::min<size_t>(near.size(), 3);
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(shown), near.end(),
-                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::string nearest;
-  for (size_t i = 0; i < shown; ++i) nearest += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", *near[i].second);
-  throw ConfigError(fmt::format("{} \"{}\" is not the name of a {} of the run; {}", option, name,
-                                option == "--tx" ? "transmitter" : "receiver",
-                                nearest.empty() ? "there is none" : "the nearest are " + nearest));
-}
-
-size_t find_frame(const SavedRun& run, uint32_t number) {
-  for (size_t row = 0; row < run.frame_count(); ++row)
-    if (run.number(row) == number) return row;
-  throw ConfigError(
-      fmt::format("--frame {}: the run has frames {} to {}", number, run.number(0), run.number(run.frame_count() - 1)));
 }
 
 std::string link_name(const SavedRun& run, const Link& link) {

@@ -46,13 +46,6 @@ struct LinkSeries {
 LinkSeries link_series(const SavedRun& run, const LinkChoice& choice, const std::vector<std::string>& grids,
                        size_t most);
 
-// Returns the index of an end by its name, or nothing if the name is empty. option: such as "--tx", for the error.
-// Throws ConfigError.
-std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::string& name, const std::string& option);
-
-// Returns the row of a frame by its number. Throws ConfigError.
-size_t find_frame(const SavedRun& run, uint32_t number);
-
 std::string link_name(const SavedRun& run, const Link& link);  // "TX -> RX"
 
 }  // namespace wavetracer::plots

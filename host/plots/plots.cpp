@@ -11,6 +11,7 @@
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
 #include "plots/rays_plot.hpp"
+#include "results/run_choice.hpp"
 #include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
 #include "wavetracer/error.hpp"

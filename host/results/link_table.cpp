@@ -23,6 +23,7 @@ constexpr NamedColumn named_columns[] = {
     {"rms_delay_spread_s", &LinkTable::rms_delay_spread_s},
     {"los", &LinkTable::los},
     {"missed_power_share", &LinkTable::missed_power_share},
+    {"left_out_power_share", &LinkTable::left_out_power_share},
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include "results/link_rows.hpp"
 #include "viewer/blocks.hpp"
-#include "viewer/link_rows.hpp"
 #include "viewer/strongest.hpp"
 
 namespace wavetracer {

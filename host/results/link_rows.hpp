@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of a frame's links for the page: those of links.csv, which includes all paths, or, without that file,
-// those of the paths in paths.h5. docs/formats.md defines them.
+// The figures of a frame's links for pages and maps: those of links.csv, which includes all paths, or, without that
+// file, those of the paths in paths.h5. docs/formats.md defines them.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -19,6 +19,9 @@ struct LinkRow {
   double narrowband_gain_db = -std::numeric_limits<double>::infinity();  // coherent sum at the carrier
   double rms_delay_spread_s = std::numeric_limits<double>::quiet_NaN();  // NaN if no power arrives
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // NaN if unknown
+  // Power of the direct path divided by that of all other paths, as a ratio of powers: infinite if there is no other
+  // one; NaN if paths.h5 has no direct path.
+  double k_factor = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Returns every link that was computed or has a path, sorted. first_link: row of the frame's first link in the table.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows are found by their link, because paths and links of a file need not be sorted.
 // Spreads take a second pass over the paths, so that they keep their digits beside long delays.
-#include "viewer/link_rows.hpp"
+#include "results/link_rows.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -56,6 +56,18 @@ void add_path_gains(const Paths& paths, const std::vector<size_t>& row_of, doubl
     if (power[k] > 0) rows[k].path_gain_db = 10 * std::log10(power[k]);
 }
 
+// Sets K factors. paths.h5 may lack the share `left_out` of the power of all paths of a link.
+void add_k_factors(const Paths& paths, const std::vector<size_t>& row_of, const std::vector<double>& left_out,
+                   std::vector<LinkRow>& rows) {
+  std::vector<double> direct(rows.size(), 0), others(rows.size(), 0);
+  for (size_t i = 0; i < paths.size(); ++i)
+    (paths.depth[i] == 0 ? direct : others)[row_of[i]] += std::pow(10.0, paths.gain_db[i] / 10);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    const double gone = left_out[k] * (direct[k] + others[k]) / (1 - left_out[k]);
+    if (direct[k] > 0) rows[k].k_factor = direct[k] / (others[k] + gone);
+  }
+}
+
 // Returns the row of a link, which must exist.
 size_t row_of_link(const std::vector<LinkRow>& rows, const Link& link) {
   const auto found = std::lower_bound(rows.begin(), rows.end(), link,
@@ -63,9 +75,12 @@ size_t row_of_link(const std::vector<LinkRow>& rows, const Link& link) {
   return static_cast<size_t>(found - rows.begin());
 }
 
-void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_link, std::vector<LinkRow>& rows) {
+// left_out: set to the share of the power that paths.h5 lacks, for each row.
+void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_link, std::vector<LinkRow>& rows,
+                std::vector<double>& left_out) {
   for (size_t k = 0; k < frame.links.size(); ++k) {
-    LinkRow& row = rows[row_of_link(rows, frame.links[k])];
+    const size_t number = row_of_link(rows, frame.links[k]);
+    LinkRow& row = rows[number];
     const size_t at = first_link + k;
     const auto take = [at](const std::vector<double>& column, auto& value) {
       if (at < column.size()) value = static_cast<std::remove_cvref_t<decltype(value)>>(column[at]);
@@ -76,6 +91,7 @@ void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_
     take(table.narrowband_gain_db, row.narrowband_gain_db);
     take(table.rms_delay_spread_s, row.rms_delay_spread_s);
     take(table.missed_power_share, row.missed_power_share);
+    take(table.left_out_power_share, left_out[number]);
   }
 }
 
@@ -103,7 +119,9 @@ std::vector<LinkRow> link_rows(const SavedFrame& frame, const LinkTable& table, 
     square_s2[row_of[i]] += path_power[i] * std::pow(paths.delay_s[i] - mean_s[row_of[i]], 2);
   for (size_t k = 0; k < rows.size(); ++k)
     if (power[k] > 0) rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
-  take_table(frame, table, first_link, rows);
+  std::vector<double> left_out(rows.size(), 0);
+  take_table(frame, table, first_link, rows, left_out);
+  add_k_factors(paths, row_of, left_out, rows);
   return rows;
 }
 

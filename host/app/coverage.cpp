@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// `wavetracer coverage` makes maps of a run's receiver grid: signal, noise, interference and the best server of cells.
+// It needs no device.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include "app/commands.hpp"
+#include "base/spelling.hpp"
+#include "config/retired_keys.hpp"
+#include "coverage/coverage_map.hpp"
+#include "coverage/write_map.hpp"
+#include "results/link_rows.hpp"
+#include "results/link_table.hpp"
+#include "results/run_choice.hpp"
+#include "wavetracer/config_file.hpp"
+
+namespace wavetracer::app {
+namespace {
+
+struct CoverageOptions {
+  std::string run, folder, grid, tx;
+  std::optional<uint32_t> frame;
+  std::vector<std::string> layers, formats = {"csv"};
+};
+
+std::string layer_names() {
+  std::vector<std::string_view> names;
+  for (const coverage::LayerKind& layer : coverage::layer_kinds) names.push_back(layer.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_formats(const std::vector<std::string>& formats) {
+  const std::vector<std::string> known(coverage::format_names.begin(), coverage::format_names.end());
+  for (const std::string& format : formats)
+    if (std::ranges::find(known, format) == known.end())
+      throw ConfigError(fmt::format("--format \"{}\" is no format of a map, there are {}{}", format,
+                                    fmt::join(known, ", "), spelling_hint(format, known)));
+}
+
+const ReceiverGridConfig& chosen_grid(const Config& config, const std::string& name) {
+  std::vector<std::string> known;
+  for (const ReceiverGridConfig& grid : config.receiver_grids) {
+    if (grid.name == name) return grid;
+    known.push_back(grid.name);
+  }
+  if (known.empty()) throw InputError("the run has no [[receiver_grid]], of which a map could be made");
+  if (!name.empty())
+    throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}",
+                                  name, fmt::join(known, ", "), spelling_hint(name, known)));
+  if (known.size() > 1)
+    throw ConfigError(
+        fmt::format("the run has {} grids: name one with --grid, of {}", known.size(), fmt::join(known, ", ")));
+  return config.receiver_grids.front();
+}
+
+void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
+
+void make_coverage(const CoverageOptions& options) {
+  check_formats(options.formats);
+  const SavedRun run(options.run);
+  const Config config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
+  const ReceiverGridConfig& grid = chosen_grid(config, options.grid);
+  const auto tx = find_end(run.transmitters(), options.tx, "--tx");
+  const size_t row = options.frame ? find_frame(run, *options.frame) : 0;
+  const SavedFrame frame = run.frame(row);
+  const LinkTable table = link_table(run);
+  if (!table.warning.empty()) warn(table.warning);
+  const coverage::Map map =
+      coverage::coverage_map(run, config.radio, frame, link_rows(frame, table, run.first_link(row), run.frequency_hz()),
+                             grid, {.tx = tx, .layers = options.layers});
+  for (const std::string& problem : map.left_out) warn(problem);
+  const std::string& scene = config.scene.file;
+  const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
+  const bool placed = std::ranges::any_of(options.formats, [](auto& name) { return name == "geotiff"; });
+  if (placed && !georeference)
+    warn(
+        "where on the earth the scene is, is not known: the files of geotiff have its own coordinates in metres, in a "
+        "local system; a georeference.json beside the scene file would say it");
+  const std::filesystem::path folder =
+      options.folder.empty() ? run.file().parent_path() / "coverage" : std::filesystem::path(options.folder);
+  for (const std::filesystem::path& file : coverage::write_map(map, folder, options.formats, georeference))
+    std::cout << file.string() << "\n";
+}
+
+}  // namespace
+
+void add_coverage(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("coverage", "Write maps of a run's [[receiver_grid]]: tables, arrays, GeoTIFF, pictures");
+  const auto options = std::make_shared<CoverageOptions>();
+  command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
+  command->add_option("-o,--output", options->folder,
+                      "Folder for the files; the folder coverage in the folder of the run if not given");
+  command->add_option("--grid", options->grid, "Name of a [[receiver_grid]]; needed if the run has several");
+  command->add_option("--tx", options->tx,
+                      "Name of the transmitter that serves all cells; the strongest of each cell if not given");
+  command->add_option("--frame", options->frame, "Number of the frame; the first frame if not given");
+  command
+      ->add_option("--layers", options->layers,
+                   fmt::format("Layers to write, separated by commas: {}; all that the run can tell if not given",
+                               layer_names()))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--format", options->formats,
+                   fmt::format("Formats to write, separated by commas: {}", fmt::join(coverage::format_names, ", ")))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command->callback([options] { make_coverage(*options); });
+}
+
+}  // namespace wavetracer::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of a receiver grid in one frame of a run: layers of one value a cell, for one transmitter or for the strongest.
+// A value is NaN where there is none. All transmitters send radio.transmit_power_dbm.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+#include "results/link_rows.hpp"
+#include "results/saved_run.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::coverage {
+
+// The values of a cell. Its server is the transmitter that was named, or else the one with the largest path gain.
+struct Cell {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double path_gain_db = none;
+  double received_dbm = none;
+  double snr_db = none;
+  double sinr_db = none;
+  double interference_dbm = none;  // sum of the received powers of all transmitters but the server
+  double best_server = none;       // row of the transmitter with the largest path gain, whether or not one was named
+  double margin_db = none;         // path gain of the server over the largest one of the others
+  double delay_spread_ns = none;
+  double k_factor_db = none;    // power of the direct path over that of all others; infinite if there is no other one
+  double line_of_sight = none;  // 1 if the server has a direct path to the cell, else 0
+  double paths = none;          // number of paths of the server
+};
+
+struct LayerKind {
+  std::string_view name, unit, words;  // unit: empty for numbers without one
+  double Cell::*value;
+  bool of_powers, of_noise;  // needs radio.transmit_power_dbm, radio.bandwidth_hz
+};
+
+inline constexpr std::array<LayerKind, 11> layer_kinds = {{
+    {"path_gain_db", "dB", "path gain", &Cell::path_gain_db, false, false},
+    {"received_dbm", "dBm", "received power", &Cell::received_dbm, true, false},
+    {"snr_db", "dB", "signal-to-noise ratio", &Cell::snr_db, true, true},
+    {"sinr_db", "dB", "signal to interference and noise", &Cell::sinr_db, true, true},
+    {"interference_dbm", "dBm", "power of the other transmitters", &Cell::interference_dbm, true, false},
+    {"best_server", "", "strongest transmitter", &Cell::best_server, false, false},
+    {"margin_db", "dB", "path gain over the strongest other transmitter", &Cell::margin_db, false, false},
+    {"delay_spread_ns", "ns", "rms delay spread", &Cell::delay_spread_ns, false, false},
+    {"k_factor_db", "dB", "power of the direct path over that of all others", &Cell::k_factor_db, false, false},
+    {"line_of_sight", "", "line of sight", &Cell::line_of_sight, false, false},
+    {"paths", "", "number of paths", &Cell::paths, false, false},
+}};
+
+// Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
+const LayerKind& layer_kind(const std::string& name);
+
+struct Map {
+  std::string grid;
+  uint32_t columns = 0, rows = 0;
+  glm::dvec2 first_m{0}, step_m{0};  // middle of cell 0,0 and the distance of cells, in file coordinates
+  std::vector<double> z_m = {};      // heights of cells, row by row from the south
+  std::optional<uint32_t> tx = {};   // the transmitter that was named
+  std::vector<std::string> transmitters = {};
+  uint32_t frame = 0;
+  double time_s = 0;
+  std::vector<Cell> cells = {};               // row by row from the south
+  std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
+  std::vector<std::string> left_out = {};     // why layers are not there
+
+  double x_m(size_t cell) const { return first_m.x + static_cast<double>(cell % columns) * step_m.x; }
+  double y_m(size_t cell) const { return first_m.y + static_cast<double>(cell / columns) * step_m.y; }
+  // Tells whether the cell has a path from its server.
+  bool reached(size_t cell) const { return cells[cell].paths > 0; }
+  std::vector<double> values(const LayerKind& layer) const;
+};
+
+struct MapChoice {
+  std::optional<uint32_t> tx = {};       // nothing: the strongest transmitter of each cell
+  std::vector<std::string> layers = {};  // names; none: all that the run can tell
+};
+
+// links: of this frame (results/link_rows.hpp). Throws InputError if the run lacks receivers of the grid, or has them
+// twice, ConfigError for layers that there are not, or that were named and need a key of [radio] that is not set.
+Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
+                 const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice);
+
+}  // namespace wavetracer::coverage
