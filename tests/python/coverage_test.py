@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps of wavetracer.coverage against Friis' formula, the links of the run, and its refusals. Usage:
+coverage_test.py FOLDER."""
+import json
+import pathlib
+import shutil
+import sys
+
+import numpy as np
+import wavetracer as wt
+
+# Two antennas over a plane, without reflections.
+PLANE = "v -200 -200 0\nv 300 -200 0\nv 300 300 0\nv -200 300 0\nf 1 2 3 4\n"
+folder = pathlib.Path(sys.argv[1]).absolute()
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+(folder / "plane.obj").write_text(PLANE)
+config = {
+    "scene": {"file": str(folder / "plane.obj"), "default_material": "concrete"},
+    "trace": {"max_depth": 0},
+    "radio": {"frequency_hz": 3.5e9, "transmit_power_dbm": 43, "bandwidth_hz": 20e6},
+    "transmitter": [{"name": "west", "position_m": [10, 30, 25]}, {"name": "east", "position_m": [100, 40, 25]}],
+    "receiver_grid": [{"name": "g", "x_min_m": 0, "x_max_m": 120, "y_min_m": 0, "y_max_m": 60, "step_m": 5}],
+}
+run = wt.Simulation(config).run(folder / "run")
+
+hidden = {name: sys.modules.pop(name) for name in list(sys.modules) if name.split(".")[0] == "xarray"}
+sys.modules["xarray"] = None  # as if it were not installed
+try:
+    wt.coverage(run)
+    raise AssertionError("no ImportError")
+except ImportError as error:
+    assert "wavetracer[notebook]" in str(error), error
+del sys.modules["xarray"]
+sys.modules.update(hidden)
+try:
+    import xarray
+except ImportError:
+    print("skipped: no xarray")
+    sys.exit(77)
+
+maps = wt.coverage(run)
+assert isinstance(maps, xarray.Dataset) and dict(maps.sizes) == {"y": 12, "x": 24}
+assert maps.x.values[0] == 2.5 and maps.x.values[-1] == 117.5 and maps.y.values[-1] == 57.5 and (maps.z == 1.5).all()
+assert set(maps.coords) == {"x", "y", "z"} and maps.x.units == "m"
+assert maps.attrs["transmitters"] == ["west", "east"] and maps.attrs["grid"] == "g" and "tx" not in maps.attrs
+for name, unit in (("path_gain_db", "dB"), ("interference_dbm", "dBm"), ("delay_spread_ns", "ns"), ("paths", "1")):
+    assert maps[name].dims == ("y", "x") and maps[name].units == unit and maps[name].long_name, name
+gain = [20 * np.log10(299792458 / 3.5e9 / (4 * np.pi) / np.sqrt((maps.x - x) ** 2 + (maps.y - y) ** 2 + 23.5 ** 2)).T
+        for x, y in ((10, 30), (100, 40))]
+assert np.allclose(maps.path_gain_db, np.maximum(*gain), atol=1e-6)
+assert np.array_equal(maps.best_server, gain[1] > gain[0])
+assert np.allclose(maps.margin_db, abs(gain[0] - gain[1]), atol=1e-5)
+noise_mw = 1.380649e-23 * 290 * 20e6 * 1e3
+assert np.allclose(maps.sinr_db, 43 + np.maximum(*gain) - 10 * np.log10(noise_mw + 10 ** (4.3 + np.minimum(*gain) / 10)),
+                   atol=1e-5)
+at = maps.sel(x=22, y=41, method="nearest")
+row = (run.links["rx"] == run.receivers.index("g/4,8")) & (run.links["tx"] == 0)
+assert at.path_gain_db == run.links["path_gain_db"][row][0]
+
+# One transmitter and some layers; a folder, a simulation and a configuration give the same.
+west = wt.coverage(folder / "run", grid="g", tx="west", frame=0, layers=["path_gain_db", "margin_db"])
+assert list(west) == ["path_gain_db", "margin_db"] and west.attrs["tx"] == "west"
+assert np.allclose(west.path_gain_db, gain[0], atol=1e-6) and (west.margin_db < 0).any()
+with wt.Simulation(config) as simulation:
+    assert wt.coverage(simulation, tx="west", layers=["path_gain_db", "margin_db"]).identical(west)
+    assert len(simulation) == 1  # it is still open
+assert wt.coverage(config, tx="west", layers=["path_gain_db", "margin_db"]).identical(west)
+
+(folder / "georeference.json").write_text(json.dumps({"projection": "+proj=utm +zone=32 +ellps=WGS84 +units=m",
+                                                      "offset_m": [-690000, -5330000]}))
+placed = wt.coverage(run)
+assert set(placed.coords) == {"x", "y", "z", "lon", "lat"} and placed.lon.dims == ("y", "x")
+assert (abs(placed.lon - 11.55) < 0.05).all() and (abs(placed.lat - 48.09) < 0.05).all()
+assert placed.attrs["projection"].startswith("+proj=utm")
+
+for arguments, kind, said in (({"grid": "h"}, wt.ConfigError, 'did you mean "g"'), ({"tx": "est"}, wt.ConfigError, '"east"'),
+                              ({"frame": 7}, wt.ConfigError, "frames 0 to 0"), ({"grid": 3}, TypeError, "grid is a name"),
+                              ({"layers": ["snr"]}, wt.ConfigError, "snr_db"), ({"layers": "snr_db"}, TypeError, "in a list")):
+    try:
+        wt.coverage(run, **arguments)
+        raise AssertionError(f"{arguments} was not refused")
+    except kind as error:
+        assert said in str(error), (arguments, error)
+try:
+    wt.coverage(folder / "nothing")
+    raise AssertionError("a folder that does not exist was not refused")
+except wt.InputError as error:
+    assert "there is no such file" in str(error), error
+print("coverage ok")
