@@ -44,7 +44,7 @@ std::vector<std::string> known_values(const CLI::App& program, const std::string
   if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
   if (path == "coverage" && name == "format") return {coverage::format_names.begin(), coverage::format_names.end()};
-  if (path == "coverage" && name == "layers") {
+  if ((path == "coverage" && name == "layers") || (path == "plot" && name == "layer")) {
     std::vector<std::string> names;
     for (const coverage::LayerKind& layer : coverage::layer_kinds) names.emplace_back(layer.name);
     return names;

@@ -50,6 +50,10 @@ void add_plot(CLI::App& program) {
                       "Name of a transmitter; the strongest links are drawn if not given");
   command->add_option("--rx", options->choice.link.rx, "Name of a receiver");
   command->add_option("--grid", options->choice.grid, "Name of a [[receiver_grid]], for --what coverage");
+  command->add_option(
+      "--layer", options->choice.layer,
+      "Layer to draw, for --what coverage, such as sinr_db or best_server (`wavetracer help coverage`); "
+      "received power if the run has a link budget, else path gain, if not given");
   command->add_option("--frame", options->frame,
                       "Number of the frame for figures that show one frame; if not given, "
                       "the frame of the strongest link, and the first frame for coverage and rays");

@@ -106,8 +106,7 @@ std::string problem_of(const LayerKind& layer, const RadioConfig& radio) {
 void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& radio, Map& map) {
   for (const std::string& name : wanted) {
     const LayerKind& layer = layer_kind(name);
-    if (const std::string problem = problem_of(layer, radio); !problem.empty())
-      throw ConfigError(fmt::format("--layers {}", problem));
+    check_layer(layer, radio, "--layers");
     if (std::ranges::find(map.layers, &layer) == map.layers.end()) map.layers.push_back(&layer);
   }
   if (!wanted.empty()) return;
@@ -126,8 +125,19 @@ const LayerKind& layer_kind(const std::string& name) {
     if (layer.name == name) return layer;
     known.emplace_back(layer.name);
   }
-  throw ConfigError(fmt::format("--layers \"{}\" is no layer of a map, there are {}{}", name, fmt::join(known, ", "),
+  throw ConfigError(fmt::format("\"{}\" is no layer of a map, there are {}{}", name, fmt::join(known, ", "),
                                 spelling_hint(name, known)));
+}
+
+void check_layer(const LayerKind& layer, const RadioConfig& radio, const std::string& option) {
+  if (const std::string problem = problem_of(layer, radio); !problem.empty())
+    throw ConfigError(fmt::format("{} {}", option, problem));
+}
+
+size_t Map::reached_cells() const {
+  size_t count = 0;
+  for (size_t cell = 0; cell < cells.size(); ++cell) count += reached(cell) ? 1 : 0;
+  return count;
 }
 
 std::vector<double> Map::values(const LayerKind& layer) const {

@@ -56,6 +56,9 @@ inline constexpr std::array<LayerKind, 11> layer_kinds = {{
 // Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
 const LayerKind& layer_kind(const std::string& name);
 
+// Throws ConfigError if the layer needs a key of [radio] that is not set. option: its name, for the error.
+void check_layer(const LayerKind& layer, const RadioConfig& radio, const std::string& option);
+
 struct Map {
   std::string grid;
   uint32_t columns = 0, rows = 0;
@@ -73,6 +76,7 @@ struct Map {
   double y_m(size_t cell) const { return first_m.y + static_cast<double>(cell / columns) * step_m.y; }
   // Tells whether the cell has a path from its server.
   bool reached(size_t cell) const { return cells[cell].paths > 0; }
+  size_t reached_cells() const;
   std::vector<double> values(const LayerKind& layer) const;
 };
 

@@ -7,28 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-#include "base/viridis.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::coverage {
 namespace {
 
 constexpr uint32_t colours = 256;
-
-// Colours that stay apart for most eyes; four brighter and darker ones follow those of Okabe and Ito (2008).
-constexpr std::array<Colour, 12> server_colours = {{{0x00, 0x72, 0xb2},
-                                                    {0xe6, 0x9f, 0x00},
-                                                    {0x00, 0x9e, 0x73},
-                                                    {0xcc, 0x79, 0xa7},
-                                                    {0x56, 0xb4, 0xe9},
-                                                    {0xd5, 0x5e, 0x00},
-                                                    {0xf0, 0xe4, 0x42},
-                                                    {0x80, 0x80, 0x80},
-                                                    {0x33, 0x22, 0x88},
-                                                    {0x88, 0x22, 0x55},
-                                                    {0x99, 0x99, 0x33},
-                                                    {0x44, 0xaa, 0x99}}};
-constexpr std::array<Colour, 2> sight_colours = {{{0xe6, 0x9f, 0x00}, {0x00, 0x72, 0xb2}}};
 
 std::string big_endian(uint32_t value) {
   return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),

@@ -2,11 +2,30 @@
 // Writes a layer as a PNG picture of 256 colours, one pixel a cell, the first row in the north: weak is dark, strong is
 // bright, and a cell without a value is transparent. A world file says where the picture is.
 #pragma once
+#include <array>
 #include <span>
 #include <string>
+#include "base/viridis.hpp"
 #include "coverage/map_place.hpp"
 
 namespace wavetracer::coverage {
+
+// Colours of transmitters, by their rows; they repeat. They stay apart for most eyes: the first eight are those of
+// Okabe and Ito (2008), with grey for their black.
+inline constexpr std::array<Colour, 12> server_colours = {{{0x00, 0x72, 0xb2},
+                                                           {0xe6, 0x9f, 0x00},
+                                                           {0x00, 0x9e, 0x73},
+                                                           {0xcc, 0x79, 0xa7},
+                                                           {0x56, 0xb4, 0xe9},
+                                                           {0xd5, 0x5e, 0x00},
+                                                           {0xf0, 0xe4, 0x42},
+                                                           {0x80, 0x80, 0x80},
+                                                           {0x33, 0x22, 0x88},
+                                                           {0x88, 0x22, 0x55},
+                                                           {0x99, 0x99, 0x33},
+                                                           {0x44, 0xaa, 0x99}}};
+// Colours of cells without line of sight, and with it.
+inline constexpr std::array<Colour, 2> sight_colours = {{{0xe6, 0x9f, 0x00}, {0x00, 0x72, 0xb2}}};
 
 // The values of the darkest and of the brightest colour.
 struct ColourRange {

@@ -1,46 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours span the gains of all cells except the brightest and darkest percent, which would hide the differences of the
-// others. Receivers of a grid must be at their places: a grid does not move.
+// Colours span the values of all cells except the brightest and darkest percent, which would hide the differences of
+// the others.
 #include "plots/coverage_plot.hpp"
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 #include "base/csv.hpp"
 #include "base/times.hpp"
+#include "base/viridis.hpp"
+#include "coverage/png.hpp"
+#include "coverage/write_map.hpp"
 #include "plots/gnuplot.hpp"
-#include "radio/grouped_power.hpp"
 #include "radio/link_budget.hpp"
-#include "radio/path_power.hpp"
-#include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::plots {
 namespace {
 
-constexpr uint32_t no_cell = std::numeric_limits<uint32_t>::max();
-
-std::string cell_table(const SavedRun& run, const std::vector<CoverageCell>& cells, const RadioConfig& radio) {
-  Csv table({"ix", "iy", "x_m", "y_m", "z_m", "path_gain_db", "tx", "paths", "received_dbm", "snr_db"});
-  for (const CoverageCell& c : cells) {
-    const LinkBudget budget = link_budget(radio, c.path_gain_db);
-    table.add(c.ix, c.iy, c.position_m.x, c.position_m.y, c.position_m.z, c.path_gain_db,
-              c.tx ? run.transmitters()[*c.tx].name : "", c.paths, budget.received_dbm, budget.snr_db);
-  }
-  return table.text();
-}
-
-// The value that is drawn for a cell: its received power if there is a link budget, else its gain.
-struct CellValue {
-  double offset_db;  // difference to the path gain
-  std::string label, column;
-};
-
-CellValue cell_value(const RadioConfig& radio) {
-  if (!radio.transmit_power_dbm) return {0, "path gain (dB)", "6"};
-  const std::string noise = radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
-  return {*radio.transmit_power_dbm, "received power (dBm)" + noise, "9"};
-}
+constexpr const char* empty_colour = "#e8e8e8";
 
 std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std::optional<uint32_t> tx) {
   Csv table({"name", "x_m", "y_m", "z_m"});
@@ -50,85 +28,92 @@ std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std:
   return table.text();
 }
 
-std::string trimmed_range(const std::vector<CoverageCell>& cells, double offset_db) {
-  constexpr double span_db = 100, trimmed = 0.01;
-  std::vector<double> gains;
-  for (const CoverageCell& c : cells)
-    if (!std::isnan(c.path_gain_db)) gains.push_back(c.path_gain_db + offset_db);
-  std::sort(gains.begin(), gains.end());
-  const auto cut = static_cast<std::ptrdiff_t>(trimmed * static_cast<double>(gains.size()));
-  return colour_range({gains.begin() + cut, gains.end() - cut}, span_db);
+std::string hex(const Colour& colour) { return fmt::format("'#{:02x}{:02x}{:02x}'", colour[0], colour[1], colour[2]); }
+
+std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio) {
+  const std::string noise =
+      layer.of_powers && radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
+  return layer.unit.empty() ? std::string(layer.words) : fmt::format("{} ({}){}", layer.words, layer.unit, noise);
+}
+
+// Returns the palette and the marks of values that count something: names of transmitters, or yes and no.
+std::string counted_colours(const std::vector<std::string>& names, std::span<const Colour> colours) {
+  std::string steps, marks;
+  for (size_t k = 0; k < names.size(); ++k) {
+    const std::string colour = hex(colours[k % colours.size()]), between = k == 0 ? "" : ", ";
+    steps += fmt::format("{}{} {}, {} {}", between, k, colour, k + 1, colour);
+    marks += fmt::format("{}'{}' {}", between, quoted(names[k]), k);
+  }
+  return fmt::format("set palette defined ({})\nset cbrange [-0.5:{}]\nset cbtics noenhanced ({})\n", steps,
+                     static_cast<double>(names.size()) - 0.5, marks);
+}
+
+std::string colours_of(const coverage::Map& map, const coverage::LayerKind& layer) {
+  if (layer.value == &coverage::Cell::best_server) return counted_colours(map.transmitters, coverage::server_colours);
+  if (layer.value == &coverage::Cell::line_of_sight)
+    return counted_colours({"other paths only", "line of sight"}, coverage::sight_colours);
+  const coverage::ColourRange range = coverage::colour_range(layer, map.values(layer));
+  return fmt::format("set palette negative\nset cbrange [{:g}:{:g}]\n", range.low, range.high);
+}
+
+// Returns the column of the table that has the layer, counted from 1.
+size_t column_of(const coverage::Map& map, const coverage::LayerKind& layer) {
+  constexpr size_t first = 6;
+  return first + static_cast<size_t>(std::ranges::find(map.layers, &layer) - map.layers.begin());
 }
 
 // Plots a grid of one row or column.
-std::string row_commands(const std::string& name, bool northward, const CellValue& what) {
+std::string row_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
+                         const RadioConfig& radio) {
+  const bool northward = map.rows > 1;
   return fmt::format(
       "set xlabel '{} (m)'\n"
       "set ylabel '{}'\n"
       "set key off\n"
       "plot '{}.csv' using {}:{} with lines linecolor '#0072b2' linewidth 1.5\n",
-      northward ? "y" : "x", what.label, name, northward ? 4 : 3, what.column);
+      northward ? "y" : "x", label_of(layer, radio), name, northward ? 4 : 3, column_of(map, layer));
 }
 
-std::string image_commands(const std::string& name, const CoverageCell& first, const CoverageCell& last,
-                           const CellValue& what) {
-  const double half_x_m = 0.5 * (last.position_m.x - first.position_m.x) / last.ix,
-               half_y_m = 0.5 * (last.position_m.y - first.position_m.y) / last.iy;
+// Infinite values have the brightest colour.
+std::string image_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
+                           const RadioConfig& radio) {
+  const double west_m = map.first_m.x - 0.5 * map.step_m.x, south_m = map.first_m.y - 0.5 * map.step_m.y;
+  const std::vector<double> values = map.values(layer);
+  const bool holes = std::ranges::any_of(values, [](double value) { return std::isnan(value); });
+  constexpr double most = 1e9;
   return fmt::format(
-      "set size ratio -1\n"
-      "set border 15\n"
-      "unset grid\n"
-      "set xrange [{1}:{2}]\n"
-      "set yrange [{3}:{4}]\n"
-      "set xlabel 'x (m)'\n"
-      "set ylabel 'y (m)'\n"
-      "set cblabel '{5}'\n"
-      "set key off\n"
-      "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '#e8e8e8' fillstyle solid noborder\n"
-      "plot '{0}.csv' using 3:4:{6} with image, \\\n"
-      "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6, \\\n"
-      "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff', \\\n"
-      "  '' using 2:3 with points pointtype 9 pointsize 1.2 linecolor '#d55e00', \\\n"
-      "  '' using 2:3:1 with labels noenhanced left offset 1,0.6 textcolor '#000000'\n",
-      name, first.position_m.x - half_x_m, last.position_m.x + half_x_m, first.position_m.y - half_y_m,
-      last.position_m.y + half_y_m, what.label, what.column);
+             "set size ratio -1\n"
+             "set border 15\n"
+             "unset grid\n"
+             "set xrange [{}:{}]\n"
+             "set yrange [{}:{}]\n"
+             "set xlabel 'x (m)'\n"
+             "set ylabel 'y (m)'\n"
+             "set cblabel '{}'\n"
+             "set key outside right bottom horizontal\n"
+             "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '{}' fillstyle solid noborder\n",
+             west_m, west_m + map.columns * map.step_m.x, south_m, south_m + map.rows * map.step_m.y,
+             label_of(layer, radio), empty_colour) +
+         fmt::format(
+             "plot '{0}.csv' using 3:4:(${1} > {2:g} ? {2:g} : ${1}) with image notitle, \\\n"
+             "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6 "
+             "notitle, \\\n"
+             "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff' notitle, "
+             "\\\n"
+             "  '' using 2:3 with points pointtype 9 pointsize 1.2 linecolor '#d55e00' notitle, \\\n"
+             "  '' using 2:3:1 with labels noenhanced left offset 1,0.6 textcolor '#000000' notitle{3}\n",
+             name, column_of(map, layer), most,
+             holes ? fmt::format(", \\\n  1/0 with boxes fillstyle solid border linecolor '#888888' fillcolor '{}' "
+                                 "title 'no value, as where no path leads'",
+                                 empty_colour)
+                   : "");
 }
 
 }  // namespace
 
-std::vector<CoverageCell> coverage_cells(const SavedRun& run, const SavedFrame& frame, const std::string& grid,
-                                         std::optional<uint32_t> tx) {
-  std::vector<CoverageCell> cells;
-  std::vector<uint32_t> cell_of(run.receivers().size(), no_cell);
-  for (uint32_t rx = 0; rx < run.receivers().size(); ++rx) {
-    const auto place = grid_cell(grid, run.receivers()[rx].name);
-    if (!place) continue;
-    cell_of[rx] = static_cast<uint32_t>(cells.size());
-    cells.push_back({place->ix, place->iy, frame.receiver_position_m[rx], 0, {}, 0});
-  }
-  if (cells.empty()) return cells;
-  std::vector<double> best(cells.size(), 0);
-  const Paths& paths = frame.paths;
-  for (size_t first = 0, end = 0; first < paths.size(); first = end) {
-    end = end_of_link(paths, first);
-    const uint32_t k = cell_of[paths.rx[first]];
-    if (k == no_cell || (tx && *tx != paths.tx[first])) continue;
-    const double power = grouped_power(paths, first, end, run.frequency_hz());
-    cells[k].paths += static_cast<uint32_t>(end - first);
-    if (power <= best[k]) continue;
-    best[k] = power;
-    cells[k].tx = paths.tx[first];
-  }
-  for (size_t k = 0; k < cells.size(); ++k) cells[k].path_gain_db = best[k] > 0 ? 10 * std::log10(best[k]) : NAN;
-  std::stable_sort(cells.begin(), cells.end(), [](const CoverageCell& a, const CoverageCell& b) {
-    return std::pair(a.iy, a.ix) < std::pair(b.iy, b.ix);
-  });
-  const uint64_t columns = uint64_t{cells.back().ix} + 1;
-  for (size_t k = 0; k < cells.size(); ++k)
-    if (cells[k].ix != k % columns || cells[k].iy != k / columns || cells.size() % columns != 0)
-      throw InputError(
-          fmt::format("{}: receivers of the grid \"{}\" are missing, or there twice", run.file().string(), grid));
-  return cells;
+const coverage::LayerKind& shown_layer(const std::string& name, const RadioConfig& radio) {
+  if (name.empty()) return coverage::layer_kind(radio.transmit_power_dbm ? "received_dbm" : "path_gain_db");
+  return coverage::layer_kind(name);
 }
 
 std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) {
@@ -151,28 +136,25 @@ std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
   return table.text();
 }
 
-Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const std::string& grid,
-                       const std::vector<CoverageCell>& cells, std::optional<uint32_t> tx, const Scene& scene,
-                       const RadioConfig& radio) {
-  const std::string by = tx                               ? run.transmitters()[*tx].name
+Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::string& name, const coverage::Map& map,
+                       const coverage::LayerKind& layer, const Scene& scene, const RadioConfig& radio) {
+  const std::string by = map.tx                           ? run.transmitters()[*map.tx].name
                          : run.transmitters().size() == 1 ? run.transmitters()[0].name
                                                           : fmt::format("the best of {}", run.transmitters().size());
   const std::string time = run.frame_count() > 1 ? fmt::format(", {} s", time_text(frame.time_s)) : "";
   Figure out{name,
-             fmt::format("Coverage of {} by {}{}", grid, by, time),
-             {{name + ".csv", cell_table(run, cells, radio)}},
+             fmt::format("Coverage of {} by {}{}", map.grid, by, time),
+             {{name + ".csv", coverage::table_of(map, {})}},
              ""};
-  const CoverageCell &first = cells.front(), &last = cells.back();
-  if (last.ix == 0 || last.iy == 0) {
-    out.commands = row_commands(name, last.iy > 0, cell_value(radio));
+  if (map.columns == 1 || map.rows == 1) {
+    out.commands = row_commands(name, map, layer, radio);
     return out;
   }
-  const double z_m = 0.5 * (first.position_m.z + last.position_m.z);
+  const double z_m = 0.5 * (map.z_m.front() + map.z_m.back());
   out.data.push_back({name + "_walls.csv", wall_table(section(scene, z_m))});
-  out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, tx)});
-  out.commands =
-      trimmed_range(cells, cell_value(radio).offset_db) + image_commands(name, first, last, cell_value(radio));
-  out.height_px = std::clamp(690.0 * (last.iy + 1) / (last.ix + 1) + 120, 300.0, 1200.0);
+  out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, map.tx)});
+  out.commands = colours_of(map, layer) + image_commands(name, map, layer, radio);
+  out.height_px = std::clamp(690.0 * map.rows / map.columns + 120, 300.0, 1200.0);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include "base/output_place.hpp"
 #include "base/pending_file.hpp"
+#include "base/viridis.hpp"
 #include "plots/gnuplot.hpp"
 
 namespace wavetracer::plots {
@@ -50,8 +51,12 @@ std::string script(const Figure& figure, Format format) {
 }  // namespace
 
 std::string palette() {
-  return "set palette defined (0 '#fde725', 1 '#b5de2b', 2 '#6ece58', 3 '#35b779', 4 '#1f9e89', 5 '#26828e', "
-         "6 '#31688e', 7 '#3e4989', 8 '#482878', 9 '#440154')\n";
+  std::string steps;
+  for (size_t k = 0; k < viridis.size(); ++k) {
+    const Colour& colour = viridis[viridis.size() - 1 - k];
+    steps += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", k == 0 ? "" : ", ", k, colour[0], colour[1], colour[2]);
+  }
+  return fmt::format("set palette defined ({})\n", steps);
 }
 
 std::string colour_range(const std::vector<double>& values_db, double span_db) {

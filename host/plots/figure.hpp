@@ -30,8 +30,8 @@ struct Drawn {
   std::string problem;  // if there is no picture, the reason and what to do; else empty
 };
 
-// The colours of numbers, from bright and small to dark and large, so that the largest are never pale on white: viridis
-// (S. van der Walt, N. Smith, 2015, CC0) reversed, as on the light page of the viewer.
+// The colours of numbers (base/viridis.hpp), from bright and small to dark and large, so that the largest are never
+// pale on white, as on the light page of the viewer. Maps, which fill their area, have them the other way round.
 std::string palette();
 
 // Returns the commands of a colour range that covers these decibels, in steps of 5 dB; values weaker than the largest

@@ -11,6 +11,8 @@
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
 #include "plots/rays_plot.hpp"
+#include "results/link_rows.hpp"
+#include "results/link_table.hpp"
 #include "results/run_choice.hpp"
 #include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
@@ -111,16 +113,23 @@ class Plotter {
   void plot_coverage() {
     if (!wanted("coverage", !grids_.empty(), "the run has no [[receiver_grid]]")) return;
     const auto tx = find_end(run_.transmitters(), choice_.link.tx, "--tx");
-    const SavedFrame frame = run_.frame(choice_.link.frame ? find_frame(run_, *choice_.link.frame) : 0);
+    const RadioConfig& radio = world_.config.radio;
+    const coverage::LayerKind& layer = shown_layer(choice_.layer, radio);
+    if (!choice_.layer.empty()) coverage::check_layer(layer, radio, "--layer");
+    const size_t row = choice_.link.frame ? find_frame(run_, *choice_.link.frame) : 0;
+    const SavedFrame frame = run_.frame(row);
+    const std::vector<LinkRow> links = link_rows(frame, link_table(run_), run_.first_link(row), run_.frequency_hz());
     for (size_t k = 0; k < grids_.size(); ++k) {
       if (!choice_.grid.empty() && grids_[k] != choice_.grid) continue;
-      const std::vector<CoverageCell> cells = coverage_cells(run_, frame, grids_[k], tx);
-      if (std::ranges::all_of(cells, [](const CoverageCell& c) { return std::isnan(c.path_gain_db); }))
-        report_.warnings.push_back(fmt::format("coverage: no path to the grid \"{}\" in frame {}{}", grids_[k],
-                                               frame.number, tx ? " from \"" + choice_.link.tx + "\"" : ""));
+      const coverage::Map map =
+          coverage::coverage_map(run_, radio, frame, links, world_.config.receiver_grids[k], {tx, {}});
+      if (std::ranges::all_of(map.values(layer), [](double value) { return std::isnan(value); }))
+        report_.warnings.push_back(fmt::format("coverage: {} to the grid \"{}\" in frame {}{}",
+                                               map.reached_cells() == 0 ? "no path" : fmt::format("no {}", layer.name),
+                                               grids_[k], frame.number, tx ? " from \"" + choice_.link.tx + "\"" : ""));
       else
-        add(coverage_figure(run_, frame, k == 0 ? "coverage" : fmt::format("coverage_{}", k + 1), grids_[k], cells, tx,
-                            world_.scene, world_.config.radio));
+        add(coverage_figure(run_, frame, k == 0 ? "coverage" : fmt::format("coverage_{}", k + 1), map, layer,
+                            world_.scene, radio));
     }
   }
 

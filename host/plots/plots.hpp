@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, 7> plot_names{"gain",   "pdp",      "dela
 struct PlotChoice {
   std::vector<std::string> what;  // some of plot_names; empty: all that suit the run
   LinkChoice link;
-  std::string grid;  // for coverage; empty: every grid of the run
+  std::string grid;   // for coverage; empty: every grid of the run
+  std::string layer;  // for coverage, a name of coverage::layer_kinds; empty: received power or path gain
   Format format = Format::svg;
 };
 

@@ -17,7 +17,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t link_bytes = 33, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
+constexpr uint64_t link_bytes = 37, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
 // Links take at most this share of the space: the gain of a link over time is worth less than the paths. If there is a
 // map, its colours come first.
 constexpr double links_share = 0.25, map_links_share = 0.75;
@@ -97,17 +97,19 @@ class LinkColumns {
     narrowband_.add(static_cast<float>(row.narrowband_gain_db));
     spread_.add(static_cast<float>(row.rms_delay_spread_s));
     missed_.add(static_cast<float>(row.missed_power_share));
+    k_factor_.add(static_cast<float>(row.k_factor));
     los_.add(uint8_t{row.los});
   }
   Packer block() const {
     Packer out;
-    for (const Packer* column : {&frame_, &tx_, &rx_, &paths_, &gain_, &narrowband_, &spread_, &missed_, &los_})
+    for (const Packer* column :
+         {&frame_, &tx_, &rx_, &paths_, &gain_, &narrowband_, &spread_, &missed_, &k_factor_, &los_})
       out.append(*column);
     return out;
   }
 
  private:
-  Packer frame_, tx_, rx_, paths_, gain_, narrowband_, spread_, missed_, los_;
+  Packer frame_, tx_, rx_, paths_, gain_, narrowband_, spread_, missed_, k_factor_, los_;
 };
 
 void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {

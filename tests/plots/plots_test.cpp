@@ -13,11 +13,14 @@
 #include <map>
 #include <sstream>
 
+#include "coverage/coverage_map.hpp"
 #include "output/sample_run.hpp"
 #include "plots/coverage_plot.hpp"
 #include "plots/gnuplot.hpp"
 #include "plots/link_plots.hpp"
 #include "reference/quads.hpp"
+#include "results/link_rows.hpp"
+#include "results/link_table.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
@@ -232,30 +235,42 @@ TEST_CASE("cells of the delay-time image add up to the power of all paths") {
   CHECK(cells == doctest::Approx(paths).epsilon(1e-12));
 }
 
-TEST_CASE("coverage takes the best transmitter of each cell, or the one that is named") {
+TEST_CASE("coverage draws the best transmitter of each cell, or the one that is named, from dark and weak to bright") {
   const Written written = grid_run();
   const SavedRun run = written.run();
   const SavedFrame frame = run.frame(0);
-  const std::vector<CoverageCell> best = coverage_cells(run, frame, "g", {}),
-                                  second = coverage_cells(run, frame, "g", 1);
-  REQUIRE(best.size() == 6);
+  ReceiverGridConfig grid;
+  grid.name = "g";
+  const auto figure = [&](std::optional<uint32_t> tx, const std::string& layer) {
+    const coverage::Map map = coverage::coverage_map(
+        run, {}, frame, link_rows(frame, link_table(run), run.first_link(0), run.frequency_hz()), grid, {tx, {}});
+    return coverage_figure(run, frame, "coverage", map, shown_layer(layer, {}), {}, {});
+  };
+  const Figure best = figure({}, ""), server = figure({}, "best_server");
+  const std::vector<Row> rows = table(best.data[0].text), second = table(figure(1, "").data[0].text);
+  REQUIRE(rows.size() == 6);
   for (uint32_t cell = 0; cell < 6; ++cell) {
-    CHECK(best[cell].ix == cell % 3);
-    CHECK(best[cell].iy == cell / 3);
-    CHECK(best[cell].position_m == glm::dvec3(2.5 + 5.0 * (cell % 3), 2.5 + 5.0 * (cell / 3), 1.5));
+    CHECK(number(rows[cell], "ix") == cell % 3);
+    CHECK(number(rows[cell], "y_m") == 2.5 + 5.0 * (cell / 3));
   }
   for (uint32_t cell = 0; cell < 4; ++cell) {
-    CHECK(best[cell].path_gain_db == doctest::Approx(-10.0 * (cell + 8)).epsilon(1e-12));
-    CHECK(best[cell].tx == 0u);
+    CHECK(number(rows[cell], "path_gain_db") == doctest::Approx(-10.0 * (cell + 8)).epsilon(1e-12));
+    CHECK(rows[cell].at("tx") == run.transmitters()[0].name);
   }
-  CHECK(best[3].paths == 3);
-  CHECK(best[4].path_gain_db == doctest::Approx(-130).epsilon(1e-12));
-  CHECK(best[4].tx == 1u);
-  CHECK(std::isnan(best[5].path_gain_db));
-  CHECK_FALSE(best[5].tx.has_value());
-  CHECK(std::isnan(second[0].path_gain_db));
-  CHECK(second[3].path_gain_db == doctest::Approx(-120).epsilon(1e-12));
-  CHECK(coverage_cells(run, frame, "no", {}).empty());
+  CHECK(number(rows[3], "paths") == 2);
+  CHECK(number(rows[4], "path_gain_db") == doctest::Approx(-130).epsilon(1e-12));
+  CHECK(rows[4].at("tx") == run.transmitters()[1].name);
+  CHECK(std::isnan(number(rows[5], "path_gain_db")));
+  CHECK(rows[5].at("tx").empty());
+  CHECK(std::isnan(number(second[0], "path_gain_db")));
+  CHECK(number(second[3], "path_gain_db") == doctest::Approx(-120).epsilon(1e-12));
+  check_contains(best.commands, "set palette negative\nset cbrange [-130:-80]");
+  check_contains(best.commands, "using 3:4:($6 > ");
+  check_contains(best.commands, "title 'no value, as where no path leads'");
+  check_contains(server.commands,
+                 fmt::format("('{}' 0, '{}' 1)", run.transmitters()[0].name, run.transmitters()[1].name));
+  check_contains(server.commands, "set palette defined (0 '#0072b2', 1 '#0072b2', 1 '#e69f00', 2 '#e69f00')");
+  check_contains(server.commands, "using 3:4:($7 > ");
 }
 
 TEST_CASE("the section of a box is its outline, cut at the height") {
@@ -309,7 +324,8 @@ TEST_CASE("without gnuplot data and scripts are written, and one line says what 
   TemporaryFolder out;
   const std::string path = std::getenv("PATH");
   setenv("PATH", out.path().c_str(), 1);
-  const PlotReport report = plot_run(written.run(), {.what = {"gain"}, .link = {}, .grid = {}}, out.path() / "p");
+  const PlotReport report =
+      plot_run(written.run(), {.what = {"gain"}, .link = {}, .grid = {}, .layer = {}}, out.path() / "p");
   setenv("PATH", path.c_str(), 1);
   REQUIRE_FALSE(report.warnings.empty());
   check_contains(report.warnings.back(), "gain: gnuplot is not installed");
@@ -346,6 +362,11 @@ TEST_CASE("what the run does not have is an error that names what it has") {
                  "did you mean \"gain\"?");
   choice.what = {"coverage"};
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
+  choice.layer = "sinr_db";
+  check_contains(refused(grid, choice), "--layer sinr_db needs radio.transmit_power_dbm and radio.bandwidth_hz, which");
+  choice.layer = "sinr";
+  check_contains(refused(grid, choice), "\"sinr\" is no layer of a map, there are path_gain_db");
+  choice.layer.clear();
   choice.what = {"rays"};
   check_contains(refused(drive, choice), "--what rays: the run has no waypoints.h5: give output.waypoints");
   choice.what = {"gain"};

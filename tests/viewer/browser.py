@@ -97,12 +97,18 @@ class Page:
         size = int(round(len(values) ** 0.5))
         return values.reshape(size, size, 3)
 
-    def click(self, x, y):
-        """On the canvas, in pixels from its upper left corner."""
+    def at(self, x, y):
+        """Moves the pointer to a place of the canvas, in pixels from its upper left corner."""
         canvas = self.find("world")
         size = canvas.size
-        ActionChains(self.driver).move_to_element_with_offset(
-            canvas, round(x - size["width"] // 2), round(y - size["height"] // 2)).click().perform()
+        return ActionChains(self.driver).move_to_element_with_offset(
+            canvas, round(x - size["width"] // 2), round(y - size["height"] // 2))
+
+    def hover(self, x, y):
+        self.at(x, y).perform()
+
+    def click(self, x, y):
+        self.at(x, y).click().perform()
 
     def from_above(self):
         """Looks straight down, and returns the map from file coordinates to pixels, by the rules of a pinhole camera."""

@@ -60,10 +60,15 @@ page.screenshot("coverage")
 page.check("show_city", False)
 page.check("show_labels", False)
 page.check("show_paths", False)
+page.check("show_streets", False)
 project = page.from_above()
-legend = np.array(page.js("const c = document.querySelectorAll('#legend canvas')[1];"
+assert page.js("return document.querySelectorAll('#legend canvas').length") == 1  # of paths and of the map
+assert "Path gain of paths and of the map, dB" in page.text("legend"), page.text("legend")
+assert "no colour: no path" in page.text("legend"), page.text("legend")
+legend = np.array(page.js("const c = document.querySelector('#legend canvas');"
                           "return Array.from(c.getContext('2d').getImageData(0, 0, c.width, 1).data)"), float)
 legend = legend.reshape(-1, 4)[:, :3]
+assert np.allclose(legend[0], [0x44, 1, 0x54], atol=2) and np.allclose(legend[-1], [0xfd, 0xe7, 0x25], atol=2)  # weak is dark
 
 
 def at(ix, iy):
@@ -73,7 +78,7 @@ def at(ix, iy):
 
 def check_colours(quantity, values):
     page.choose("quantity", quantity)
-    low, high = page.js("return Quantities[arguments[0]].range", quantity)
+    low, high = page.js("return range_of(arguments[0])", quantity)
     for ix in (30, 100, 151, 201, 240):
         for iy in (40, 160, 250):
             share = np.clip((values[cell(ix, iy)] - low) / (high - low), 0, 1)
@@ -89,6 +94,29 @@ with np.errstate(divide="ignore"):
     check_colours("gain", 10 * np.log10(power[1]))
 page.choose("transmitter", -1)
 check_colours("spread", spread_ns)
+assert page.js("return document.querySelectorAll('#legend canvas').length") == 2
+with np.errstate(divide="ignore", invalid="ignore"):
+    check_colours("margin", np.abs(10 * np.log10(power[0] / power[1])))
+page.screenshot("coverage_margin")
+page.choose("quantity", "server")
+for ix, server in ((102, best[cell(102, 160)]), (240, best[cell(240, 160)])):
+    seen = page.pixels(*at(ix, 160), 0)[0, 0]
+    assert np.linalg.norm(seen - [[0, 0x72, 0xb2], [0xe6, 0x9f, 0]][server]) < 12, (ix, seen, server)
+assert "east" in page.text("legend") and "west" in page.text("legend")
+page.screenshot("coverage_server")
+options = [option.text for option in page.find("quantity").find_elements(By.TAG_NAME, "option")]
+assert options == ["path gain", "received power", "SNR", "SINR", "interference", "best transmitter", "margin", "delay spread",
+                   "K factor", "line of sight", "number of paths", "none"], options
+sent, noise = 1000, 1.380649e-23 * 290 * 20e6 * 1e3  # mW
+own, other = (power[k, np.arange(90001)] for k in (best, 1 - best))
+with np.errstate(divide="ignore", invalid="ignore"):
+    check_colours("received", 30 + gain_db)
+    check_colours("sinr", 10 * np.log10(sent * own / (noise + sent * other)))
+    check_colours("interference", 30 + 10 * np.log10(other))
+    page.choose("transmitter", 1)
+    check_colours("sinr", 10 * np.log10(sent * power[1] / (noise + sent * power[0])))
+    check_colours("margin", 10 * np.log10(power[1] / power[0]))
+    page.choose("transmitter", -1)
 page.choose("quantity", "los")
 direct, around = (page.pixels(*at(ix, 160), 0)[0, 0] for ix in (102, 100))
 assert np.linalg.norm(direct - [0, 0x72, 0xb2]) < 12 and np.linalg.norm(around - [0xe6, 0x9f, 0]) < 12, (direct, around)
@@ -98,6 +126,14 @@ assert np.allclose(page.pixels(*at(102, 160), 0), sky)
 page.choose("quantity", "gain")
 page.check("show_city", True)
 page.check("show_paths", True)
+
+# The value under the pointer.
+page.hover(*at(102, 160))
+page.wait("the value of the cell", lambda: page.find("pointer").is_displayed())
+assert page.text("pointer") == f"{gain_db[cell(102, 160)]:.1f} dB, {('east', 'west')[best[cell(102, 160)]]}", page.text("pointer")
+page.screenshot("coverage_pointer")
+page.hover(*at(152, 150))
+page.wait("a cell without a path", lambda: page.text("pointer") == "no path")
 
 # A click on a cell: its figures and its paths.
 page.check("show_city", False)

@@ -140,7 +140,10 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
 void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder) {
   Config config;
   config.radio.frequency_hz = frequency_hz;
-  config.text = "[scene]\ngenerate = \"--seed 1 --blocks 6x6\"\n[[transmitter]]\nname = \"east\"\n";
+  config.text =
+      "[scene]\ngenerate = \"--seed 1 --blocks 1x1\"\n[radio]\ntransmit_power_dbm = 30.0\nbandwidth_hz = 2e7\n"
+      "[[transmitter]]\nname = \"east\"\nposition_m = [150.0, 8.0, 6.0]\n"
+      "[[receiver]]\nname = \"car\"\nposition_m = [20.0, 8.0, 1.5]\n";
   config.transmitters = {{.name = "east", .position_m = {0.5 * columns, 8, 6}},
                          {.name = "west", .position_m = {-0.5 * columns, 8, 6}}};
   config.receivers = {{.name = "car", .position_m = {20, 8, 1.5}}};

@@ -9,7 +9,6 @@
 #include "base/file.hpp"
 #include "folders.hpp"
 #include "output/sample_run.hpp"
-#include "plots/figure.hpp"
 #include "radio/links.hpp"
 #include "results/link_rows.hpp"
 #include "results/link_table.hpp"
@@ -173,19 +172,6 @@ TEST_CASE("a map of receivers is one, and what it shows is what its paths say") 
   CHECK(meta["grids"][0]["step_m"] == nlohmann::json{1, 1});
   CHECK(meta["links"] == 2 * 90001);
   CHECK(page.html.size() < 40e6);
-}
-
-TEST_CASE("page and plots have one scale of colours") {
-  const auto colours = [](std::string_view text) {
-    std::vector<std::string> out;
-    for (size_t at = 0; (at = text.find('#', at)) != std::string_view::npos; ++at) out.emplace_back(text.substr(at, 7));
-    return out;
-  };
-  const std::string_view page = page_file("palette.js"), begin = "const viridis = [";
-  const size_t from = page.find(begin);
-  REQUIRE(from != std::string_view::npos);
-  CHECK(colours(page.substr(from, page.find(']', from) - from)) == colours(plots::palette()));
-  CHECK(colours(plots::palette()).size() == 10);
 }
 
 TEST_CASE("what is no whole grid is none") {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps colour the cells of receiver grids by their reception, and find the cell under the pointer.
-// A cell without a path has no colour. With several transmitters a cell shows the strongest.
+// Maps colour the cells of receiver grids by a quantity (quantities.js), weak dark and strong bright, and find the cell
+// under the pointer. A cell without a value has no colour.
 "use strict";
-
-const no_row = -1;
 
 // The height of a corner is the mean of the cells that meet there; a flat grid only needs its four corners.
 function map_geometry(grid) {
@@ -24,30 +22,6 @@ function map_geometry(grid) {
   return geometry;
 }
 
-// Returns the values at two shares of all, in order: a few extreme cells would take the colours of the others.
-function quantiles(values, low, high) {
-  const sorted = values.filter(Number.isFinite).sort();
-  const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
-  return sorted.length ? [at(low), at(high)] : [0, 1];
-}
-
-// The quantities of maps: words, unit, the value of a row of `links`, and the lowest and highest colour.
-const Quantities = {
-  gain: {words: "Path gain of the map, dB", value: (k) => links.gain_db[k]},
-  spread: {words: "Delay spread of the map, ns", value: (k) => links.rms_delay_spread_s[k] * 1e9},
-  los: {words: "Map"},
-};
-
-function colour_ranges() {
-  const cells = [];
-  for (let k = 0; k < links.rx.length; ++k) if (grid_of[links.rx[k]] >= 0 && links.paths[k]) cells.push(k);
-  const values = (quantity) => Float32Array.from(cells, Quantities[quantity].value);
-  const [weak, strong] = quantiles(values("gain"), 0.01, 0.99), high = 5 * Math.ceil(strong / 5);
-  Quantities.gain.range = [Math.min(Math.max(5 * Math.floor(weak / 5), high - 100), high - 5), high];
-  const [, spread] = quantiles(values("spread"), 0, 0.98), power = 10 ** Math.floor(Math.log10(Math.max(spread, 1)));
-  Quantities.spread.range = [0, [1, 2, 5, 10].map((n) => n * power).find((n) => n >= spread) || 1];
-}
-
 class Coverage {
   // largest: side in pixels that the browser can draw; 0 without WebGL.
   constructor(largest) {
@@ -55,9 +29,9 @@ class Coverage {
     this.maps = [];
     this.problems = [];
     this.quantity = "gain";
-    this.rows = new Int32Array(meta.receivers.length).fill(no_row);  // row of `links` with the best reception of each cell
-    if (!grids.length) return;
-    colour_ranges();
+    this.cells = new Reception();
+    this.rows = this.cells.server;  // row of `links` that each cell shows
+    this.rows.fill(no_row);
     for (const grid of grids) {
       const {columns, rows, first_m, step_m} = grid;
       if (![...first_m, ...step_m].every(Number.isFinite) || !step_m[0] || !step_m[1]) continue;
@@ -79,56 +53,116 @@ class Coverage {
     if (!this.maps.length) return;
     this.quantity = quantity;
     this.object.visible = quantity !== "none";
-    this.rows.fill(no_row);
-    const [first, last] = links_of_frame(frame_row);
-    for (let k = first; k < last; ++k) {
-      const rx = links.rx[k], best = this.rows[rx];
-      if (grid_of[rx] < 0 || !links.paths[k] || (tx >= 0 && links.tx[k] !== tx)) continue;
-      if (best === no_row || links.gain_db[k] > links.gain_db[best]) this.rows[rx] = k;
-    }
+    this.cells.read(frame_row, tx);
     if (!this.object.visible) return;
     const colour = this.colours();
+    this.holes = false;
     for (const {grid, pixels, texture} of this.maps) {
       for (let cell = 0; cell < grid.columns * grid.rows; ++cell) {
-        const k = this.rows[grid.first + cell];
-        pixels[4 * cell + 3] = k === no_row ? 0 : 255;
-        if (k !== no_row) pixels.set(colour(k), 4 * cell);
+        const value = this.value(grid.first + cell), empty = Number.isNaN(value);
+        this.holes = this.holes || empty;
+        pixels[4 * cell + 3] = empty ? 0 : 255;
+        if (!empty) pixels.set(colour(value), 4 * cell);
       }
       texture.needsUpdate = true;
     }
   }
 
-  // Sets the colour of each row of `links`.
+  // Returns the value that the map shows for a receiver; NaN without one.
+  value(rx) {
+    return this.rows[rx] === no_row ? NaN : Quantities[this.quantity].value(this.cells, rx);
+  }
+
+  // Returns the colour of a value.
   colours() {
-    if (this.quantity === "los") {
-      const [direct, around] = theme().los.map(rgb);
-      return (k) => (links.los[k] ? direct : around);
+    if (Quantities[this.quantity].counted) {
+      const table = this.counted_colours().map(rgb);
+      return (value) => table[value % table.length];
     }
-    const {range: [low, high], value} = Quantities[this.quantity], table = ramp_table();
-    return (k) => {
-      const step = Math.round((value(k) - low) / (high - low) * (ramp_steps - 1));
+    const [low, high] = range_of(this.quantity), table = ramp_table(theme().map_stops);
+    return (value) => {
+      const step = Math.round((value - low) / (high - low) * (ramp_steps - 1));
       return table[Math.min(Math.max(step, 0), ramp_steps - 1) || 0];
     };
   }
 
-  // Returns the receiver whose cell the ray meets first, or -1 if it meets none with a colour.
-  probe(raycaster) {
+  // Colours of the values 0, 1 and so on.
+  counted_colours() {
+    return this.quantity === "los" ? [...theme().los].reverse() : server_colours;
+  }
+
+  // Does the map show path gains? Colours of paths by power are then those of the map, so that one legend says both.
+  shows_gain() {
+    return this.maps.length > 0 && this.quantity === "gain";
+  }
+
+  // Returns the receiver whose cell the ray meets first, or -1; with_value: cells without a colour do not count.
+  probe(raycaster, with_value = true) {
     if (!this.maps.length || !this.object.visible) return -1;
     for (const {object, uv} of raycaster.intersectObjects(this.maps.map(({mesh}) => mesh))) {
       const {grid} = this.maps.find(({mesh}) => mesh === object);
       const ix = Math.min(Math.floor(uv.x * grid.columns), grid.columns - 1);
       const iy = Math.min(Math.floor(uv.y * grid.rows), grid.rows - 1);
       const rx = grid.first + iy * grid.columns + ix;
-      if (this.rows[rx] !== no_row) return rx;
+      if (!with_value || this.rows[rx] !== no_row) return rx;
     }
     return -1;
   }
 
-  draw_legend(parent) {
+  // Returns the words for a cell under the pointer: its value, and its server where that may differ.
+  words(rx) {
+    if (this.rows[rx] === no_row) return "no path";
+    const text = value_text(this.quantity, this.value(rx));
+    return several && this.quantity !== "server" ? `${text}, ${name_of(meta.transmitters, links.tx[this.rows[rx]])}` : text;
+  }
+
+  // with_paths: whether the legend of paths above says what colours of path gains mean.
+  draw_legend(parent, with_paths) {
     if (!this.maps.length || this.quantity === "none") return;
-    parent.append(element("div", Quantities[this.quantity].words));
-    if (this.quantity !== "los") return parent.append(...legend_bar(...Quantities[this.quantity].range));
-    for (const [colour, words] of [[theme().los[0], "line of sight"], [theme().los[1], "other paths only"]])
-      parent.append(legend_entry(colour, words));
+    const {words, unit, counted} = Quantities[this.quantity];
+    if (!(with_paths && this.shows_gain())) {
+      parent.append(element("div", `${words} of the map${unit ? `, ${unit}` : ""}`));
+      if (!counted) parent.append(...legend_bar(...range_of(this.quantity), theme().map_stops));
+    }
+    if (counted)
+      for (const [value, colour] of this.counted_entries()) parent.append(legend_entry(colour, value_text(this.quantity, value)));
+    if (this.holes) parent.append(legend_entry("transparent", "no colour: no path, or no value"));
+  }
+
+  // Values and colours of a legend; there are not more of them than colours.
+  counted_entries() {
+    const colours = this.counted_colours(), count = this.quantity === "los" ? 2 : meta.transmitters.length;
+    return colours.slice(0, count).map((colour, value) => [value, colour]).reverse();
+  }
+}
+
+// Fills the list of quantities with those that the run has.
+function prepare_quantities() {
+  const known = Object.entries(Quantities).filter(([, {known}]) => known).map(([key, {name}]) => [name, key]);
+  control("quantity").replaceChildren(...[...known, ["none", "none"]].map((words) => new Option(...words)));
+}
+
+// Shows the value of the cell under the pointer beside it.
+class PointerValue {
+  // element: the box; cell_at(x, y): the receiver of the cell at a pixel, or -1.
+  constructor(box, canvas, cell_at, words) {
+    this.box = box;
+    this.waiting = false;
+    const hide = () => { box.hidden = true; };
+    for (const event of ["pointerleave", "pointerdown", "wheel"]) canvas.addEventListener(event, hide, {passive: true});
+    canvas.addEventListener("pointermove", (event) => {
+      this.place = event.buttons ? null : [event.offsetX, event.offsetY];
+      if (this.waiting) return;
+      this.waiting = true;
+      requestAnimationFrame(() => {
+        this.waiting = false;
+        const rx = this.place ? cell_at(...this.place) : -1;
+        box.hidden = rx < 0;
+        if (rx < 0) return;
+        box.textContent = words(rx);
+        const [x, y] = this.place, left = x + box.offsetWidth + 16 > canvas.clientWidth ? x - box.offsetWidth - 12 : x + 12;
+        box.style.transform = `translate(${left}px, ${Math.max(y - box.offsetHeight - 8, 0)}px)`;
+      });
+    });
   }
 }

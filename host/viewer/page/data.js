@@ -150,7 +150,8 @@ const links = (() => {
     rx: from.take(Uint32Array, meta.links), paths: from.take(Uint32Array, meta.links),
     gain_db: from.take(Float32Array, meta.links), narrowband_gain_db: from.take(Float32Array, meta.links),
     rms_delay_spread_s: from.take(Float32Array, meta.links),
-    missed_power_share: from.take(Float32Array, meta.links), los: from.take(Uint8Array, meta.links),
+    missed_power_share: from.take(Float32Array, meta.links), k_factor: from.take(Float32Array, meta.links),
+    los: from.take(Uint8Array, meta.links),
   };
 })();
 

@@ -77,6 +77,8 @@ function link_figures(k) {
     ...budget_rows(links.gain_db[k]),
     ["Delay spread", `${fixed(links.rms_delay_spread_s[k] * 1e9, 2)} ns`],
     ["Line of sight", links.los[k] ? "yes" : "no"],
+    ...(links.k_factor[k] > 0 && Number.isFinite(links.k_factor[k])
+      ? [["K factor", `${fixed(10 * Math.log10(links.k_factor[k]), 2)} dB`]] : []),
     ...(Number.isFinite(links.missed_power_share[k])
       ? [["Missed", links.missed_power_share[k] === 0 ? "probably nothing"
           : `about ${share_text(links.missed_power_share[k])} of the power`]] : []),
@@ -123,12 +125,21 @@ function show_path(parent, frame, i) {
 
 const most_rows = 50;
 
-// Shows a cell of a map; k: the row of `links` that the map shows there, -1 without a path.
-function show_cell(parent, frame, rx, k) {
-  const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]];
+// Returns rows of what the other transmitters do to a cell.
+function rivals_rows(cells, rx) {
+  return ["sinr", "interference", "margin"].filter((quantity) => Quantities[quantity].known)
+    .map((quantity) => [Quantities[quantity].name, Quantities[quantity].value(cells, rx)])
+    .filter(([, value]) => Number.isFinite(value))
+    .map(([name, value]) => [name[0].toUpperCase() + name.slice(1), `${fixed(value, 2)} ${name === "interference" ? "dBm" : "dB"}`]);
+}
+
+// Shows a cell of a map; cells: the reception of the frame.
+function show_cell(parent, frame, rx, cells) {
+  const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]], k = cells.server[rx];
   if (k >= 0)
     rows.push([meta.transmitters.length > 1 ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
-  parent.replaceChildren(element("h2", name_of(meta.receivers, rx)), rows_table([...rows, ...link_figures(k)]));
+  parent.replaceChildren(element("h2", name_of(meta.receivers, rx)),
+                         rows_table([...rows, ...link_figures(k), ...(k >= 0 ? rivals_rows(cells, rx) : [])]));
 }
 
 // radio: one of radios_of(); choose(tx, rx): shows a link.

@@ -43,8 +43,8 @@ class PathLines {
     this.object.geometry = geometry;
   }
 
-  // wanted: whether row i is shown; by: the quantity that colours show.
-  rebuild(frame, wanted, by) {
+  // wanted: whether row i is shown; by: the quantity that colours show; scale: colours of powers.
+  rebuild(frame, wanted, by, scale) {
     const rows = new Uint32Array(frame.paths);
     let count = 0, most = 0;
     for (let i = 0; i < frame.paths; ++i)
@@ -54,7 +54,7 @@ class PathLines {
       }
     this.visible = rows.subarray(0, count);
     this.reserve(most);
-    const [table, key] = path_colours(frame, by);
+    const [table, key] = path_colours(frame, by, scale);
     const opacities = count > many_paths ? opacities_of_many : opacities_of_few;
     this.materials.forEach((material, part) => { material.opacity = part ? opacities[part - 1] : clutter_opacity; });
     const starts = new Array(this.materials.length + 1).fill(0);  // number of segments before each part: clutter, four quarters

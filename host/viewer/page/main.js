@@ -50,8 +50,8 @@ const projector = () => new Projector(orbit.camera, canvas.clientWidth, canvas.c
 
 function refilter() {
   const start = performance.now();
-  lines.rebuild(state.frame, (frame, i) => filters.wanted(frame, i), control("colour").value);
   coverage.paint(state.frame.row, filters.tx, control("quantity").value);
+  lines.rebuild(state.frame, (frame, i) => filters.wanted(frame, i), control("colour").value, path_scale());
   timing.rebuild_ms = performance.now() - start;
   const {paths, total} = state.frame;
   const of = total === paths ? `of ${paths}` : `of ${paths}, the strongest of ${total}`;
@@ -63,11 +63,18 @@ function refilter() {
   refresh_link();
 }
 
+// Returns the scale of paths by power: that of the map, if it shows gains as well; beside other maps only its colours.
+function path_scale() {
+  if (!coverage.maps.length || !coverage.object.visible) return own_scale();
+  const [low, high] = coverage.shows_gain() ? range_of("gain") : [lowest_db, highest_db];
+  return {low, high, stops: theme().map_stops};
+}
+
 function draw_legends() {
-  const parent = control("legend");
+  const parent = control("legend"), by = control("colour").value, of_paths = lines.visible.length > 0 || !grids.length;
   parent.replaceChildren();
-  if (lines.visible.length || !grids.length) draw_legend(parent, control("colour").value);
-  coverage.draw_legend(parent);
+  if (of_paths) draw_legend(parent, by, path_scale(), coverage.shows_gain());
+  coverage.draw_legend(parent, of_paths && by === "power");
   if (rays.object.visible) rays.draw_legend(parent, control("rays_by").value);
   parent.hidden = !parent.firstChild;
 }
@@ -92,7 +99,7 @@ function show_frame(row) {
   refresh_rays();
   if (state.selected >= 0) show_path(control("details"), state.frame, state.selected);
   else if (chosen.link) show_hint(control("details"), "The selected path does not exist in this frame.");
-  else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.rows[filters.rx]);
+  else if (grid_of[filters.rx] >= 0) show_cell(control("details"), state.frame, filters.rx, coverage.cells);
 }
 
 // Keeps the followed vehicle at its place in the picture.
@@ -129,7 +136,7 @@ function select_radio(radio) {
 function select_cell(rx) {
   select(-1);
   filters.set_link(filters.tx, rx, false);
-  show_cell(control("details"), state.frame, rx, coverage.rows[rx]);
+  show_cell(control("details"), state.frame, rx, coverage.cells);
 }
 
 // Shows an end that was found by its name.
@@ -284,6 +291,8 @@ document.addEventListener("keydown", key);
 control("toggles").addEventListener("input", apply_toggles);
 control("colour").addEventListener("change", paint);
 prepare_rays_control();
+prepare_quantities();
+new PointerValue(control("pointer"), canvas, (x, y) => coverage.probe(orbit.raycaster(x, y), false), (rx) => coverage.words(rx));
 control("home").addEventListener("click", () => show_all(true));
 control("top").addEventListener("click", () => show_all(false, Math.PI / 2));
 dark_scheme.addEventListener("change", paint);

@@ -5,10 +5,17 @@
 
 const dark_scheme = matchMedia("(prefers-color-scheme: dark)");
 
-// From weak to strong, as in plots: viridis (S. van der Walt, N. Smith, 2015, CC0). The strongest are farthest from the
-// background: dark on light, and the other way round in the dark, where the darkest two would not be seen.
+// From weak to strong, as in plots: viridis (S. van der Walt, N. Smith, 2015, CC0). The strongest paths are farthest from
+// the background: dark on light, and the other way round in the dark, where the darkest two would not be seen. Maps are
+// dark where they are weak on both.
 const viridis = [
   "#fde725", "#b5de2b", "#6ece58", "#35b779", "#1f9e89", "#26828e", "#31688e", "#3e4989", "#482878", "#440154",
+];
+
+// Colours of transmitters in maps, which repeat, as in pictures of `wavetracer coverage`.
+const server_colours = [
+  "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#808080", "#332288", "#882255", "#999933",
+  "#44aa99",
 ];
 
 const Themes = {
@@ -16,13 +23,13 @@ const Themes = {
     sky: "#161b24", text: "#e8ecf2", faint: "#9aa5b5", halo: "#11151c", grid: "#333d4c", accent: "#5ad1ff",
     tx: "#ff5d73", rx: "#5ad1ff", both: "#ffd166", outline: "#0b0e13", wedge: "#3ee08f", vehicle: "#9fb0c6", selected: "#ffffff",
     city_light: 0.42,
-    stops: viridis.slice(0, 8).reverse(), los: ["#5ab4ff", "#e69f00"], sources: ["#5ab4ff", "#e69f00"],
+    stops: viridis.slice(0, 8).reverse(), map_stops: viridis.slice(0, 8).reverse(), los: ["#5ab4ff", "#e69f00"], sources: ["#5ab4ff", "#e69f00"],
   },
   light: {
     sky: "#eceff2", text: "#22262c", faint: "#5f666f", halo: "#ffffff", grid: "#d8d6d0", accent: "#0b6fa8",
     tx: "#d4213d", rx: "#0b6fa8", both: "#8a5a00", outline: "#8d877a", wedge: "#00804a", vehicle: "#46505c", selected: "#000000",
     city_light: 1,
-    stops: viridis, los: ["#0072b2", "#e69f00"], sources: ["#0072b2", "#e69f00"],
+    stops: viridis, map_stops: [...viridis].reverse(), los: ["#0072b2", "#e69f00"], sources: ["#0072b2", "#e69f00"],
   },
 };
 
@@ -61,8 +68,7 @@ function material_colour(name) {
 }
 
 // share: 0 to 1 along the stops.
-function ramp(share) {
-  const stops = theme().stops;
+function ramp(share, stops = theme().stops) {
   const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1), i = Math.min(Math.floor(at), stops.length - 2);
   const a = rgb(stops[i]), b = rgb(stops[i + 1]);
   return a.map((value, k) => Math.round(value + (b[k] - value) * (at - i)));
@@ -75,7 +81,10 @@ const [lowest_db, highest_db] = (() => {
 })();
 
 const ramp_steps = 256;
-const ramp_table = () => Array.from({length: ramp_steps}, (_, step) => ramp(step / (ramp_steps - 1)));
+const ramp_table = (stops) => Array.from({length: ramp_steps}, (_, step) => ramp(step / (ramp_steps - 1), stops));
+
+// The scale of paths by power: the weakest and strongest colour's gain, and the colours.
+const own_scale = () => ({low: lowest_db, high: highest_db, stops: theme().stops});
 
 // Orders from 0, the strongest colour, in equal steps; orders from most_orders - 1 on share the last colour.
 const most_orders = 6;
@@ -85,15 +94,15 @@ function order_colours() {
 }
 
 // Returns the colours of a frame's paths by a key that is cheap to compute: a table, and the key of path i.
-function path_colours(frame, by) {
+function path_colours(frame, by, {low, high, stops}) {
   if (by === "kind") return [theme().kinds.map(rgb), (i) => frame.kind[i]];
   if (by === "order") {
     const table = order_colours();
     return [table, (i) => Math.min(order_of(frame, i), table.length - 1)];
   }
-  const table = ramp_table(), scale = (ramp_steps - 1) / (highest_db - lowest_db);
+  const table = ramp_table(stops), scale = (ramp_steps - 1) / (high - low);
   return [table, (i) => {
-    const step = Math.round((frame.gain_db[i] - lowest_db) * scale);
+    const step = Math.round((frame.gain_db[i] - low) * scale);
     return step > 0 ? Math.min(step, ramp_steps - 1) : 0;  // also for NaN
   }];
 }
@@ -107,13 +116,13 @@ function legend_entry(colour, text) {
 }
 
 // Draws a bar of the scale with its numbers.
-function legend_bar(low, high) {
+function legend_bar(low, high, stops) {
   const bar = document.createElement("canvas"), scale = document.createElement("div");
   bar.width = 220;
   bar.height = 1;
   const pen = bar.getContext("2d");
   for (let x = 0; x < bar.width; ++x) {
-    pen.fillStyle = css(ramp(x / (bar.width - 1)));
+    pen.fillStyle = css(ramp(x / (bar.width - 1), stops));
     pen.fillRect(x, 0, 1, 1);
   }
   scale.className = "scale";
@@ -125,14 +134,14 @@ function legend_bar(low, high) {
   return [bar, scale];
 }
 
-// Draws the legend of paths.
-function draw_legend(parent, by) {
+// Draws the legend of paths. with_map: colours of power are those of a map, too.
+function draw_legend(parent, by, {low, high, stops}, with_map) {
   if (meta.paths[0] === 0) return;
   const heading = document.createElement("div");
-  heading.textContent = by === "power" ? "Path gain, dB" : by === "order" ? "Order: interactions of a path" : "Kind of path";
+  heading.textContent = by === "power" ? `Path gain${with_map ? " of paths and of the map" : ""}, dB` : by === "order" ? "Order: interactions of a path" : "Kind of path";
   parent.append(heading);
   if (by === "power") {
-    parent.append(...legend_bar(lowest_db, highest_db));
+    parent.append(...legend_bar(low, high, stops));
   } else if (by === "order") {
     const colours = order_colours(), more = meta.highest_order >= colours.length;
     colours.forEach((colour, order) =>
