@@ -72,6 +72,9 @@ void make_coverage(const CoverageOptions& options) {
       coverage::coverage_map(run, config.radio, frame, link_rows(frame, table, run.first_link(row), run.frequency_hz()),
                              grid, {.tx = tx, .layers = options.layers});
   for (const std::string& problem : map.left_out) warn(problem);
+  if (map.reached_cells() == 0)
+    warn(fmt::format("no path to the grid \"{}\" in frame {}{}: the map is empty", grid.name, map.frame,
+                     tx ? " from \"" + options.tx + "\"" : ""));
   const std::string& scene = config.scene.file;
   const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
   const bool placed = std::ranges::any_of(options.formats, [](auto& name) { return name == "geotiff"; });

@@ -237,6 +237,11 @@ def city(program, folder):
     assert "--layers snr_db needs radio.bandwidth_hz" in refused, refused
     run(program, "coverage", out, "--grid", "row", "--format", "geotiff,png", "--layers", "paths")
     assert json.loads(run("gdalinfo", "-json", out / "coverage/paths.tif").stdout)["size"] == [8, 1]
+    run(program, "run", "-c", folder / "city.toml", "-o", folder / "far", "--set", "receiver_grid.0.height_m=-5", "--set",
+        "trace.diffraction=false")
+    empty = run(program, "coverage", folder / "far", "--grid", "street", "--layers", "path_gain_db", "--format", "csv,geotiff,png")
+    assert 'no path to the grid "street" in frame 0: the map is empty' in empty.stderr, empty.stderr
+    assert np.isnan(column(table(folder / "far/coverage/coverage.csv"), "path_gain_db")).all()
     with h5py.File(out / "paths.h5") as h5:
         power = powers(h5)
         for tx, options in ((None, ()), (0, ("--tx", "a")), (1, ("--tx", "b"))):

@@ -137,7 +137,7 @@ function rivals_rows(cells, rx) {
 function show_cell(parent, frame, rx, cells) {
   const rows = [["Position", `${position_text(frame.receiver_m, rx)} m`]], k = cells.server[rx];
   if (k >= 0)
-    rows.push([meta.transmitters.length > 1 ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
+    rows.push([several && k === cells.best[rx] ? "Strongest" : "Transmitter", name_of(meta.transmitters, links.tx[k])]);
   parent.replaceChildren(element("h2", name_of(meta.receivers, rx)),
                          rows_table([...rows, ...link_figures(k), ...(k >= 0 ? rivals_rows(cells, rx) : [])]));
 }
