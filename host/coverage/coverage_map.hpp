@@ -37,6 +37,8 @@ struct LayerKind {
   std::string_view name, unit, words;  // unit: empty for numbers without one
   double Cell::*value;
   bool of_powers, of_noise;  // needs radio.transmit_power_dbm, radio.bandwidth_hz
+  // Tells whether values are choices, which have colours of their own, and not amounts.
+  constexpr bool of_choices() const { return value == &Cell::best_server || value == &Cell::line_of_sight; }
 };
 
 inline constexpr std::array<LayerKind, 11> layer_kinds = {{

@@ -51,8 +51,8 @@ struct Palette {
 };
 
 Palette palette_of(const LayerKind& layer, std::span<const double> values) {
-  if (layer.value == &Cell::best_server) return {{server_colours.begin(), server_colours.end()}, true, {}};
-  if (layer.value == &Cell::line_of_sight) return {{sight_colours.begin(), sight_colours.end()}, true, {}};
+  const std::span<const Colour> choices = choice_colours(layer);
+  if (layer.of_choices()) return {{choices.begin(), choices.end()}, true, {}};
   Palette out{{}, false, colour_range(layer, values)};
   for (uint32_t k = 0; k + 1 < colours; ++k) out.table.push_back(viridis_at(k / (colours - 2.0)));
   return out;
@@ -66,6 +66,12 @@ std::string words_of(const Map& map, const LayerKind& layer, const Palette& pale
 }
 
 }  // namespace
+
+std::span<const Colour> choice_colours(const LayerKind& layer) {
+  if (layer.value == &Cell::best_server) return server_colours;
+  if (layer.value == &Cell::line_of_sight) return sight_colours;
+  return {};
+}
 
 ColourRange colour_range(const LayerKind& layer, std::span<const double> values) {
   constexpr double trimmed = 0.01, step = 5, widest = 100;

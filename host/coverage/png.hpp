@@ -27,6 +27,9 @@ inline constexpr std::array<Colour, 12> server_colours = {{{0x00, 0x72, 0xb2},
 // Colours of cells without line of sight, and with it.
 inline constexpr std::array<Colour, 2> sight_colours = {{{0xe6, 0x9f, 0x00}, {0x00, 0x72, 0xb2}}};
 
+// Returns the colours of the values 0, 1 and so on of a layer of choices, which repeat; none for other layers.
+std::span<const Colour> choice_colours(const LayerKind& layer);
+
 // The values of the darkest and of the brightest colour.
 struct ColourRange {
   double low = 0, high = 1;

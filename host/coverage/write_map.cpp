@@ -74,9 +74,15 @@ std::string description(const Map& map, const std::optional<Georeference>& geore
   }
   json["layers"] = nlohmann::ordered_json::object();
   for (const LayerKind* layer : map.layers) {
-    const ColourRange range = colour_range(*layer, map.values(*layer));
-    json["layers"][std::string(layer->name)] = {
-        {"unit", layer->unit}, {"about", layer->words}, {"dark_to_bright", {range.low, range.high}}};
+    nlohmann::ordered_json& row = json["layers"][std::string(layer->name)];
+    row = {{"unit", layer->unit}, {"about", layer->words}};
+    if (layer->of_choices()) {
+      for (const Colour& c : choice_colours(*layer))
+        row["colours"].push_back(fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]));
+    } else {
+      const ColourRange range = colour_range(*layer, map.values(*layer));
+      row["dark_to_bright"] = {range.low, range.high};
+    }
   }
   json["left_out"] = map.left_out;
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

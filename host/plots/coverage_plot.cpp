@@ -36,8 +36,8 @@ std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio)
   return layer.unit.empty() ? std::string(layer.words) : fmt::format("{} ({}){}", layer.words, layer.unit, noise);
 }
 
-// Returns the palette and the marks of values that count something: names of transmitters, or yes and no.
-std::string counted_colours(const std::vector<std::string>& names, std::span<const Colour> colours) {
+// Returns the palette and the marks of values that are choices: names of transmitters, or no and yes.
+std::string choice_colours(const std::vector<std::string>& names, std::span<const Colour> colours) {
   std::string steps, marks;
   for (size_t k = 0; k < names.size(); ++k) {
     const std::string colour = hex(colours[k % colours.size()]), between = k == 0 ? "" : ", ";
@@ -49,9 +49,10 @@ std::string counted_colours(const std::vector<std::string>& names, std::span<con
 }
 
 std::string colours_of(const coverage::Map& map, const coverage::LayerKind& layer) {
-  if (layer.value == &coverage::Cell::best_server) return counted_colours(map.transmitters, coverage::server_colours);
+  if (layer.value == &coverage::Cell::best_server)
+    return choice_colours(map.transmitters, coverage::choice_colours(layer));
   if (layer.value == &coverage::Cell::line_of_sight)
-    return counted_colours({"other paths only", "line of sight"}, coverage::sight_colours);
+    return choice_colours({"other paths only", "line of sight"}, coverage::choice_colours(layer));
   const coverage::ColourRange range = coverage::colour_range(layer, map.values(layer));
   return fmt::format("set palette negative\nset cbrange [{:g}:{:g}]\n", range.low, range.high);
 }

@@ -70,9 +70,9 @@ def _dataset(folder: pathlib.Path) -> xarray.Dataset:
             coordinates[name] = (axes, np.load(folder / f"{file}.npy"), {"units": units, "long_name": long_name})
     values = {name: (("y", "x"), np.load(folder / f"{name}.npy"), {"units": layer["unit"] or "1", "long_name": layer["about"]})
               for name, layer in about["layers"].items()}
-    names = ("grid", "frame", "time_s", "tx", "transmitters", "projection")
+    names = ("grid", "frame", "time_s", "tx", "transmitters", "projection", "offset_m")
     out: xarray.Dataset = _xarray().Dataset(values, coords=coordinates,
-                                            attrs={name: about[name] for name in names if about[name] is not None})
+                                            attrs={name: about[name] for name in names if about.get(name) is not None})
     return out
 
 

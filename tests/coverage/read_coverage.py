@@ -162,6 +162,8 @@ def check_picture(folder, rows, name):
     info = json.loads(run("gdalinfo", "-json", folder / f"{name}.png").stdout)
     entries = info["bands"][0]["colorTable"]["entries"]
     assert entries[0][3] == 0 and entries[1][:3] == [0x44, 1, 0x54] and entries[255][:3] == [0xfd, 0xe7, 0x25], entries
+    layers = json.loads((folder / "coverage.json").read_text())["layers"]
+    assert layers["line_of_sight"]["colours"] == ["#e69f00", "#0072b2"] and len(layers["best_server"]["colours"]) == 12
     assert f"{low:g} " in info["metadata"][""]["Description"], info["metadata"]
 
 

@@ -72,7 +72,7 @@ assert wt.coverage(config, tx="west", layers=["path_gain_db", "margin_db"]).iden
 placed = wt.coverage(run)
 assert set(placed.coords) == {"x", "y", "z", "lon", "lat"} and placed.lon.dims == ("y", "x")
 assert (abs(placed.lon - 11.55) < 0.05).all() and (abs(placed.lat - 48.09) < 0.05).all()
-assert placed.attrs["projection"].startswith("+proj=utm")
+assert placed.attrs["projection"].startswith("+proj=utm") and placed.attrs["offset_m"] == [-690000, -5330000]
 
 for arguments, kind, said in (({"grid": "h"}, wt.ConfigError, 'did you mean "g"'), ({"tx": "est"}, wt.ConfigError, '"east"'),
                               ({"frame": 7}, wt.ConfigError, "frames 0 to 0"), ({"grid": 3}, TypeError, "grid is a name"),

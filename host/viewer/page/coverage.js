@@ -144,25 +144,28 @@ function prepare_quantities() {
 
 // Shows the value of the cell under the pointer beside it.
 class PointerValue {
-  // element: the box; cell_at(x, y): the receiver of the cell at a pixel, or -1.
-  constructor(box, canvas, cell_at, words) {
-    this.box = box;
-    this.waiting = false;
-    const hide = () => { box.hidden = true; };
-    for (const event of ["pointerleave", "pointerdown", "wheel"]) canvas.addEventListener(event, hide, {passive: true});
-    canvas.addEventListener("pointermove", (event) => {
+  // box: the element; cell_at(x, y): the receiver of the cell at a pixel, or -1; words(rx): the text.
+  constructor(box, view, cell_at, words) {
+    Object.assign(this, {box, view, cell_at, words, place: null, waiting: false, took_ms: 0});
+    const hide = () => { this.place = null; box.hidden = true; };
+    for (const event of ["pointerleave", "pointerdown", "wheel"]) view.addEventListener(event, hide, {passive: true});
+    view.addEventListener("pointermove", (event) => {
       this.place = event.buttons ? null : [event.offsetX, event.offsetY];
       if (this.waiting) return;
       this.waiting = true;
-      requestAnimationFrame(() => {
-        this.waiting = false;
-        const rx = this.place ? cell_at(...this.place) : -1;
-        box.hidden = rx < 0;
-        if (rx < 0) return;
-        box.textContent = words(rx);
-        const [x, y] = this.place, left = x + box.offsetWidth + 16 > canvas.clientWidth ? x - box.offsetWidth - 12 : x + 12;
-        box.style.transform = `translate(${left}px, ${Math.max(y - box.offsetHeight - 8, 0)}px)`;
-      });
+      setTimeout(() => this.show(), Math.max(16, 2 * this.took_ms));  // a map on hills has many triangles to meet
     });
+  }
+
+  show() {
+    this.waiting = false;
+    const start = performance.now(), rx = this.place ? this.cell_at(...this.place) : -1;
+    this.took_ms = performance.now() - start;
+    this.box.hidden = rx < 0;
+    if (rx < 0) return;
+    this.box.textContent = this.words(rx);
+    const [x, y] = this.place, {offsetWidth: width, offsetHeight: height} = this.box;
+    const left = x + width + 16 > this.view.clientWidth ? x - width - 12 : x + 12;
+    this.box.style.transform = `translate(${left}px, ${Math.max(y - height - 8, 0)}px)`;
   }
 }

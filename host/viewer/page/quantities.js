@@ -59,10 +59,12 @@ class Reception {
 const some_power = sent_dbm !== null, some_noise = some_power && noise_floor_dbm !== null;
 const several = meta.transmitters.length > 1;
 const of_server = (column, factor = 1) => ({server}, rx) => factor * links[column][server[rx]];
+// Quantities with `of_link` have colours that hold for each transmitter, and not for the strongest alone.
 const Quantities = {
-  gain: {name: "path gain", words: "Path gain", unit: "dB", value: of_server("gain_db"), known: true},
+  gain: {name: "path gain", words: "Path gain", unit: "dB", value: of_server("gain_db"), known: true,
+         of_link: (k) => links.gain_db[k]},
   received: {name: "received power", words: "Received power", unit: "dBm", known: some_power,
-             value: ({server}, rx) => sent_dbm + links.gain_db[server[rx]]},
+             value: ({server}, rx) => sent_dbm + links.gain_db[server[rx]], of_link: (k) => sent_dbm + links.gain_db[k]},
   snr: {name: "SNR", words: "Signal to noise", unit: "dB", known: some_noise,
         value: ({server}, rx) => sent_dbm + links.gain_db[server[rx]] - noise_floor_dbm},
   sinr: {name: "SINR", words: "Signal to interference and noise", unit: "dB", known: some_noise && several,
@@ -87,26 +89,27 @@ function quantiles(values, low, high) {
   return sorted.length ? [at(low), at(high)] : [0, 1];
 }
 
-// Returns the values of all cells in all frames; with `every`, of every transmitter, else of the strongest.
-function values_of_map(quantity, every) {
-  const cells = new Reception(), out = [], {value} = Quantities[quantity];
-  const add = () => {
+// Returns the values of all cells in all frames.
+function values_of_map(quantity) {
+  const out = [], {value, of_link} = Quantities[quantity];
+  if (of_link) {
+    for (let k = 0; k < links.rx.length; ++k) if (grid_of[links.rx[k]] >= 0 && links.paths[k]) out.push(of_link(k));
+    return out;
+  }
+  const cells = new Reception();
+  for (let row = 0; row < meta.frames.length; ++row) {
+    cells.read(row, -1);
     for (let rx = 0; rx < cells.server.length; ++rx) if (cells.server[rx] !== no_row) out.push(value(cells, rx));
-  };
-  for (let row = 0; row < meta.frames.length; ++row)
-    for (let tx = every ? 0 : -1; tx < (every ? meta.transmitters.length : 0); ++tx) {
-      cells.read(row, tx);
-      add();
-    }
+  }
   return out;
 }
 
 // Returns the values of the darkest and of the brightest colour: multiples of 5 dB, or from 0 to a round number. They
-// are the same in all frames; those of gains hold for each transmitter.
+// are the same in all frames.
 function range_of(quantity) {
   const known = Quantities[quantity];
   if (known.range) return known.range;
-  const values = values_of_map(quantity, quantity === "gain" || quantity === "received");
+  const values = values_of_map(quantity);
   if (known.unit.startsWith("dB")) {
     const [weak, strong] = quantiles(values, 0.01, 0.99), high = 5 * Math.ceil(strong / 5);
     known.range = [Math.min(Math.max(5 * Math.floor(weak / 5), high - 100), high - 5), high];
