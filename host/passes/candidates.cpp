@@ -3,6 +3,8 @@
 // A work-item takes one sequence (CPUs), or a work-group several together.
 #include "passes/candidates.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -18,6 +20,9 @@ namespace {
 constexpr uint32_t group_bytes = 16 << 10;
 uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 96; }
 
+// A word holds the place of a receiver and the number of a sequence in its work-group (kernels/paths/candidates.cl).
+constexpr uint32_t most_places = 1u << 25;
+
 }  // namespace
 
 Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
@@ -27,15 +32,12 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
       list_(context.buffer<wt_candidate>(1 << 16, {"candidates", advice::links})) {
   const uint32_t reflections = std::max(std::min(max_reflections, WT_MAX_DEPTH), 1u);
   // There are at most as many sequences as work-items: each work-item follows one back.
-  const bool alone = tuning_of(context.info()).alone;
-  if (!alone) work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
+  if (!tuning_of(context.info()).alone)
+    work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
   const gpu::Definitions definitions = {{"WT_REFLECTIONS", std::to_string(reflections)},
                                         {"WT_GROUP", std::to_string(work_.group) + "u"},
                                         {"WT_NODES", work_.option()}};
-  if (alone)
-    by_items_ = {context, definitions};
-  else
-    by_groups_ = {context, definitions};
+  kernel_ = {context, definitions};
 }
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
@@ -43,42 +45,33 @@ uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends,
   if (ends.receiver_count == 0) return 0;
   const bool alone = tuning_of(context_.info()).alone;
   const ReceiverGroups& groups = ends.groups;
+  if (!alone && groups.capacity > most_places)
+    throw gpu::BufferError(
+        fmt::format("a frame has {} receivers, and a GPU takes at most {}: divide the grid among several runs",
+                    ends.receiver_count, most_places));
+  const gpu::Range range = alone ? work_.range(node_count) : work_.groups(node_count);
   return fill_list(
       counters, &wt_counters::candidates, Stage::candidates, [&] { return list_.size(); },
       [&] {
         const wt_candidates_arguments arguments{.node_count = node_count,
-                                                .receiver_capacity = alone ? groups.capacity : ends.receiver_capacity,
+                                                .receiver_capacity = groups.capacity,
                                                 .transmitter_count = ends.transmitter_count,
                                                 .max_reflections = max_reflections_,
                                                 .capacity = static_cast<uint32_t>(list_.size())};
-        if (alone)
-          by_items_(work_.range(node_count), Stage::candidates,
-                    calls::candidates::candidates_WT_CPU{.table = trie,
-                                                         .nodes = nodes,
-                                                         .transmitters = ends.transmitters,
-                                                         .exact_receivers = ends.receivers,
-                                                         .exact = scene.exact_surfaces,
-                                                         .surfaces = scene.surfaces,
-                                                         .order = groups.order,
-                                                         .places = groups.places,
-                                                         .boxes = groups.boxes,
-                                                         .links = groups.links,
-                                                         .out = list_,
-                                                         .counters = counters.buffer(),
-                                                         .args = arguments});
-        else
-          by_groups_(work_.groups(node_count), Stage::candidates,
-                     calls::candidates::candidates_not_WT_CPU{.table = trie,
-                                                              .nodes = nodes,
-                                                              .transmitters = ends.transmitters,
-                                                              .exact_receivers = ends.receivers,
-                                                              .exact = scene.exact_surfaces,
-                                                              .surfaces = scene.surfaces,
-                                                              .receivers = ends.receiver_planes,
-                                                              .linked = ends.linked,
-                                                              .out = list_,
-                                                              .counters = counters.buffer(),
-                                                              .args = arguments});
+        kernel_(range, Stage::candidates,
+                calls::candidates::candidates{.table = trie,
+                                              .nodes = nodes,
+                                              .transmitters = ends.transmitters,
+                                              .exact_receivers = ends.receivers,
+                                              .exact = scene.exact_surfaces,
+                                              .surfaces = scene.surfaces,
+                                              .order = groups.order,
+                                              .places = groups.places,
+                                              .boxes = groups.boxes,
+                                              .links = groups.links,
+                                              .out = list_,
+                                              .counters = counters.buffer(),
+                                              .args = arguments});
       },
       [&](size_t entries) {
         list_ = context_.buffer<wt_candidate>(entries, {"candidates", advice::links});

@@ -21,8 +21,7 @@ class Candidates {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<calls::candidates::candidates_WT_CPU> by_items_;  // one of the two, by the device
-  gpu::KernelOf<calls::candidates::candidates_not_WT_CPU> by_groups_;
+  gpu::KernelOf<calls::candidates::candidates> kernel_;
   uint32_t max_reflections_;
   Work work_;
   gpu::Buffer<wt_candidate> list_;

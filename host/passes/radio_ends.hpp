@@ -5,7 +5,6 @@
 // without one.
 #pragma once
 #include <algorithm>
-#include <bit>
 #include <vector>
 
 #include "gpu/gpu.hpp"
@@ -20,9 +19,7 @@ struct RadioEnds {
   gpu::Buffer<float> receiver_planes;           // three planes of receiver_capacity
   gpu::Buffer<uint16_t> links;                  // bit b of word tx * (receiver_capacity / 16) + g: receiver 16 g + b
   std::vector<uint16_t> link_words;             // the words of `links`
-  gpu::Buffer<uint32_t> linked;  // the same as lists: where the receivers of each transmitter begin and the last ones
-                                 // end, then the receivers; GPUs alone
-  ReceiverGroups groups;         // CPUs only
+  ReceiverGroups groups;
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
   std::vector<double> transmitter_words, receiver_words;  // the words of the buffers
   std::vector<float> plane_words;
@@ -32,20 +29,6 @@ struct RadioEnds {
 inline std::vector<uint16_t> link_masks(const RadioEnds& ends, const std::vector<Link>& links) {
   return link_bits(ends.transmitter_count, ends.receiver_capacity / 16, links,
                    [](uint32_t receiver) { return receiver; });
-}
-
-// The links in the form of RadioEnds::linked.
-inline std::vector<uint32_t> link_lists(uint32_t transmitter_count, const std::vector<uint16_t>& masks) {
-  const size_t groups = transmitter_count > 0 ? masks.size() / transmitter_count : 0;
-  std::vector<uint32_t> out(transmitter_count + 1);
-  for (uint32_t tx = 0; tx < transmitter_count; ++tx) {
-    out[tx] = static_cast<uint32_t>(out.size());
-    for (uint32_t group = 0; group < groups; ++group)
-      for (uint32_t word = masks[tx * groups + group]; word; word &= word - 1)
-        out.push_back(16 * group + static_cast<uint32_t>(std::countr_zero(word)));
-  }
-  out[transmitter_count] = static_cast<uint32_t>(out.size());
-  return out;
 }
 
 // Positions and the instances that carry them, in the form that wt_end_instance reads.
@@ -73,11 +56,10 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
   upload_changed(context, ends.transmitters, ends.transmitter_words, end_quadruples(launching), "transmitters");
   upload_changed(context, ends.receivers, ends.receiver_words, end_quadruples(receivers), "receivers");
   upload_changed(context, ends.receiver_planes, ends.plane_words, std::move(planes), "receiver planes");
-  if (context.info().cpu) ends.groups.set(context, receivers, ends.transmitter_count, links);
+  ends.groups.set(context, receivers, ends.transmitter_count, links);
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
   upload(context, ends.links, masks, "links");
-  if (!context.info().cpu) upload(context, ends.linked, link_lists(ends.transmitter_count, masks), "lists of links");
   ends.link_words = std::move(masks);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Receivers in groups of 16 that are close together, each in its box: receivers that a sequence surely does not reach
-// are skipped group by group (candidates on CPUs).
+// are skipped group by group.
 #pragma once
 #include <array>
 #include <cstdint>

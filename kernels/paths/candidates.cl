@@ -4,15 +4,13 @@
 // always candidates. It is conservative: each bound covers the rounding of everything it is computed from. Only
 // sequences of transmitters below transmitter_count and of at most max_reflections surfaces count, since the trie may
 // also hold those of other ends, and longer prefixes. nodes[] holds the roots first, then the trie's nodes
-// (lib/count.clh), at most node_count. On CPUs receivers come in groups of 16, elsewhere as lists of those that each
-// transmitter has links to.
+// (lib/count.clh), at most node_count. Receivers come in groups of 16 near ones (host/passes/receiver_groups.hpp): a
+// group whose box the beam of a sequence surely misses is rejected as a whole.
+#include "lib/beam.clh"
 #include "lib/count.clh"
-#include "lib/reach.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 #ifdef WT_CPU
-#include "lib/beam.clh"
-
 // Makes a bit of each lane.
 inline uint bits_of(int8 m) {
   const int8 b = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
@@ -95,92 +93,67 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
   if (waiting.count > 0) test_waiting(&waiting, &s, exact, surfaces, nodes[i], out, counters, args.capacity);
 }
 #else
-// Pairs wait for the second test, so that all lanes make it together. A lane adds at most WT_ROUND pairs before their
-// number is checked again.
-#define WT_ROUND 4u
-#define WT_WAITING (2 * WT_ROUND * WT_GROUP)
-#define WT_NODE_SHIFT 24u  // bit of the node in the word of a pair; lower bits are the receiver
-#define WT_RECEIVER_BITS ((1u << WT_NODE_SHIFT) - 1)
-#define WT_TEAM 32u  // lanes that share the receivers of one sequence
+#include "lib/receiver_walk.clh"
 
-// The position of a lane: its place among the links of sequence n, and the first place of its team.
-typedef struct {
-  uint n, place, team;
-} walk;
-
-// Steps to the next sequence of the team that has links left.
-inline void step_on(walk* w, const local uint* link_counts, uint count, uint lane) {
-  while (w->n < count && w->team >= link_counts[w->n]) {
-    w->n += WT_GROUP / WT_TEAM;
-    w->team = 0;
+// Makes the second test for the receivers that wait, and candidates of those that pass.
+inline void test_waiting(uint count, const local wt_followed* sequences, const global uint* nodes,
+                         const global wt_exact_surface* exact, const global wt_surface* surfaces,
+                         const wt_receiver_tables* t, const local wt_receiver_queues* q, global wt_candidate* out,
+                         global wt_counters* counters, uint capacity) {
+  for (uint k = get_local_id(0); k < count; k += WT_GROUP) {
+    const uint n = q->waiting[k] >> WT_NODE_SHIFT, receiver = t->order[q->waiting[k] & WT_LOW_BITS];
+    if (!wt_in_boxes(sequences + n, exact, surfaces, t->exact[receiver].xyz)) continue;
+    const uint slot = atomic_inc(&counters->candidates);
+    if (slot >= capacity) continue;
+    out[slot].node = nodes[n];
+    out[slot].receiver = receiver;
   }
-  w->place = w->team + lane % WT_TEAM;
 }
 
-// The number of nodes, out of `count`, in the group that begins with `first`.
-inline uint left_from(uint first, uint count) { return min((uint)WT_NODES, count - min(first, count)); }
-
-// WT_NODES sequences per work-group with the receivers that their transmitters have links to. receivers: three planes
-// of their coordinates. linked: for each transmitter where its receivers begin, one more entry for the end, then the
-// receivers.
+// WT_NODES sequences per work-group; the other arguments are those of the kernel for CPUs.
 __attribute__((reqd_work_group_size(WT_GROUP, 1, 1))) kernel void candidates(
     const global ulong* table, const global uint* nodes, const global double4* transmitters,
     const global double4* exact_receivers, const global wt_exact_surface* exact, const global wt_surface* surfaces,
-    const global float* receivers, const global uint* linked, global wt_candidate* out, global wt_counters* counters,
-    wt_candidates_arguments args) {
+    const global uint* order, const global float* places, const global float* boxes, const global ushort* links,
+    global wt_candidate* out, global wt_counters* counters, wt_candidates_arguments args) {
   local wt_followed sequences[WT_NODES];
-  local uint first_links[WT_NODES], link_counts[WT_NODES], unfinished[2];
-  local uint waiting[WT_WAITING], kept[WT_WAITING], waiting_count, kept_count, first_slot;
-  const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES, capacity = args.receiver_capacity;
-  const uint count = left_from(first_node, wt_node_count(counters, args.node_count));
-  for (uint n = lane; n < count; n += WT_GROUP) {
-    const int known = wt_follow_back(table, nodes[first_node + n], transmitters, exact, surfaces, args, sequences + n);
-    first_links[n] = known ? linked[sequences[n].transmitter] : 0u;
-    link_counts[n] = known ? linked[sequences[n].transmitter + 1] - first_links[n] : 0u;
-  }
-  if (lane == 0) waiting_count = kept_count = unfinished[0] = unfinished[1] = 0;
+  local wt_receiver_queues q;
+  local uint unfinished[2];
+  const uint lane = get_local_id(0), first_node = get_group_id(0) * WT_NODES;
+  const uint all = wt_node_count(counters, args.node_count), count = min((uint)WT_NODES, all - min(first_node, all));
+  const wt_receiver_tables t = {
+      order, places, boxes, links, exact_receivers, args.receiver_capacity, args.receiver_capacity / 16};
+  for (uint n = lane; n < count; n += WT_GROUP)
+    if (!wt_follow_back(table, nodes[first_node + n], transmitters, exact, surfaces, args, sequences + n))
+      sequences[n].transmitter = WT_NONE;
+  if (lane == 0) q.near_count = q.waiting_count = unfinished[0] = unfinished[1] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  walk w = {lane / WT_TEAM, 0, 0};
-  step_on(&w, link_counts, count, lane);
+  wt_group_walk w = {.n = lane / WT_TEAM, .first = 0};
+  wt_begin_group_walk(&w, sequences, count);
   uint more = 1;
   for (uint turn = 0; more; turn ^= 1) {
-    for (uint round = 0; round < WT_ROUND && w.n < count; ++round) {
-      if (w.place < link_counts[w.n]) {
-        const uint r = linked[first_links[w.n] + w.place];
-        if (sequences[w.n].depth == 0 ||
-            wt_may_reach(sequences + w.n, receivers[r], receivers[capacity + r], receivers[2 * (size_t)capacity + r]))
-          waiting[atomic_inc(&waiting_count)] = w.n << WT_NODE_SHIFT | r;
-      }
-      w.team += WT_TEAM;
-      step_on(&w, link_counts, count, lane);
-    }
+    for (uint round = 0; round < WT_ROUND && w.n < count; ++round) wt_look_at_group(&w, sequences, count, &t, &q);
     if (w.n < count) unfinished[turn] = 1;
     barrier(CLK_LOCAL_MEM_FENCE);
-    const uint now = waiting_count;
+    const uint near = q.near_count;
     more = unfinished[turn];
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0) unfinished[turn] = 0;  // no lane writes it before the next barrier
-    if (now <= WT_ROUND * WT_GROUP && more) continue;
-    for (uint k = lane; k < now; k += WT_GROUP) {
-      const uint pair = waiting[k];
-      if (wt_in_boxes(sequences + (pair >> WT_NODE_SHIFT), exact, surfaces,
-                      exact_receivers[pair & WT_RECEIVER_BITS].xyz))
-        kept[atomic_inc(&kept_count)] = pair;
+    if (near < WT_MANY_NEAR && more) continue;
+    for (uint first = 0; first < near; first += WT_MANY_NEAR) {
+      wt_test_groups(first, min(first + WT_MANY_NEAR, near), sequences, &t, &q);
+      barrier(CLK_LOCAL_MEM_FENCE);
+      const uint waiting = q.waiting_count;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (waiting < WT_MANY_WAITING) continue;
+      test_waiting(waiting, sequences, nodes + first_node, exact, surfaces, &t, &q, out, counters, args.capacity);
+      if (lane == 0) q.waiting_count = 0;
+      barrier(CLK_LOCAL_MEM_FENCE);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (lane == 0) {
-      first_slot = atomic_add(&counters->candidates, kept_count);
-      waiting_count = 0;
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint k = lane; k < kept_count && first_slot + k < args.capacity; k += WT_GROUP) {
-      out[first_slot + k].node = nodes[first_node + (kept[k] >> WT_NODE_SHIFT)];
-      out[first_slot + k].receiver = kept[k] & WT_RECEIVER_BITS;
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (lane == 0) kept_count = 0;
+    if (lane == 0) q.near_count = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
   }
+  test_waiting(q.waiting_count, sequences, nodes + first_node, exact, surfaces, &t, &q, out, counters, args.capacity);
 }
 #endif
