@@ -15,7 +15,7 @@ T is the C++ type of a scalar, gpu::Vector<scalar, lanes>, or a record of RECORD
 typedef of the kernel's file, is gpu::Any, and fits every buffer. Arguments that a macro of the file stands for, such as
 `#define MORE const global uint* more,`, are std::optional, since the macro is empty in other builds. A kernel that is
 declared in several branches of #if has one struct where only `const` differs, else one for each, with the branch in its
-name: candidates_WT_CPU, candidates_not_WT_CPU.
+name: NAME_MACRO, NAME_not_MACRO.
 """
 import re
 import sys
