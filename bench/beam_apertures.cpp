@@ -77,9 +77,10 @@ Json run(const Options& options) {
   auto count = static_cast<uint32_t>(roots.size());
   for (uint32_t depth = 1; depth <= options.depth && count > 0; ++depth) {
     lists.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
-    const uint32_t chunks = gather(tree, device, lists, 0, count, 0, false, most_chunks);
+    const BeamStep step{.depth = depth, .max_depth = options.depth + 1};
+    const uint32_t chunks = gather(tree, device, lists, 0, count, step, most_chunks);
     if (chunks > most_chunks) throw RuntimeError("too many candidates for a figure");
-    visible(tree, device, mirrors, lists, 0, chunks, {.depth = depth, .max_depth = options.depth + 1}, set.trie());
+    visible(tree, device, mirrors, lists, 0, chunks, step, set.trie());
     count = lists.counters.read_one(0, Stage::beam_visible).apertures;
     if (count > most_apertures) throw RuntimeError("too many apertures for a figure");
     std::vector<wt_aperture> found = lists.next.read();

@@ -137,8 +137,8 @@ std::string certificate_line(const Totals& totals) {
   const Certificate& of = totals.certificate;
   if (of.frames == 0) return "";
   const char* const steps = of.edges == 0 ? "reflections" : "interactions";
-  std::string out = of.any_depth ? fmt::format("complete   every path of any number of {}", steps)
-                                 : fmt::format("complete   every path of up to {} {}", of.depth, steps);
+  const std::string number = of.any_depth ? "any number of" : fmt::format("up to {}", of.depth);
+  std::string out = fmt::format("complete   every path of {} {}", number, steps);
   if (of.edges > 0) out += fmt::format(", up to {} of them at edges", of.edges);
   if (of.floor_db) out += fmt::format(" with a gain of {} dB or more between isotropic antennas", *of.floor_db);
   out +=

@@ -15,7 +15,7 @@ BeamGather::BeamGather(gpu::Context& context, uint32_t depth)
       kernel_(context, {{"WT_BEAM_DEPTH", std::to_string(depth) + "u"}, {"WT_LANES", std::to_string(lanes_) + "u"}}) {}
 
 uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first,
-                                uint32_t count, uint32_t walls, bool edges, uint32_t most) {
+                                uint32_t count, const BeamStep& step, uint32_t most) {
   constexpr uint32_t least = 1 << 11;
   const auto reserve = [&](size_t chunks) {
     lists.chunks = context_.buffer<wt_chunk>(chunks, {"beam candidates", advice::beams});
@@ -50,8 +50,8 @@ uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, 
                                               .trie_mask = 0,
                                               .round = 0,
                                               .last = 0,
-                                              .walls = walls,
-                                              .edges = edges}});
+                                              .walls = step.walls,
+                                              .edges = step.edges}});
       },
       [&] { return lists.counters.read_one(0, Stage::beam_gather).chunks; }, [&] { return lists.chunks.size(); },
       [&](size_t chunks) {

@@ -13,12 +13,10 @@ class BeamGather {
  public:
   // depth: the number of nodes from the root of the tree to a leaf, at most.
   BeamGather(gpu::Context& context, uint32_t depth);
-  // walls: surfaces that are not opaque that a wave may have passed before it is reflected at this depth. edges: do
-  // edges diffract? Then facets in whose plane an image lies are listed too. Fills lists.chunks from its beginning for
-  // apertures first to first + count - 1, and returns their number. The list grows when it must; if the number is more
-  // than `most`, it does not hold them.
+  // Fills lists.chunks from its beginning for apertures first to first + count - 1, and returns their number. The list
+  // grows when it must; if the number is more than `most`, it does not hold them.
   uint32_t operator()(const BeamTree& tree, const DeviceScene& scene, BeamLists& lists, uint32_t first, uint32_t count,
-                      uint32_t walls, bool edges, uint32_t most);
+                      const BeamStep& step, uint32_t most);
 
  private:
   gpu::Context& context_;

@@ -17,6 +17,13 @@ struct BeamLists {
   gpu::Buffer<wt_beam_counters> counters;
 };
 
+// The way that a depth is looked at.
+struct BeamStep {
+  uint32_t depth = 1, max_depth = 1;  // at the last depth no apertures are made
+  uint32_t walls = 0;                 // surfaces that are not opaque that a wave may have passed before this depth
+  bool edges = false;                 // edges diffract, so facets in whose plane an image lies count too
+};
+
 // The power that beams keep at mirrors, and that below which they are not followed.
 struct BeamMirrors {
   gpu::Buffer<float> reflectances;     // bounds, WT_COSINES for each material

@@ -11,13 +11,6 @@
 
 namespace wavetracer {
 
-// The way that a depth is looked at.
-struct BeamStep {
-  uint32_t depth = 1, max_depth = 1;  // at the last depth no apertures are made
-  uint32_t walls = 0;                 // as for beam_gather
-  bool edges = false;                 // as for beam_gather
-};
-
 class BeamVisible {
  public:
   explicit BeamVisible(gpu::Context& context);

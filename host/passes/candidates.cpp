@@ -21,7 +21,7 @@ constexpr uint32_t group_bytes = 16 << 10;
 uint32_t sequence_bytes(uint32_t reflections) { return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 96; }
 
 // A word holds the place of a receiver and the number of a sequence in its work-group (kernels/paths/candidates.cl).
-constexpr uint32_t most_places = 1u << 25;
+constexpr uint32_t place_bits = 25, most_places = 1u << place_bits;
 
 }  // namespace
 
@@ -36,7 +36,8 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
     work_.per_item = std::min(group_bytes / sequence_bytes(reflections), work_.group);
   const gpu::Definitions definitions = {{"WT_REFLECTIONS", std::to_string(reflections)},
                                         {"WT_GROUP", std::to_string(work_.group) + "u"},
-                                        {"WT_NODES", work_.option()}};
+                                        {"WT_NODES", work_.option()},
+                                        {"WT_PLACE_BITS", std::to_string(place_bits) + "u"}};
   kernel_ = {context, definitions};
 }
 

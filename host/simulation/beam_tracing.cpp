@@ -144,7 +144,7 @@ bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamS
   uint32_t block = 0;  // its first aperture
   const auto list = [&](uint32_t first, uint32_t end) {
     block = first;
-    return (*gather_)(tree_, scene, lists_, first, end - first, step.walls, step.edges, most_chunks);
+    return (*gather_)(tree_, scene, lists_, first, end - first, step, most_chunks);
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped

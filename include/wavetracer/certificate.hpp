@@ -39,8 +39,11 @@ struct Certificate {
 inline void add(Certificate& sum, const Certificate& more) {
   sum.any_depth = (sum.frames == 0 || sum.any_depth) && (more.frames == 0 || more.any_depth);
   if (more.floor_db) sum.floor_db = more.floor_db;  // a run has one
-  sum.depth = sum.frames == 0 ? more.depth : more.frames == 0 ? sum.depth : std::min(sum.depth, more.depth);
-  sum.edges = sum.frames == 0 ? more.edges : more.frames == 0 ? sum.edges : std::min(sum.edges, more.edges);
+  const auto least = [&](uint32_t a, uint32_t b) {
+    return sum.frames == 0 ? b : more.frames == 0 ? a : std::min(a, b);
+  };
+  sum.depth = least(sum.depth, more.depth);
+  sum.edges = least(sum.edges, more.edges);
   sum.frames += more.frames;
   sum.ends += more.ends;
   sum.left_out_sr += more.left_out_sr;

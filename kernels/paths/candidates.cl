@@ -101,7 +101,7 @@ inline void test_waiting(uint count, const local wt_followed* sequences, const g
                          const wt_receiver_tables* t, const local wt_receiver_queues* q, global wt_candidate* out,
                          global wt_counters* counters, uint capacity) {
   for (uint k = get_local_id(0); k < count; k += WT_GROUP) {
-    const uint n = q->waiting[k] >> WT_NODE_SHIFT, receiver = t->order[q->waiting[k] & WT_LOW_BITS];
+    const uint n = q->waiting[k] >> WT_PLACE_BITS, receiver = t->order[q->waiting[k] & WT_LOW_BITS];
     if (!wt_in_boxes(sequences + n, exact, surfaces, t->exact[receiver].xyz)) continue;
     const uint slot = atomic_inc(&counters->candidates);
     if (slot >= capacity) continue;

@@ -39,7 +39,7 @@ Gathered gather(const std::vector<Corners>& triangles, const std::vector<wt_aper
   lists.apertures = context().buffer(apertures, "apertures");
   const auto count = static_cast<uint32_t>(apertures.size());
   const uint32_t chunks =
-      BeamGather(context(), tree.depth)(tree, device, lists, 0, count, 0, false, std::numeric_limits<uint32_t>::max());
+      BeamGather(context(), tree.depth)(tree, device, lists, 0, count, {}, std::numeric_limits<uint32_t>::max());
   Gathered out;
   for (const wt_facet& facet : tree.facets.read()) out.surface_of.push_back(facet.surface);
   out.of_aperture.resize(apertures.size());

@@ -48,9 +48,9 @@ function certificate_text() {
   if (!meta.certificate) return "";
   const {depth, any_depth, edges, left_out_sr: solid_angle, left_out_share: share, left_out_power: power, floor_db, weak_share} =
     meta.certificate;
-  const steps = edges > 0 ? "interactions" : depth === 1 ? "reflection" : "reflections";
+  const steps = edges > 0 ? "interactions" : depth === 1 && !any_depth ? "reflection" : "reflections";
   const bends = edges > 0 ? `, up to ${edges} of them at edges` : "";
-  const number = (any_depth ? `any number of ${edges > 0 ? steps : "reflections"}` : `up to ${depth} ${steps}`) + bends;
+  const number = `${any_depth ? "any number of" : `up to ${depth}`} ${steps}${bends}`;
   const above = floor_db === null ? "" : ` with a gain of ${signed(String(floor_db))} dB or more between isotropic antennas`;
   const most = power > 0 ? `; a link misses at most ${fixed(10 * Math.log10(power), 0)} dB through them${edges > 0 ? " by paths without an edge" : ""}` : "";
   const but = solid_angle > 0
