@@ -26,12 +26,6 @@ struct CoverageOptions {
   std::vector<std::string> layers, formats = {"csv"};
 };
 
-std::string layer_names() {
-  std::vector<std::string_view> names;
-  for (const coverage::LayerKind& layer : coverage::layer_kinds) names.push_back(layer.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 void check_formats(const std::vector<std::string>& formats) {
   const std::vector<std::string> known(coverage::format_names.begin(), coverage::format_names.end());
   for (const std::string& format : formats)
@@ -41,19 +35,15 @@ void check_formats(const std::vector<std::string>& formats) {
 }
 
 const ReceiverGridConfig& chosen_grid(const Config& config, const std::string& name) {
+  const std::vector<ReceiverGridConfig>& grids = config.receiver_grids;
+  if (grids.empty()) throw InputError("the run has no [[receiver_grid]], of which a map could be made");
+  if (!name.empty()) return find_grid(grids, name);
   std::vector<std::string> known;
-  for (const ReceiverGridConfig& grid : config.receiver_grids) {
-    if (grid.name == name) return grid;
-    known.push_back(grid.name);
-  }
-  if (known.empty()) throw InputError("the run has no [[receiver_grid]], of which a map could be made");
-  if (!name.empty())
-    throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}",
-                                  name, fmt::join(known, ", "), spelling_hint(name, known)));
+  for (const ReceiverGridConfig& grid : grids) known.push_back(grid.name);
   if (known.size() > 1)
     throw ConfigError(
         fmt::format("the run has {} grids: name one with --grid, of {}", known.size(), fmt::join(known, ", ")));
-  return config.receiver_grids.front();
+  return grids.front();
 }
 
 void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
@@ -104,7 +94,7 @@ void add_coverage(CLI::App& program) {
   command
       ->add_option("--layers", options->layers,
                    fmt::format("Layers to write, separated by commas: {}; all that the run can tell if not given",
-                               layer_names()))
+                               fmt::join(coverage::layer_names(), ", ")))
       ->delimiter(',')
       ->allow_extra_args(false);
   command

@@ -44,11 +44,7 @@ std::vector<std::string> known_values(const CLI::App& program, const std::string
   if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
   if (path == "coverage" && name == "format") return {coverage::format_names.begin(), coverage::format_names.end()};
-  if ((path == "coverage" && name == "layers") || (path == "plot" && name == "layer")) {
-    std::vector<std::string> names;
-    for (const coverage::LayerKind& layer : coverage::layer_kinds) names.emplace_back(layer.name);
-    return names;
-  }
+  if ((path == "coverage" && name == "layers") || (path == "plot" && name == "layer")) return coverage::layer_names();
   if (path == "help" && name == "topic") return help_topics(program);
   if (name.ends_with("-material") || (path == "scene city" && name == "ground")) return material_names();
   return {};

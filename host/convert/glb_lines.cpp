@@ -15,7 +15,7 @@ uint8_t linear_byte(uint8_t srgb) {
   return static_cast<uint8_t>(std::lround(255 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4))));
 }
 
-GlbFile::Colour linear(const Rgb& srgb) {
+GlbFile::Colour linear(const Colour& srgb) {
   return {linear_byte(srgb[0]), linear_byte(srgb[1]), linear_byte(srgb[2]), 255};
 }
 

@@ -151,7 +151,7 @@ std::string data_of(const char* name, const std::string& value) {
 // Colours in KML are alpha, blue, green, red.
 void KmlWriter::put_styles() {
   for (size_t k = 0; k < gain_classes; ++k) {
-    const Rgb c = gain_colour((static_cast<double>(k) + 0.5) / gain_classes);
+    const Colour c = gain_colour((static_cast<double>(k) + 0.5) / gain_classes);
     put(
         fmt::format("<Style id=\"gain_{}\"><LineStyle><color>ff{:02x}{:02x}{:02x}</color><width>2</width></LineStyle>"
                     "</Style>\n",

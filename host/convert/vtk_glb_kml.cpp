@@ -15,22 +15,16 @@ std::vector<glm::dvec3> path_points(const SavedFrame& frame, size_t path) {
   return points;
 }
 
-Rgb gain_colour(double place) {
-  static constexpr std::array<Rgb, 8> stops{{{0x72, 0x01, 0xa8},
-                                             {0x9c, 0x17, 0x9e},
-                                             {0xbd, 0x37, 0x86},
-                                             {0xd8, 0x57, 0x6b},
-                                             {0xed, 0x79, 0x53},
-                                             {0xfb, 0x9f, 0x3a},
-                                             {0xfd, 0xca, 0x26},
-                                             {0xf0, 0xf9, 0x21}}};
-  const double at = std::clamp(place, 0.0, 1.0) * (stops.size() - 1);
-  const size_t i = std::min(static_cast<size_t>(at), stops.size() - 2);
-  const double part = at - static_cast<double>(i);
-  Rgb out;
-  for (size_t k = 0; k < 3; ++k)
-    out[k] = static_cast<uint8_t>(std::lround(stops[i][k] + (stops[i + 1][k] - stops[i][k]) * part));
-  return out;
+Colour gain_colour(double place) {
+  static constexpr std::array<Colour, 8> stops{{{0x72, 0x01, 0xa8},
+                                                {0x9c, 0x17, 0x9e},
+                                                {0xbd, 0x37, 0x86},
+                                                {0xd8, 0x57, 0x6b},
+                                                {0xed, 0x79, 0x53},
+                                                {0xfb, 0x9f, 0x3a},
+                                                {0xfd, 0xca, 0x26},
+                                                {0xf0, 0xf9, 0x21}}};
+  return colour_at(stops, place);
 }
 
 }  // namespace wavetracer

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <vector>
+#include "base/colours.hpp"
 #include "results/saved_run.hpp"
 #include "wavetracer/scene.hpp"
 
@@ -30,8 +31,6 @@ std::vector<glm::dvec3> path_points(const SavedFrame& frame, size_t path);
 inline glm::dvec3 placed(const SavedPose& pose, const Scene& model, const glm::dvec3& vertex) {
   return pose.position_m + pose.rotation * (model.origin_m + vertex);
 }
-
-using Rgb = std::array<uint8_t, 3>;  // sRGB
 
 // Maps gains to colours: the strongest path is the brightest; 60 dB below it or weaker is the darkest.
 class GainScale {
@@ -55,6 +54,6 @@ class GainScale {
   double strongest_db_ = -std::numeric_limits<double>::infinity();
 };
 
-Rgb gain_colour(double place);
+Colour gain_colour(double place);
 
 }  // namespace wavetracer

@@ -119,12 +119,16 @@ void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& ra
 
 }  // namespace
 
+std::vector<std::string> layer_names() {
+  std::vector<std::string> out;
+  for (const LayerKind& layer : layer_kinds) out.emplace_back(layer.name);
+  return out;
+}
+
 const LayerKind& layer_kind(const std::string& name) {
-  std::vector<std::string> known;
-  for (const LayerKind& layer : layer_kinds) {
+  for (const LayerKind& layer : layer_kinds)
     if (layer.name == name) return layer;
-    known.emplace_back(layer.name);
-  }
+  const std::vector<std::string> known = layer_names();
   throw ConfigError(fmt::format("\"{}\" is no layer of a map, there are {}{}", name, fmt::join(known, ", "),
                                 spelling_hint(name, known)));
 }

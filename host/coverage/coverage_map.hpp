@@ -55,6 +55,9 @@ inline constexpr std::array<LayerKind, 11> layer_kinds = {{
     {"paths", "", "number of paths", &Cell::paths, false, false},
 }};
 
+// Returns the names of all kinds, in their order.
+std::vector<std::string> layer_names();
+
 // Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
 const LayerKind& layer_kind(const std::string& name);
 

@@ -20,7 +20,7 @@ struct NamedProjection {
 // Returns what GeoTIFF needs for a PROJ string on WGS84: +proj=utm and +proj=tmerc. Throws InputError for others.
 NamedProjection named_projection(const std::string& proj);
 
-// Adds the offset of a georeference: coordinates of the projection, or those of the scene file without a georeference.
+// Coordinates are those of the projection, or, without a georeference, those of the scene file.
 struct MapPlace {
   double west_m = 0, north_m = 0;  // the corner
   glm::dvec2 step_m{0};            // width and height of a cell

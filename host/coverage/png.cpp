@@ -54,7 +54,7 @@ Palette palette_of(const LayerKind& layer, std::span<const double> values) {
   const std::span<const Colour> choices = choice_colours(layer);
   if (layer.of_choices()) return {{choices.begin(), choices.end()}, true, {}};
   Palette out{{}, false, colour_range(layer, values)};
-  for (uint32_t k = 0; k + 1 < colours; ++k) out.table.push_back(viridis_at(k / (colours - 2.0)));
+  for (uint32_t k = 0; k + 1 < colours; ++k) out.table.push_back(colour_at(viridis, k / (colours - 2.0)));
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 #include <string>
-#include "base/viridis.hpp"
+#include "base/colours.hpp"
 #include "coverage/map_place.hpp"
 
 namespace wavetracer::coverage {

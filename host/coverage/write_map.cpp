@@ -24,10 +24,11 @@ std::string server_name(const Map& map, size_t cell) {
   return map.transmitters[map.tx ? *map.tx : static_cast<size_t>(map.cells[cell].best_server)];
 }
 
-// Longitudes and latitudes of all cells in degrees.
-std::vector<glm::dvec2> degrees_of(const Map& map, const Georeference& georeference) {
-  const Projection projection(georeference);
+// Longitudes and latitudes of all cells in degrees; none without a georeference.
+std::vector<glm::dvec2> degrees_of(const Map& map, const std::optional<Georeference>& georeference) {
   std::vector<glm::dvec2> out;
+  if (!georeference) return out;
+  const Projection projection(*georeference);
   for (size_t cell = 0; cell < map.cells.size(); ++cell)
     out.push_back(projection.geographic({map.x_m(cell), map.y_m(cell)}));
   return out;
@@ -37,7 +38,7 @@ std::string npy(const std::vector<double>& values, const std::vector<size_t>& sh
   return npy_header("<f8", shape) + std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size());
 }
 
-void add_arrays(const Map& map, const std::optional<Georeference>& georeference, Files& files) {
+void add_arrays(const Map& map, std::span<const glm::dvec2> degrees, Files& files) {
   const std::vector<size_t> shape = {map.rows, map.columns};
   std::vector<double> x_m, y_m, longitudes, latitudes;
   for (uint32_t column = 0; column < map.columns; ++column) x_m.push_back(map.x_m(column));
@@ -46,8 +47,8 @@ void add_arrays(const Map& map, const std::optional<Georeference>& georeference,
   files["y_m.npy"] = npy(y_m, {y_m.size()});
   files["z_m.npy"] = npy(map.z_m, shape);
   for (const LayerKind* layer : map.layers) files[std::string(layer->name) + ".npy"] = npy(map.values(*layer), shape);
-  if (!georeference) return;
-  for (const glm::dvec2& place : degrees_of(map, *georeference)) {
+  if (degrees.empty()) return;
+  for (const glm::dvec2& place : degrees) {
     longitudes.push_back(place.x);
     latitudes.push_back(place.y);
   }
@@ -77,8 +78,7 @@ std::string description(const Map& map, const std::optional<Georeference>& geore
     nlohmann::ordered_json& row = json["layers"][std::string(layer->name)];
     row = {{"unit", layer->unit}, {"about", layer->words}};
     if (layer->of_choices()) {
-      for (const Colour& c : choice_colours(*layer))
-        row["colours"].push_back(fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]));
+      for (const Colour& c : choice_colours(*layer)) row["colours"].push_back(hex(c));
     } else {
       const ColourRange range = colour_range(*layer, map.values(*layer));
       row["dark_to_bright"] = {range.low, range.high};
@@ -90,13 +90,9 @@ std::string description(const Map& map, const std::optional<Georeference>& geore
 
 }  // namespace
 
-std::string table_of(const Map& map, const std::optional<Georeference>& georeference) {
+std::string table_of(const Map& map, std::span<const glm::dvec2> degrees) {
   std::vector<std::string> names = {"ix", "iy", "x_m", "y_m", "z_m"};
-  std::vector<glm::dvec2> degrees;
-  if (georeference) {
-    names.insert(names.end(), {"lon_deg", "lat_deg"});
-    degrees = degrees_of(map, *georeference);
-  }
+  if (!degrees.empty()) names.insert(names.end(), {"lon_deg", "lat_deg"});
   for (const LayerKind* layer : map.layers) names.emplace_back(layer->name);
   names.emplace_back("tx");
   Csv table(names);
@@ -104,7 +100,7 @@ std::string table_of(const Map& map, const std::optional<Georeference>& georefer
   for (size_t cell = 0; cell < map.cells.size(); ++cell) {
     std::vector<std::string> row = {std::to_string(cell % map.columns), std::to_string(cell / map.columns)};
     for (const double value : {map.x_m(cell), map.y_m(cell), map.z_m[cell]}) row.push_back(text(value));
-    if (georeference) row.insert(row.end(), {text(degrees[cell].x), text(degrees[cell].y)});
+    if (!degrees.empty()) row.insert(row.end(), {text(degrees[cell].x), text(degrees[cell].y)});
     for (const LayerKind* layer : map.layers) row.push_back(text(map.cells[cell].*layer->value));
     row.push_back(server_name(map, cell));
     table.add_texts(row);
@@ -117,8 +113,10 @@ std::vector<fs::path> write_map(const Map& map, const fs::path& folder, const st
   const auto wanted = [&](const char* format) { return std::ranges::find(formats, format) != formats.end(); };
   const MapPlace place = place_of(map, georeference);
   Files files = {{"coverage.json", description(map, georeference)}};
-  if (wanted("csv")) files["coverage.csv"] = table_of(map, georeference);
-  if (wanted("npy")) add_arrays(map, georeference, files);
+  std::vector<glm::dvec2> degrees;
+  if (wanted("csv") || wanted("npy")) degrees = degrees_of(map, georeference);
+  if (wanted("csv")) files["coverage.csv"] = table_of(map, degrees);
+  if (wanted("npy")) add_arrays(map, degrees, files);
   for (const LayerKind* layer : map.layers) {
     const std::string name(layer->name);
     const std::vector<double> values = map.values(*layer);

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +15,10 @@ namespace wavetracer::coverage {
 
 inline constexpr std::array<std::string_view, 4> format_names = {"csv", "npy", "geotiff", "png"};
 
-// Returns the table of all cells, row by row from the south: ix, iy, x_m, y_m, z_m, with a georeference lon_deg and
-// lat_deg, then a column for each layer, and `tx`, the name of the server.
-std::string table_of(const Map& map, const std::optional<Georeference>& georeference);
+// Returns the table of all cells, row by row from the south: ix, iy, x_m, y_m, z_m, lon_deg and lat_deg if they are
+// given, then a column for each layer, and `tx`, the name of the server. degrees: longitude and latitude of each cell,
+// or nothing.
+std::string table_of(const Map& map, std::span<const glm::dvec2> degrees);
 
 // Writes the files into the folder, where they replace those of the same names, and coverage.json, which says what they
 // have. formats: of format_names. Throws InputError if the georeference cannot be used, RuntimeError if a file cannot

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "base/colours.hpp"
 #include "base/csv.hpp"
 #include "base/times.hpp"
-#include "base/viridis.hpp"
 #include "coverage/png.hpp"
 #include "coverage/write_map.hpp"
 #include "plots/gnuplot.hpp"
@@ -28,8 +28,6 @@ std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std:
   return table.text();
 }
 
-std::string hex(const Colour& colour) { return fmt::format("'#{:02x}{:02x}{:02x}'", colour[0], colour[1], colour[2]); }
-
 std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio) {
   const std::string noise =
       layer.of_powers && radio.bandwidth_hz ? fmt::format(", noise {:.1f} dBm", noise_dbm(radio)) : "";
@@ -40,7 +38,7 @@ std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio)
 std::string choice_colours(const std::vector<std::string>& names, std::span<const Colour> colours) {
   std::string steps, marks;
   for (size_t k = 0; k < names.size(); ++k) {
-    const std::string colour = hex(colours[k % colours.size()]), between = k == 0 ? "" : ", ";
+    const std::string colour = "'" + hex(colours[k % colours.size()]) + "'", between = k == 0 ? "" : ", ";
     steps += fmt::format("{}{} {}, {} {}", between, k, colour, k + 1, colour);
     marks += fmt::format("{}'{}' {}", between, quoted(names[k]), k);
   }

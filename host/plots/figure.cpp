@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "base/colours.hpp"
 #include "base/output_place.hpp"
 #include "base/pending_file.hpp"
-#include "base/viridis.hpp"
 #include "plots/gnuplot.hpp"
 
 namespace wavetracer::plots {
@@ -52,10 +52,8 @@ std::string script(const Figure& figure, Format format) {
 
 std::string palette() {
   std::string steps;
-  for (size_t k = 0; k < viridis.size(); ++k) {
-    const Colour& colour = viridis[viridis.size() - 1 - k];
-    steps += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", k == 0 ? "" : ", ", k, colour[0], colour[1], colour[2]);
-  }
+  for (size_t k = 0; k < viridis.size(); ++k)
+    steps += fmt::format("{}{} '{}'", k == 0 ? "" : ", ", k, hex(viridis[viridis.size() - 1 - k]));
   return fmt::format("set palette defined ({})\n", steps);
 }
 

@@ -30,7 +30,7 @@ struct Drawn {
   std::string problem;  // if there is no picture, the reason and what to do; else empty
 };
 
-// The colours of numbers (base/viridis.hpp), from bright and small to dark and large, so that the largest are never
+// The colours of numbers (base/colours.hpp), from bright and small to dark and large, so that the largest are never
 // pale on white, as on the light page of the viewer. Maps, which fill their area, have them the other way round.
 std::string palette();
 

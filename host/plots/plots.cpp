@@ -64,10 +64,7 @@ class Plotter {
       if (std::ranges::find(known, name) == known.end())
         throw ConfigError(fmt::format("--what \"{}\" is no plot, there are {}{}", name, fmt::join(known, ", "),
                                       spelling_hint(name, known)));
-    if (!choice_.grid.empty() && std::ranges::find(grids_, choice_.grid) == grids_.end())
-      throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}",
-                                    choice_.grid, grids_.empty() ? "none" : fmt::format("{}", fmt::join(grids_, ", ")),
-                                    spelling_hint(choice_.grid, grids_)));
+    if (!choice_.grid.empty()) find_grid(world_.config.receiver_grids, choice_.grid);
     if (run_.path_count() == 0 && choice_.what != std::vector<std::string>{"rays"})
       throw InputError(
           fmt::format("{}: the run found no path at all, so there is nothing to plot; "

@@ -57,11 +57,10 @@ void add_path_gains(const Paths& paths, const std::vector<size_t>& row_of, doubl
 }
 
 // Sets K factors. paths.h5 may lack the share `left_out` of the power of all paths of a link.
-void add_k_factors(const Paths& paths, const std::vector<size_t>& row_of, const std::vector<double>& left_out,
-                   std::vector<LinkRow>& rows) {
+void add_k_factors(const Paths& paths, const std::vector<size_t>& row_of, const std::vector<double>& path_power,
+                   const std::vector<double>& left_out, std::vector<LinkRow>& rows) {
   std::vector<double> direct(rows.size(), 0), others(rows.size(), 0);
-  for (size_t i = 0; i < paths.size(); ++i)
-    (paths.depth[i] == 0 ? direct : others)[row_of[i]] += std::pow(10.0, paths.gain_db[i] / 10);
+  for (size_t i = 0; i < paths.size(); ++i) (paths.depth[i] == 0 ? direct : others)[row_of[i]] += path_power[i];
   for (size_t k = 0; k < rows.size(); ++k) {
     const double gone = left_out[k] * (direct[k] + others[k]) / (1 - left_out[k]);
     if (direct[k] > 0) rows[k].k_factor = direct[k] / (others[k] + gone);
@@ -121,7 +120,7 @@ std::vector<LinkRow> link_rows(const SavedFrame& frame, const LinkTable& table, 
     if (power[k] > 0) rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
   std::vector<double> left_out(rows.size(), 0);
   take_table(frame, table, first_link, rows, left_out);
-  add_k_factors(paths, row_of, left_out, rows);
+  add_k_factors(paths, row_of, path_power, left_out, rows);
   return rows;
 }
 

@@ -2,6 +2,7 @@
 // Names and numbers that a run does not have are errors that say what is near.
 #include "results/run_choice.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include "base/spelling.hpp"
 #include "wavetracer/error.hpp"
@@ -31,6 +32,17 @@ size_t find_frame(const SavedRun& run, uint32_t number) {
     if (run.number(row) == number) return row;
   throw ConfigError(
       fmt::format("--frame {}: the run has frames {} to {}", number, run.number(0), run.number(run.frame_count() - 1)));
+}
+
+const ReceiverGridConfig& find_grid(const std::vector<ReceiverGridConfig>& grids, const std::string& name) {
+  std::vector<std::string> known;
+  for (const ReceiverGridConfig& grid : grids) {
+    if (grid.name == name) return grid;
+    known.push_back(grid.name);
+  }
+  throw ConfigError(fmt::format("--grid \"{}\" is not the name of a [[receiver_grid]] of the run, which has {}{}", name,
+                                known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")),
+                                spelling_hint(name, known)));
 }
 
 }  // namespace wavetracer

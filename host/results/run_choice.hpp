@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the ends and frames of a run that a user names.
+// Finds the ends, frames and grids of a run that a user names.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,5 +16,9 @@ std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::s
 
 // Returns the row of a frame by its number. Throws ConfigError.
 size_t find_frame(const SavedRun& run, uint32_t number);
+
+// Returns the grid of this name, of those of the run's configuration. Throws ConfigError, which names the option
+// --grid.
+const ReceiverGridConfig& find_grid(const std::vector<ReceiverGridConfig>& grids, const std::string& name);
 
 }  // namespace wavetracer
