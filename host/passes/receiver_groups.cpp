@@ -27,17 +27,36 @@ Extent extent_of(std::span<const uint32_t> points, const std::vector<float>& pos
 }
 
 void halve(std::span<uint32_t> points, const std::vector<float>& positions) {
-  const size_t groups = (points.size() + ReceiverGroups::size - 1) / ReceiverGroups::size;
-  if (groups <= 1) return;
+  constexpr size_t group = ReceiverGroups::size, area = group * group;
+  if (points.size() <= group) return;
   const Extent extent = extent_of(points, positions);
   size_t longest = 0;
   for (size_t axis = 1; axis < 3; ++axis)
     if (extent.upper[axis] - extent.lower[axis] > extent.upper[longest] - extent.lower[longest]) longest = axis;
-  const size_t half = groups / 2 * ReceiverGroups::size;
+  const size_t unit = points.size() > area ? area : group;
+  const size_t half = (points.size() + unit - 1) / unit / 2 * unit;
   std::ranges::nth_element(points, points.begin() + static_cast<ptrdiff_t>(half), {},
                            [&](uint32_t point) { return positions[3 * size_t{point} + longest]; });
   halve(points.first(half), positions);
   halve(points.subspan(half), positions);
+}
+
+// Returns six planes: for every `each` points the middle of their box, and half of its size. Boxes are added until
+// their number is a multiple of ReceiverGroups::together.
+std::vector<float> box_planes(std::span<const uint32_t> points, size_t each, const std::vector<float>& positions) {
+  constexpr size_t step = ReceiverGroups::together;
+  const size_t count = (points.size() + each - 1) / each, stride = (count + step - 1) / step * step;
+  std::vector<float> planes(6 * stride, 0.0f);
+  for (size_t box = 0; box < count; ++box) {
+    const size_t first = box * each;
+    const Extent extent = extent_of(points.subspan(first, std::min(each, points.size() - first)), positions);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float middle = 0.5f * (extent.lower[axis] + extent.upper[axis]);
+      planes[axis * stride + box] = middle;
+      planes[(3 + axis) * stride + box] = std::max(extent.upper[axis] - middle, middle - extent.lower[axis]);
+    }
+  }
+  return planes;
 }
 
 }  // namespace
@@ -66,22 +85,14 @@ void ReceiverGroups::set_places(gpu::Context& context) {
   constexpr size_t step = size_t{size} * together;
   at.resize((at.size() + step - 1) / step * step, at.empty() ? 0 : at.back());  // no link names the added places
   capacity = static_cast<uint32_t>(at.size());
-  std::vector<float> planes(3 * at.size()), box_planes(6 * at.size() / size);
-  const size_t groups = at.size() / size;
+  std::vector<float> planes(3 * at.size());
   for (size_t axis = 0; axis < 3; ++axis)
     for (size_t place = 0; place < at.size(); ++place)
       planes[axis * at.size() + place] = positions_[3 * size_t{at[place]} + axis];
-  for (size_t group = 0; group < groups; ++group) {
-    const Extent extent = extent_of(std::span(at).subspan(group * size, size), positions_);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const float middle = 0.5f * (extent.lower[axis] + extent.upper[axis]);
-      box_planes[axis * groups + group] = middle;
-      box_planes[(3 + axis) * groups + group] = std::max(extent.upper[axis] - middle, middle - extent.lower[axis]);
-    }
-  }
   upload(context, order, at, "receivers in groups");
   upload(context, places, planes, "places of receivers");
-  upload(context, boxes, box_planes, "boxes of receivers");
+  upload(context, boxes, box_planes(at, size, positions_), "boxes of receivers");
+  upload(context, areas, box_planes(at, size_t{size} * size, positions_), "areas of receivers");
 }
 
 void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,

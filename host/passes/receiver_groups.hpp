@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receivers in groups of 16 that are close together, each in its box: receivers that a sequence surely does not reach
-// are skipped group by group.
+// Receivers in groups of 16 that are close together, and areas of 16 groups, each in its box: receivers that a sequence
+// surely does not reach are skipped area by area, and group by group.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,11 +12,12 @@
 namespace wavetracer {
 
 struct ReceiverGroups {
-  static constexpr uint32_t size = 16;     // places of a group, one each for a receiver
-  static constexpr uint32_t together = 8;  // groups that are tested at once; their number is a multiple of it
+  static constexpr uint32_t size = 16;     // places of a group, one each for a receiver; and groups of an area
+  static constexpr uint32_t together = 8;  // boxes that are tested at once; their numbers are multiples of it
   gpu::Buffer<uint32_t> order;             // the receiver at each place
   gpu::Buffer<float> places;               // three planes: x, y and z, recentred metres
   gpu::Buffer<float> boxes;                // six planes: for each group the middle of its box, and half of its size
+  gpu::Buffer<float> areas;                // the same for each area; added areas have no groups
   gpu::Buffer<uint16_t> links;             // bit b of word tx * groups + g: place 16 g + b
   uint32_t capacity = 0;                   // places
 
@@ -46,7 +47,7 @@ std::vector<uint16_t> link_bits(uint32_t transmitter_count, size_t groups, const
 }
 
 // The numbers of points, which have three coordinates each, group by group: halved along the longest side of their box
-// until 16 are left, so that all groups except the last one are full.
+// until 16 are left. All areas and all groups except the last ones are full, and areas are halves of what they lie in.
 std::vector<uint32_t> grouped(const std::vector<float>& positions);
 
 }  // namespace wavetracer

@@ -77,6 +77,9 @@ typedef struct {
   wt_uint transmitter_count;
   wt_uint max_reflections;
   wt_uint capacity;
+  // GPUs: a work-group takes this many sequences with one of the parts of the receivers.
+  wt_uint nodes_together;
+  wt_uint parts;
 } wt_candidates_arguments;
 
 // Numbers for solve and wedge_solve. Here and below a length of a list is a bound where a counter holds the true
