@@ -33,10 +33,9 @@ function(wavetracer_linked_folders out)
   set(${out} ${seen} PARENT_SCOPE)
 endfunction()
 
-# wavetracer_unity(TARGET): its sources are compiled several at a time, which takes a third of the time. So names in
-# anonymous namespaces differ within a folder. Which sources meet changes when a file is added: so the build for the
-# sanitizers compiles a folder of host/ as one. Not CMake's own unity files: those name sources by the paths of this
-# clone, and ccache would have to preprocess each in every other one.
+# wavetracer_unity(TARGET): its sources are compiled several at a time, those of a folder of host/ as one, which takes a
+# quarter of the time. So names in anonymous namespaces differ within a folder. Not CMake's own unity files: those name
+# sources by the paths of this clone, and ccache would have to preprocess each in every other one.
 function(wavetracer_unity target)
   if(NOT WAVETRACER_UNITY)
     return()
@@ -58,10 +57,7 @@ function(wavetracer_write_unity target)
   endif()
   set(batch 8)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/host/")
-    set(batch 20)
-    if(WAVETRACER_SANITIZE)
-      set(batch 1000)
-    endif()
+    set(batch 1000)  # a folder is one unit: what its sources make of the same templates is compiled once
   endif()
   get_target_property(sources ${target} SOURCES)
   set(compiled "")
@@ -100,20 +96,26 @@ function(wavetracer_write_unity target)
   set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
-# wavetracer_optimization(TARGET): sanitizer builds optimize only code that computes for long. Release builds optimize
-# less where compiling takes long and running does not: tests, and folders that read options, write reports and pages.
-# Results do not depend on it, since -ffp-contract is off.
-function(wavetracer_optimization target)
+# wavetracer_optimization_level(OUT TARGET): finds the option of a target, or an empty text. Sanitizer builds optimize only
+# code that computes for long, release builds leave other code, and tests, at -O1, which compiles in two thirds of the
+# time. Results do not depend on it, since -ffp-contract is off.
+function(wavetracer_optimization_level out target)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(option "")
   if(WAVETRACER_SANITIZE AND folder MATCHES "^(imports|motion|scene|accel|radio|reference|output|results|viewer)$")
     set(option -O2)
   elseif(CMAKE_BUILD_TYPE STREQUAL Release)
-    if(target MATCHES "^test_" OR (target MATCHES "^wavetracer" AND
-       folder MATCHES "^(config|imports|maps|jobs|study|coverage|plots|accuracy|results|viewer|convert|app)$"))
+    if(target MATCHES "^(test|replay)_" OR
+       (target MATCHES "^wavetracer" AND NOT folder MATCHES "^(base|accel|radio|passes|reference)$"))
       set(option -O1)
     endif()
   endif()
+  set(${out} "${option}" PARENT_SCOPE)
+endfunction()
+
+# wavetracer_optimization(TARGET): compiles it with that option.
+function(wavetracer_optimization target)
+  wavetracer_optimization_level(option ${target})
   target_compile_options(${target} PRIVATE ${option})
 endfunction()
 

@@ -27,7 +27,7 @@ namespace wavetracer {
 namespace {
 
 using glm::dvec3;
-constexpr uint32_t none = 0xFFFFFFFFu;
+constexpr uint32_t unmoved = 0xFFFFFFFFu;
 // Rays on a flat Earth reach no farther: a larger scene has a wrong unit or a stray vertex.
 constexpr double largest_extent_m = 1e6;
 // Corners within 1 mm are merged, and points within 0.1 mm of a plane lie on it. In scenes smaller than the first
@@ -49,7 +49,7 @@ Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
   for (size_t m = 0; m < raw.meshes.size(); ++m)
     if (!is_volume(m)) corners += raw.meshes[m].triangles.size() * 3;
   if (corners == 0) throw InputError(fmt::format("{}: the scene has no triangles", raw.file));
-  if (corners >= none)
+  if (corners >= unmoved)
     throw InputError(
         fmt::format("{}: {} triangles are too many for 32-bit indices: make the scene smaller", raw.file, corners / 3));
   Soup soup;
@@ -59,10 +59,10 @@ Soup gather(const RawScene& raw, const ResolvedMaterials& resolved) {
   for (size_t m = 0; m < raw.meshes.size(); ++m) {
     if (is_volume(m)) continue;
     const RawMesh& mesh = raw.meshes[m];
-    moved.assign(mesh.vertices.size(), none);
+    moved.assign(mesh.vertices.size(), unmoved);
     for (Triangle t : mesh.triangles) {
       for (uint32_t& v : t) {
-        if (moved[v] == none) {
+        if (moved[v] == unmoved) {
           moved[v] = static_cast<uint32_t>(soup.vertices.size());
           soup.vertices.push_back(mesh.vertices[v]);
           soup.rounding_m.push_back(mesh.rounding);
