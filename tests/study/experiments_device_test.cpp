@@ -202,12 +202,21 @@ TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with 
   CHECK_FALSE(contains(run.err, "gnuplot failed"));
 }
 
-TEST_CASE("thesis: every figure on one page without links to elsewhere, also what failed") {
+TEST_CASE("thesis: every figure of vehicles alone on one page without links to elsewhere, also what failed") {
   if (!device_present()) return;
   const Folder folder;
-  const Outcome run =
-      run_program({"thesis", "all", "-c", folder.file("b.toml", street), "-o", folder.path("out"), "--rays",
-                   "1000:1000", "--repeat", "1", "--frames", "2", "--set", "trace.max_depth=1"});
+  const std::string config =
+      folder.file("b.toml",
+                  "scene.generate = \"--blocks 1\"\ntrace.max_depth = 1\n"
+                  "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0], [1, 20, -53, 0]]\n"
+                  "[[track]]\nid = \"b\"\nwaypoints = [[0, 30, -53, 0], [1, 40, -53, 0]]\n[time]\nstep_s = 0.5\n"
+                  "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n");
+  const Outcome wrong =
+      run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
+  CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
+  CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
+  const Outcome run = run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
+                                   "--repeat", "1", "--frames", "2"});
   CAPTURE(run.err);
   REQUIRE(run.code == 5);  // some figures failed
   const std::string page = contents(folder.path("out/thesis.html"));
@@ -223,6 +232,7 @@ TEST_CASE("thesis: every figure on one page without links to elsewhere, also wha
   // Each is said in the table of verdicts and in its section.
   CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2 * 4);
   CHECK(occurrences(page, "failed: ") == 2 * 4);
+  CHECK_FALSE(contains(page, "failed: " + config));
   CHECK(contains(run.out, "18 of 22 figures are whole"));
   if (contains(run.err, "gnuplot is not installed")) return;
   CHECK(occurrences(page, "<svg") == 19);  // one of speed against error

@@ -8,7 +8,6 @@
 #include "app/program.hpp"
 #include "study/experiment.hpp"
 #include "study/squeezed.hpp"
-#include "study/thesis.hpp"
 
 using namespace wavetracer::study;
 
@@ -80,7 +79,8 @@ Outcome bench(const Experiment& experiment, const Folder& folder, const std::str
   return run_program(words);
 }
 
-// The first of the experiments that share its study; the test of `thesis` below draws them all.
+// The first of the experiments that share its study; the test of `thesis all` (experiments_device_test.cpp) draws them
+// all.
 bool stands_for_its_study(const Experiment& experiment) {
   for (const Experiment& other : wavetracer::study::experiments())
     if (other.study() == experiment.study()) return other.name == experiment.name;
@@ -224,25 +224,6 @@ TEST_CASE("a figure of orders ends when its minutes are up, and says which numbe
                                    "1000:5000", "--frames", "2", "--repeat", "1"});
   CHECK(all.code == 0);
   CHECK_FALSE(contains(contents(folder.path("out/figure-6.18.md")), "left out"));
-}
-
-TEST_CASE("thesis: a configuration of vehicles alone has all figures that are measured at so few rays") {
-  if (!device_present()) return;
-  const Folder folder;
-  const std::string config = folder.file("a.toml", scene + traffic + mount);
-  const Outcome wrong =
-      run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
-  CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
-  CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
-  const Outcome outcome = run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
-                                       "--repeat", "1", "--frames", "1"});
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 5);
-  const std::string page = contents(folder.path("out/thesis.html"));
-  for (const Experiment* experiment : thesis_experiments())
-    CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
-  CHECK_FALSE(contains(page, "failed: " + config));
-  CHECK(contains(outcome.out, "18 of 22 figures are whole"));
 }
 
 TEST_CASE("innerframe: frames that are each alone, and a page that says how many groups were traced") {
