@@ -106,7 +106,7 @@ function(wavetracer_optimization_level out target)
     set(option -O2)
   elseif(CMAKE_BUILD_TYPE STREQUAL Release)
     if(target MATCHES "^(test|replay)_" OR
-       (target MATCHES "^wavetracer" AND NOT folder MATCHES "^(base|accel|radio|passes|reference)$"))
+       (target MATCHES "^wavetracer" AND NOT folder MATCHES "^(base|gpu|motion|accel|radio|passes|simulation|reference)$"))
       set(option -O1)
     endif()
   endif()
