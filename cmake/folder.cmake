@@ -33,9 +33,9 @@ function(wavetracer_linked_folders out)
   set(${out} ${seen} PARENT_SCOPE)
 endfunction()
 
-# wavetracer_unity(TARGET): its sources are compiled several at a time, those of a folder of host/ as one, which takes a
-# quarter of the time. So names in anonymous namespaces differ within a folder. Not CMake's own unity files: those name
-# sources by the paths of this clone, and ccache would have to preprocess each in every other one.
+# wavetracer_unity(TARGET): its sources are compiled several at a time, those of a folder of host/ as one, since each unit
+# compiles the templates that it uses. So names in anonymous namespaces differ within a folder. Not CMake's own unity
+# files: those name sources by the paths of this clone, and ccache would have to preprocess each in every other one.
 function(wavetracer_unity target)
   if(NOT WAVETRACER_UNITY)
     return()
@@ -57,7 +57,7 @@ function(wavetracer_write_unity target)
   endif()
   set(batch 8)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/host/")
-    set(batch 1000)  # a folder is one unit: what its sources make of the same templates is compiled once
+    set(batch 1000)  # a folder is one unit
   endif()
   get_target_property(sources ${target} SOURCES)
   set(compiled "")
@@ -96,17 +96,17 @@ function(wavetracer_write_unity target)
   set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
-# wavetracer_optimization_level(OUT TARGET): finds the option of a target, or an empty text. Sanitizer builds optimize only
-# code that computes for long, release builds leave other code, and tests, at -O1, which compiles in two thirds of the
-# time. Results do not depend on it, since -ffp-contract is off.
+# wavetracer_optimization_level(OUT TARGET): finds the option of a target, or an empty text. Sanitizer builds optimize
+# only code that computes for long. Release builds compile other code, and tests, with -O1, which takes two thirds of the
+# time of -O3. Results do not depend on it, since -ffp-contract is off.
 function(wavetracer_optimization_level out target)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(option "")
   if(WAVETRACER_SANITIZE AND folder MATCHES "^(imports|motion|scene|accel|radio|reference|output|results|viewer)$")
     set(option -O2)
   elseif(CMAKE_BUILD_TYPE STREQUAL Release)
-    if(target MATCHES "^(test|replay)_" OR
-       (target MATCHES "^wavetracer" AND NOT folder MATCHES "^(base|gpu|motion|accel|radio|passes|simulation|reference)$"))
+    set(computing base gpu motion accel radio passes simulation reference)
+    if(target MATCHES "^(test|replay)_" OR (target MATCHES "^wavetracer" AND NOT folder IN_LIST computing))
       set(option -O1)
     endif()
   endif()

@@ -19,8 +19,9 @@ namespace {
 // Local memory for the sequences of a work-group, and of one sequence: its images, its surfaces, the sides of its beam
 // and 160 bytes more.
 constexpr uint32_t group_bytes = 16 << 10;
+constexpr uint32_t beam_mirrors = 8;  // the most mirrors whose sides a beam has, see kernels/lib/beam.clh
 uint32_t sequence_bytes(uint32_t reflections) {
-  return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 64 * std::min(reflections, 8u) + 160;
+  return 32 * (reflections + 1) + (4 * reflections + 31) / 32 * 32 + 64 * std::min(reflections, beam_mirrors) + 160;
 }
 
 // A word holds the place of a receiver and the number of a sequence in its work-group (kernels/paths/candidates.cl).

@@ -20,8 +20,6 @@ struct Work {
 
   // The work-items for this many elements; the last one may have fewer.
   gpu::Range range(size_t elements) const { return {(elements + per_item - 1) / per_item, group}; }
-  // The same where the work-items of a group take per_item elements together.
-  gpu::Range groups(size_t elements) const { return {(elements + per_item - 1) / per_item * group, group}; }
   // per_item in the form of a kernel's build option.
   std::string option() const { return std::to_string(per_item) + "u"; }
 };

@@ -48,7 +48,7 @@ std::string block_header(int number, const char* name = "Entity_Name") {
   return out;
 }
 
-std::string file_header(int entities) {
+std::string header(int entities) {
   std::string out =
       "esmini GIT REV: v2.40.1-0-b5e5d1b\nesmini GIT TAG: v2.40.1\nesmini GIT BRANCH: tags/v2.40.1^0\n"
       "esmini BUILD VERSION: N/A - client build\nScenario File Name: ../resources/xosc/cut-in.xosc\n";
@@ -69,10 +69,9 @@ std::string block(const std::string& name, double speed, double x, double y, dou
 }  // namespace
 
 TEST_CASE("the log of esmini: entities by name, the middle of their boxes, sizes") {
-  const std::string content = file_header(2) + "0, 0.000000, " + block("Ego", 10, 0, 0, 0) +
-                              block("Other", 5, 50, 3, pi) + "\n1, 0.100000, " + block("Other", 5, 49.5, 3, pi) +
-                              "\n2, 0.200000, " + block("Other", 5, 49, 3, pi) + block("New", 0, 7, 7, pi / 2, 0.1) +
-                              "\n";
+  const std::string content = header(2) + "0, 0.000000, " + block("Ego", 10, 0, 0, 0) + block("Other", 5, 50, 3, pi) +
+                              "\n1, 0.100000, " + block("Other", 5, 49.5, 3, pi) + "\n2, 0.200000, " +
+                              block("Other", 5, 49, 3, pi) + block("New", 0, 7, 7, pi / 2, 0.1) + "\n";
   const Trajectories t = read_text(content, {}, "sim.csv");
   REQUIRE(t.tracks.size() == 3);
   CHECK(t.tracks[0].id == "Ego");
@@ -125,12 +124,11 @@ TEST_CASE("what is wrong with a log or a recording is said with its line") {
   check("esmini GIT REV: a\n", "has no line that begins with 'Index [-]'");
   check("Index [-] , TimeStamp [s] , #1 Entity_Name [-] , \n",
         "sim.csv:1: the header has no column '#1 Current_Speed'");
-  check(file_header(1) + "0, x, " + block("Ego", 1, 2, 3, 0),
-        "sim.csv:8: column 2 (TimeStamp): 'x' is not a finite number");
-  check(file_header(1) + "0, 0, " + block("Ego", 1, 2, 3, std::nan("")),
+  check(header(1) + "0, x, " + block("Ego", 1, 2, 3, 0), "sim.csv:8: column 2 (TimeStamp): 'x' is not a finite number");
+  check(header(1) + "0, 0, " + block("Ego", 1, 2, 3, std::nan("")),
         "(World_Heading_Angle): 'nan' is not a finite number");
-  check(file_header(1) + "0, 0, \n", "the file contains no vehicle");
-  check(file_header(1) + "0\n", "sim.csv:8: the row has 1 cells, and so no time");
+  check(header(1) + "0, 0, \n", "the file contains no vehicle");
+  check(header(1) + "0\n", "sim.csv:8: the row has 1 cells, and so no time");
   check("time, id, name, x, y, z, h, p, r\n", "the header has no column 'speed'");
   check("time, id, name, x, y, z, h, p, r, speed\n1, 0, a, 1\n", "sim.csv:2: the row has 4 cells, the header 10");
 }

@@ -24,15 +24,6 @@ std::vector<Quad> street(const glm::dvec3& origin) {
   return quads;
 }
 
-std::vector<glm::dvec3> images_of(const std::vector<Quad>& quads, glm::dvec3 at, const std::vector<uint32_t>& chain) {
-  std::vector<glm::dvec3> images{at};
-  for (const uint32_t s : chain) {
-    const glm::dvec3 n = normal_of(quads[s]);
-    images.push_back(at -= 2 * glm::dot(n, at - quads[s].corner) * n);
-  }
-  return images;
-}
-
 double sum_of_sizes(const glm::dvec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
 
 // Is every reflection on the way to the receiver in the box of its rectangle, by nine tenths of the margins that the

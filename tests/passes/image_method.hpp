@@ -18,6 +18,17 @@ using reference::Quad;
 
 inline glm::dvec3 normal_of(const Quad& quad) { return glm::normalize(glm::cross(quad.u, quad.v)); }
 
+// Returns the transmitter and its images, one behind each mirror of the sequence.
+inline std::vector<glm::dvec3> images_of(const std::vector<Quad>& quads, const glm::dvec3& from,
+                                         const std::vector<uint32_t>& sequence) {
+  std::vector<glm::dvec3> images{from};
+  for (const uint32_t s : sequence) {
+    const glm::dvec3 n = normal_of(quads[s]), at = images.back();
+    images.push_back(at - 2 * glm::dot(n, at - quads[s].corner) * n);
+  }
+  return images;
+}
+
 // Returns the reflection points, or nothing if one lies outside its parallelogram or a leg comes through from behind.
 inline std::optional<std::vector<glm::dvec3>> image_method(const std::vector<Quad>& quads, const glm::dvec3& from,
                                                            const std::vector<uint32_t>& sequence,
@@ -25,9 +36,7 @@ inline std::optional<std::vector<glm::dvec3>> image_method(const std::vector<Qua
   const auto height = [&](uint32_t s, const glm::dvec3& p) {
     return glm::dot(normal_of(quads[s]), p - quads[s].corner);
   };
-  std::vector<glm::dvec3> images{from};
-  for (const uint32_t s : sequence)
-    images.push_back(images.back() - 2 * height(s, images.back()) * normal_of(quads[s]));
+  const std::vector<glm::dvec3> images = images_of(quads, from, sequence);
   std::vector<glm::dvec3> points(sequence.size());
   glm::dvec3 target = to;
   for (size_t k = sequence.size(); k-- > 0;) {

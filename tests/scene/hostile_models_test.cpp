@@ -27,13 +27,13 @@ class OpeningCount {
     // Equal events in a row are merged: so each opening is separated from the next one by a closing.
     REQUIRE(inotify_add_watch(descriptor_, path.c_str(), IN_OPEN | IN_CLOSE) >= 0);
   }
-  ~OpeningCount() { ::close(descriptor_); }
+  ~OpeningCount() { close(descriptor_); }
   OpeningCount(const OpeningCount&) = delete;
   OpeningCount& operator=(const OpeningCount&) = delete;
 
   size_t count() {
     alignas(inotify_event) std::array<char, 4096> buffer{};
-    for (ssize_t size = 0; (size = ::read(descriptor_, buffer.data(), buffer.size())) > 0;)
+    for (ssize_t size = 0; (size = read(descriptor_, buffer.data(), buffer.size())) > 0;)
       for (size_t at = 0; at < static_cast<size_t>(size);) {
         inotify_event event{};
         std::memcpy(&event, buffer.data() + at, sizeof event);

@@ -10,19 +10,10 @@
 #include <sstream>
 #include "app/gate.hpp"
 #include "study/experiment_program.hpp"
+#include "study/occurrences.hpp"
 #include "study/squeezed.hpp"
 
 using namespace experiment_program;
-
-namespace {
-
-size_t occurrences(const std::string& text, const std::string& part) {
-  size_t count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
-  return count;
-}
-
-}  // namespace
 
 TEST_CASE("thesis: errors say what is wrong before anything is measured") {
   const Folder folder;
@@ -200,41 +191,4 @@ TEST_CASE("figure-6.12: the first setting has no error, and so has a cache with 
     CHECK(number(row.at("spurious_share")) == 0);
   }
   CHECK_FALSE(contains(run.err, "gnuplot failed"));
-}
-
-TEST_CASE("thesis: every figure of vehicles alone on one page without links to elsewhere, also what failed") {
-  if (!device_present()) return;
-  const Folder folder;
-  const std::string config =
-      folder.file("b.toml",
-                  "scene.generate = \"--blocks 1\"\ntrace.max_depth = 1\n"
-                  "[[track]]\nid = \"a\"\nwaypoints = [[0, 10, -53, 0], [1, 20, -53, 0]]\n"
-                  "[[track]]\nid = \"b\"\nwaypoints = [[0, 30, -53, 0], [1, 40, -53, 0]]\n[time]\nstep_s = 0.5\n"
-                  "[[mount]]\nname = \"roof\"\noffset_m = [0, 0, 1.6]\n");
-  const Outcome wrong =
-      run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
-  CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
-  CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
-  const Outcome run = run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
-                                   "--repeat", "1", "--frames", "2"});
-  CAPTURE(run.err);
-  REQUIRE(run.code == 5);  // some figures failed
-  const std::string page = contents(folder.path("out/thesis.html"));
-  for (int figure = 1; figure <= 18; ++figure)
-    CHECK(contains(page, fmt::format("<section id=\"figure-6.{}\">", figure)));
-  CHECK(contains(page, "<section id=\"cache-division\">"));
-  CHECK_FALSE(contains(page, "http:"));
-  const std::string markdown = contents(folder.path("out/thesis.md"));
-  for (int figure = 1; figure <= 18; ++figure) CHECK(contains(markdown, fmt::format("\n## figure-6.{}: ", figure)));
-  CHECK(contains(markdown, "\n- device: "));
-  CHECK(contains(markdown, "| figure-6.1 "));
-  // Experiments beyond the figures have no point at so few rays: a page says what failed, and holds the rest.
-  // Each is said in the table of verdicts and in its section.
-  CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2 * 4);
-  CHECK(occurrences(page, "failed: ") == 2 * 4);
-  CHECK_FALSE(contains(page, "failed: " + config));
-  CHECK(contains(run.out, "18 of 22 figures are whole"));
-  if (contains(run.err, "gnuplot is not installed")) return;
-  CHECK(occurrences(page, "<svg") == 19);  // one of speed against error
-  CHECK_FALSE(contains(run.err, "Warning"));
 }

@@ -7,7 +7,9 @@
 #include <sstream>
 #include "app/program.hpp"
 #include "study/experiment.hpp"
+#include "study/occurrences.hpp"
 #include "study/squeezed.hpp"
+#include "study/thesis.hpp"
 
 using namespace wavetracer::study;
 
@@ -79,8 +81,7 @@ Outcome bench(const Experiment& experiment, const Folder& folder, const std::str
   return run_program(words);
 }
 
-// The first of the experiments that share its study; the test of `thesis all` (experiments_device_test.cpp) draws them
-// all.
+// The first of the experiments that share its study; the test of `thesis all` below draws them all.
 bool stands_for_its_study(const Experiment& experiment) {
   for (const Experiment& other : wavetracer::study::experiments())
     if (other.study() == experiment.study()) return other.name == experiment.name;
@@ -224,6 +225,37 @@ TEST_CASE("a figure of orders ends when its minutes are up, and says which numbe
                                    "1000:5000", "--frames", "2", "--repeat", "1"});
   CHECK(all.code == 0);
   CHECK_FALSE(contains(contents(folder.path("out/figure-6.18.md")), "left out"));
+}
+
+TEST_CASE("thesis: every figure of vehicles alone on one page without links to elsewhere, also what failed") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string config = folder.file("b.toml", scene + traffic + mount);
+  const Outcome wrong =
+      run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--set", "cache.division=7"});
+  CHECK(wrong.code == 2);  // before the first figure, which would accept it, is measured
+  CHECK(contains(wrong.err, "figure-6.2 gives cache.division its values itself"));
+  const Outcome run = run_program({"thesis", "all", "-c", config, "-o", folder.path("out"), "--rays", "1000:1000",
+                                   "--repeat", "1", "--frames", "2"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 5);  // some figures failed
+  const std::string page = contents(folder.path("out/thesis.html"));
+  for (const Experiment* experiment : thesis_experiments())
+    CHECK(contains(page, "<section id=\"" + experiment->name + "\">"));
+  CHECK_FALSE(contains(page, "http:"));
+  const std::string markdown = contents(folder.path("out/thesis.md"));
+  for (int figure = 1; figure <= 18; ++figure) CHECK(contains(markdown, fmt::format("\n## figure-6.{}: ", figure)));
+  CHECK(contains(markdown, "\n- device: "));
+  CHECK(contains(markdown, "| figure-6.1 "));
+  // Experiments beyond the figures have no point at so few rays: a page says what failed, and holds the rest.
+  // Each is said in the table of verdicts and in its section.
+  CHECK(occurrences(page, "failed: --rays 1000:1000: ") == 2 * 4);
+  CHECK(occurrences(page, "failed: ") == 2 * 4);
+  CHECK_FALSE(contains(page, "failed: " + config));
+  CHECK(contains(run.out, "18 of 22 figures are whole"));
+  if (contains(run.err, "gnuplot is not installed")) return;
+  CHECK(occurrences(page, "<svg") == 19);  // one of speed against error
+  CHECK_FALSE(contains(run.err, "Warning"));
 }
 
 TEST_CASE("innerframe: frames that are each alone, and a page that says how many groups were traced") {

@@ -9,6 +9,7 @@
 #include "folders.hpp"
 #include "output/median.hpp"
 #include "study/made_order_rows.hpp"
+#include "study/occurrences.hpp"
 #include "study/ray_counts.hpp"
 #include "study/scripts.hpp"
 #include "wavetracer/config_file.hpp"
@@ -24,12 +25,6 @@ std::vector<std::string> split(const std::string& text, char at) {
   std::istringstream in(text);
   for (std::string part; std::getline(in, part, at);) parts.push_back(part);
   return parts;
-}
-
-size_t occurrences(const std::string& text, const std::string& part) {
-  size_t count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
-  return count;
 }
 
 }  // namespace
