@@ -61,9 +61,9 @@ Candidates::Candidates(gpu::Context& context, uint32_t max_reflections)
 
 uint32_t Candidates::operator()(const DeviceScene& scene, const RadioEnds& ends, const gpu::Buffer<uint64_t>& trie,
                                 const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters) {
-  if (ends.receiver_count == 0) return 0;
-  const bool alone = tuning_of(context_.info()).alone;
   const ReceiverGroups& groups = ends.groups;
+  if (groups.capacity == 0) return 0;
+  const bool alone = tuning_of(context_.info()).alone;
   if (!alone && groups.capacity > most_places)
     throw gpu::BufferError(
         fmt::format("a frame has {} receivers, and a GPU takes at most {}: divide the grid among several runs",

@@ -49,10 +49,12 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
                         const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
                         const Distinct& distinct, const RowList& rows, RowCounts most) {
-  std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
-                                                  field_ends(world.receivers, transmitters_)};
-  for (int side = 0; side < 2; ++side)
-    upload_changed(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
+  if (ends.moved || !ends_[0]) {
+    std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
+                                                    field_ends(world.receivers, transmitters_)};
+    for (int side = 0; side < 2; ++side)
+      upload_changed(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
+  }
   make_room(context_, rows_, host_rows_, most.rows, "path rows");
   make_room(context_, vertices_, host_vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   arguments_.row_count = rows.places;

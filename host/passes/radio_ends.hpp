@@ -21,6 +21,7 @@ struct RadioEnds {
   std::vector<uint16_t> link_words;             // the words of `links`
   ReceiverGroups groups;
   uint32_t transmitter_count = 0, receiver_count = 0, receiver_capacity = 0;
+  bool moved = true;                                      // since the frame before, or turned, or changed their speed
   std::vector<double> transmitter_words, receiver_words;  // the words of the buffers
   std::vector<float> plane_words;
 };
@@ -40,10 +41,9 @@ inline std::vector<double> end_quadruples(const std::vector<EndState>& ends) {
   return out;
 }
 
-// Writes the ends of a frame to the buffers of the frame before, where they are large enough.
-inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& transmitters,
-                           const std::vector<EndState>& receivers, const std::vector<Link>& links,
-                           const std::vector<uint32_t>& listeners = {}) {
+// Writes the places of a frame's ends to the buffers of the frame before, where they are large enough.
+inline void set_places(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& transmitters,
+                       const std::vector<EndState>& receivers, const std::vector<uint32_t>& listeners) {
   ends.transmitter_count = static_cast<uint32_t>(transmitters.size());
   ends.receiver_count = static_cast<uint32_t>(receivers.size());
   ends.receiver_capacity = (ends.receiver_count + 15) / 16 * 16;
@@ -56,6 +56,11 @@ inline void set_radio_ends(gpu::Context& context, RadioEnds& ends, const std::ve
   upload_changed(context, ends.transmitters, ends.transmitter_words, end_quadruples(launching), "transmitters");
   upload_changed(context, ends.receivers, ends.receiver_words, end_quadruples(receivers), "receivers");
   upload_changed(context, ends.receiver_planes, ends.plane_words, std::move(planes), "receiver planes");
+}
+
+// Writes the wanted links of ends whose places are set.
+inline void set_links(gpu::Context& context, RadioEnds& ends, const std::vector<EndState>& receivers,
+                      const std::vector<Link>& links) {
   ends.groups.set(context, receivers, ends.transmitter_count, links);
   std::vector<uint16_t> masks = link_masks(ends, links);
   if (ends.links && masks == ends.link_words) return;
@@ -67,7 +72,8 @@ inline RadioEnds make_radio_ends(gpu::Context& context, const std::vector<EndSta
                                  const std::vector<EndState>& receivers, const std::vector<Link>& links,
                                  const std::vector<uint32_t>& listeners = {}) {
   RadioEnds ends;
-  set_radio_ends(context, ends, transmitters, receivers, links, listeners);
+  set_places(context, ends, transmitters, receivers, listeners);
+  set_links(context, ends, receivers, links);
   return ends;
 }
 

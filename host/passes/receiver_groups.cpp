@@ -68,20 +68,26 @@ std::vector<uint32_t> grouped(const std::vector<float>& positions) {
   return out;
 }
 
-bool ReceiverGroups::moved(const std::vector<EndState>& receivers) {
+bool ReceiverGroups::moved(const std::vector<EndState>& receivers, const std::vector<Link>& wanted) {
+  std::vector<char> has_link(receivers.size(), 0);
+  for (const Link& link : wanted) has_link[link.rx] = 1;
+  std::vector<uint32_t> linked;
   std::vector<float> now;
-  now.reserve(3 * receivers.size());
-  for (const EndState& receiver : receivers)
-    for (int axis = 0; axis < 3; ++axis) now.push_back(static_cast<float>(receiver.position_m[axis]));
-  if (now == positions_ && places) return false;
+  for (uint32_t receiver = 0; receiver < receivers.size(); ++receiver) {
+    if (!has_link[receiver]) continue;
+    linked.push_back(receiver);
+    for (int axis = 0; axis < 3; ++axis) now.push_back(static_cast<float>(receivers[receiver].position_m[axis]));
+  }
+  if (linked == linked_ && now == positions_ && places) return false;
+  linked_ = std::move(linked);
   positions_ = std::move(now);
   return true;
 }
 
-void ReceiverGroups::set_places(gpu::Context& context) {
-  std::vector<uint32_t> at = grouped(positions_);
-  place_of_.resize(at.size());
-  for (size_t place = 0; place < at.size(); ++place) place_of_[at[place]] = static_cast<uint32_t>(place);
+void ReceiverGroups::set_places(gpu::Context& context, size_t receivers) {
+  std::vector<uint32_t> at = grouped(positions_);  // places in the list of linked receivers
+  place_of_.resize(receivers);
+  for (size_t place = 0; place < at.size(); ++place) place_of_[linked_[at[place]]] = static_cast<uint32_t>(place);
   constexpr size_t step = size_t{size} * together;
   at.resize((at.size() + step - 1) / step * step, at.empty() ? 0 : at.back());  // no link names the added places
   capacity = static_cast<uint32_t>(at.size());
@@ -89,7 +95,9 @@ void ReceiverGroups::set_places(gpu::Context& context) {
   for (size_t axis = 0; axis < 3; ++axis)
     for (size_t place = 0; place < at.size(); ++place)
       planes[axis * at.size() + place] = positions_[3 * size_t{at[place]} + axis];
-  upload(context, order, at, "receivers in groups");
+  std::vector<uint32_t> receiver_at;
+  for (const uint32_t point : at) receiver_at.push_back(linked_[point]);
+  upload(context, order, receiver_at, "receivers in groups");
   upload(context, places, planes, "places of receivers");
   upload(context, boxes, box_planes(at, size, positions_), "boxes of receivers");
   upload(context, areas, box_planes(at, size_t{size} * size, positions_), "areas of receivers");
@@ -97,11 +105,13 @@ void ReceiverGroups::set_places(gpu::Context& context) {
 
 void ReceiverGroups::set(gpu::Context& context, const std::vector<EndState>& receivers, uint32_t transmitter_count,
                          const std::vector<Link>& wanted) {
-  if (receivers.empty()) {
+  if (wanted.empty()) {
     capacity = 0;
+    linked_.clear();
+    positions_.clear();
     return;
   }
-  if (moved(receivers)) set_places(context);
+  if (moved(receivers, wanted)) set_places(context, receivers.size());
   upload_changed(
       context, links, link_words_,
       link_bits(transmitter_count, capacity / size, wanted, [&](uint32_t receiver) { return place_of_[receiver]; }),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Receivers in groups of 16 that are close together, and areas of 16 groups, each in its box: receivers that a sequence
-// surely does not reach are skipped area by area, and group by group.
+// The receivers of links in groups of 16 that are close together, and areas of 16 groups, each in its box: receivers
+// that a sequence surely does not reach are skipped area by area, and group by group.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,12 +26,13 @@ struct ReceiverGroups {
            const std::vector<Link>& links);
 
  private:
-  std::vector<float> positions_;      // positions of the receivers, three values each
-  std::vector<uint32_t> place_of_;    // place of each receiver
+  std::vector<uint32_t> linked_;      // the receivers of links, in their order
+  std::vector<float> positions_;      // positions of these receivers, three values each
+  std::vector<uint32_t> place_of_;    // by receiver: its place, if it has a link
   std::vector<uint16_t> link_words_;  // the words of `links`
 
-  bool moved(const std::vector<EndState>& receivers);
-  void set_places(gpu::Context& context);
+  bool moved(const std::vector<EndState>& receivers, const std::vector<Link>& links);
+  void set_places(gpu::Context& context, size_t receivers);
 };
 
 // The links, a bit each: bit b of word tx * groups + g for the receiver whose place_of is 16 g + b.

@@ -6,7 +6,6 @@
 
 #include "simulation/late_paths.hpp"
 #include "simulation/launch_share.hpp"
-#include "simulation/launch_spacing.hpp"
 #include "simulation/recall_warning.hpp"
 #include "simulation/tracing_depth.hpp"
 
@@ -65,8 +64,7 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   account.end_stage(Stage::poses);
 
   if (s_.placement) s_.placement->place(s_.device_scene, out.world.instances);  // place, sort, top_level
-  const std::vector<Link>& links = block ? block->solved : out.world.links;
-  set_radio_ends(s_.context, ends_, out.world.transmitters, out.world.receivers, links, plan_.origins.listeners);
+  set_ends(task, out.world, block ? &*block : nullptr);
   const RadioEnds& ends = ends_;
   const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.is_between_poses() && warm && clock_.spares();
   const bool searches = !spared && clock_.due(out.world, !warm, task.mark(discovery_));
@@ -188,25 +186,24 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
   return out;
 }
 
-// With diffraction listeners launch, too, and prefixes of both ends meet at the edge.
+void FrameLoop::set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
+  ends_.moved = !(rests(task) && places_rest_);
+  if (ends_.moved) set_places(s_.context, ends_, world.transmitters, world.receivers, plan_.origins.listeners);
+  places_rest_ = rests(task);
+  if (rests(task) && links_rest_ && !block) return;
+  links_rest_ = false;
+  set_links(s_.context, ends_, world.receivers, block ? block->solved : world.links);
+  links_rest_ = rests(task) && !block;
+}
+
 DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   if (s_.beams) return follow_beams(task, world, block);
-  std::vector<Launcher> transmitters = sending(world), listeners;
-  if (plan_.trace.diffraction) listeners = listening(world, plan_.origins);
-  SlopeTables tables;
-  if (s_.slopes) tables = s_.slopes->tables(world, plan_.origins);
-  for (std::vector<Launcher>* const ends : {&transmitters, &listeners}) {
-    if (block) *ends = launchers_of(*block, *ends);
-    if (task.only_compiles()) ends->resize(std::min<size_t>(ends->size(), 1));
-    if (!s_.trails) *ends = s_.launch_sides.of(*ends, world);  // trails follow one launch of each transmitter
-    for (Launcher& launcher : *ends)
-      if (s_.slopes) launcher.heights = tables.of_origin[launcher.transmitter];
-    if (s_.windows) *ends = s_.windows->of(*ends, world, tables);
-  }
-  if (!tables.values.empty()) s_.discovery->set_heights(tables.values);
+  const bool stays = rests(task);
+  if (!stays || !launch_) launch_ = plan_launch(s_, world, stays ? nullptr : block, task.only_compiles());
+  const auto here = [&](const std::vector<Launcher>& all) { return block ? launchers_of(*block, all) : all; };
+  std::vector<Launcher> transmitters = here(launch_->transmitters), listeners = here(launch_->listeners);
+  if (!launch_->tables.values.empty()) s_.discovery->set_heights(launch_->tables.values);
   DiscoveryCounts out;
-  const double spread_m2 = widest_spread_m2(transmitters, tables.values, s_.slopes.has_value(),
-                                            block ? block->solved : world.links, world.receivers);
   if (!plan_.trace.rays) {
     transmitters.insert(transmitters.end(), listeners.begin(), listeners.end());
     out = s_.discovery->find_refined(s_.device_scene, transmitters, warm_frames_);
@@ -217,7 +214,8 @@ DiscoveryCounts FrameLoop::discover(const FrameTask& task, const WorldState& wor
       if (task.only_compiles()) launch.share = few_directions(launch.rays);
     out = s_.discovery->find_all(s_.device_scene, launches);
   }
-  out.spread_m2 = spread_m2;
+  out.spread_m2 = launch_->spread_m2;
+  if (!stays) launch_.reset();
   return out;
 }
 

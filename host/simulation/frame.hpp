@@ -7,6 +7,7 @@
 #include "simulation/discovery_clock.hpp"
 #include "simulation/frame_account.hpp"
 #include "simulation/frame_task.hpp"
+#include "simulation/launch_plan.hpp"
 #include "simulation/recall_warning.hpp"
 #include "simulation/setup.hpp"
 
@@ -35,6 +36,9 @@ class FrameLoop {
   // The same by beams.
   DiscoveryCounts follow_beams(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   DiscoveryCounts discover(const FrameTask& task, const WorldState& world, const LinkBlock* block);
+  // Is the world of this task at rest, so that it is the same in all frames?
+  bool rests(const FrameTask& task) const { return plan_.world.resting && task.is_as_planned(); }
+  void set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
                     bool carriers);
@@ -45,6 +49,10 @@ class FrameLoop {
   DiscoveryClock clock_;
   DiscoveryMark discovery_;  // that of the drive
   RadioEnds ends_;           // those of the frame
+  // In a world at rest, frames keep what an earlier one has made: places, the links where these are all, and the launch
+  // of all ends.
+  bool places_rest_ = false, links_rest_ = false;
+  std::optional<LaunchPlan> launch_;
   RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one
 };

@@ -30,6 +30,7 @@ struct FrameInput {
   std::function<WorldState()> pose;  // gives the state of the world
   FrameNames names;                  // asked after pose
   bool timed = true;                 // stages on the device are profiled
+  bool as_planned = false;           // pose gives the world of the plan, which may be at rest
 };
 
 // The links of a drive's frame that are computed.
@@ -73,6 +74,7 @@ class FrameTask {
 
   uint32_t frame() const { return input_.frame; }
   bool is_timed() const { return input_.timed; }
+  bool is_as_planned() const { return input_.as_planned; }
   const FrameNames& names() const { return input_.names; }
   WorldState pose() const { return input_.pose(); }
   bool only_compiles() const { return std::holds_alternative<Compiling>(kind_); }

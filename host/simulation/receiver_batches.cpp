@@ -3,73 +3,133 @@
 // must be of one frame, with the same ends.
 #include "simulation/receiver_batches.hpp"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace wavetracer {
 namespace {
 
-constexpr uint32_t most_receivers = 8192;  // some 300 to 1500 sequences each, of about 350 bytes
+constexpr uint32_t least_receivers = 8192;  // where nothing else is asked for
+// A receiver has some 300 to 1500 sequences of about 350 bytes; they may take a quarter of the memory.
+constexpr uint64_t bytes_of_receiver = uint64_t{4} * 1500 * 350;
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from, size_t first, size_t end) {
-  if (!from.empty())
-    to.insert(to.end(), from.begin() + static_cast<ptrdiff_t>(first), from.begin() + static_cast<ptrdiff_t>(end));
-}
+// Rows first to end - 1 of a batch.
+struct Piece {
+  const FrameResult* batch;
+  size_t first, end;
+};
 
-void append_rows(Paths& to, const Paths& from, size_t first, size_t end) {
-  static_assert(sizeof(Paths) == 8 + 20 * sizeof(std::vector<int>), "append the column that is new here, too");
-  for (auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth})
-    append(to.*column, from.*column, first, end);
-  for (auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::aod_theta_rad, &Paths::aod_phi_rad,
-                      &Paths::aoa_theta_rad, &Paths::aoa_phi_rad, &Paths::doppler_hz})
-    append(to.*column, from.*column, first, end);
-  append(to.a, from.a, first, end);
-  append(to.quarters, from.quarters, first, end);
-  append(to.group, from.group, first, end);
-  append(to.group_weight, from.group_weight, first, end);
-  const uint64_t vertices = from.vertex_offset[first], start = to.vertex_offset.back();
-  for (size_t row = first; row < end; ++row) to.vertex_offset.push_back(start + from.vertex_offset[row + 1] - vertices);
-  const uint64_t last = from.vertex_offset[end];
-  append(to.vertex_position_m, from.vertex_position_m, vertices, last);
-  append(to.vertex_interaction, from.vertex_interaction, vertices, last);
-  append(to.vertex_surface, from.vertex_surface, vertices, last);
-  append(to.vertex_instance, from.vertex_instance, vertices, last);
-}
-
-// Visits the rows of a transmitter, batch after batch. take: adds rows first to end - 1 of a batch to the joined
-// result.
-template <class Take>
-void take_by_transmitters(const std::vector<FrameResult>& batches, const Take& take) {
+// The rows of all batches in their order: transmitter by transmitter, and batch after batch.
+std::vector<Piece> pieces_of(const std::vector<FrameResult>& batches) {
+  std::vector<Piece> out;
   std::vector<size_t> next(batches.size(), 0);  // next row of each batch
   for (uint32_t tx = 0; tx < batches.front().world.transmitters.size(); ++tx)
     for (size_t i = 0; i < batches.size(); ++i) {
       const std::vector<uint32_t>& column = batches[i].paths.tx;
       const size_t first = next[i];
       next[i] = static_cast<size_t>(std::upper_bound(column.begin(), column.end(), tx) - column.begin());
-      take(batches[i], first, next[i]);
+      if (next[i] > first) out.push_back({&batches[i], first, next[i]});
     }
+  return out;
 }
 
+// Joins columns, each in a task of its own. Columns that a batch lacks stay empty.
+class Columns {
+ public:
+  explicit Columns(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
+
+  // to: the joined column; column: returns that of a batch.
+  template <class T, class Column>
+  void rows(std::vector<T>& to, const Column& column) {
+    join(to, column, [](const Piece& piece) { return std::pair(piece.first, piece.end); });
+  }
+  template <class T>
+  void rows(Paths& to, std::vector<T> Paths::*column) {
+    rows(to.*column, [column](const FrameResult& batch) -> const std::vector<T>& { return batch.paths.*column; });
+  }
+  // The same for a column with an entry for each vertex.
+  template <class T>
+  void vertices(Paths& to, std::vector<T> Paths::*column) {
+    join(
+        to.*column, [column](const FrameResult& batch) -> const std::vector<T>& { return batch.paths.*column; },
+        [](const Piece& piece) {
+          const std::vector<uint64_t>& offset = piece.batch->paths.vertex_offset;
+          return std::pair<size_t, size_t>(offset[piece.first], offset[piece.end]);
+        });
+  }
+  void vertex_offsets(Paths& to) {
+    tasks_.run([this, &to] {
+      for (const auto& [batch, first, end] : pieces_) {
+        const std::vector<uint64_t>& from = batch->paths.vertex_offset;
+        const uint64_t before = from[first], start = to.vertex_offset.back();
+        for (size_t row = first; row < end; ++row) to.vertex_offset.push_back(start + from[row + 1] - before);
+      }
+    });
+  }
+  void wait() { tasks_.wait(); }
+
+ private:
+  template <class T, class Column, class Range>
+  void join(std::vector<T>& to, const Column& column, const Range& range) {
+    tasks_.run([this, &to, column, range] {
+      size_t size = 0;
+      for (const Piece& piece : pieces_) {
+        const auto [first, end] = range(piece);
+        if (!column(*piece.batch).empty()) size += end - first;
+      }
+      to.reserve(size);
+      for (const Piece& piece : pieces_) {
+        const std::vector<T>& from = column(*piece.batch);
+        const auto [first, end] = range(piece);
+        if (!from.empty())
+          to.insert(to.end(), from.begin() + static_cast<ptrdiff_t>(first), from.begin() + static_cast<ptrdiff_t>(end));
+      }
+    });
+  }
+
+  std::vector<Piece> pieces_;
+  tbb::task_group tasks_;
+};
+
 Paths joined_paths(const std::vector<FrameResult>& batches) {
+  static_assert(sizeof(Paths) == 8 + 20 * sizeof(std::vector<int>), "join the column that is new here, too");
   Paths out;
   out.rx_ports = batches.front().paths.rx_ports;
   out.tx_ports = batches.front().paths.tx_ports;
-  take_by_transmitters(
-      batches, [&](const FrameResult& batch, size_t first, size_t end) { append_rows(out, batch.paths, first, end); });
+  Columns columns(pieces_of(batches));
+  for (auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth}) columns.rows(out, column);
+  for (auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::aod_theta_rad, &Paths::aod_phi_rad,
+                      &Paths::aoa_theta_rad, &Paths::aoa_phi_rad, &Paths::doppler_hz})
+    columns.rows(out, column);
+  columns.rows(out, &Paths::a);
+  columns.rows(out, &Paths::quarters);
+  columns.rows(out, &Paths::group);
+  columns.rows(out, &Paths::group_weight);
+  columns.vertex_offsets(out);
+  columns.vertices(out, &Paths::vertex_position_m);
+  columns.vertices(out, &Paths::vertex_interaction);
+  columns.vertices(out, &Paths::vertex_surface);
+  columns.vertices(out, &Paths::vertex_instance);
+  columns.wait();
   return out;
 }
 
 std::vector<CarrierFields> joined_carriers(const std::vector<FrameResult>& batches) {
   std::vector<CarrierFields> out(batches.front().carriers.size());
+  Columns columns(pieces_of(batches));
   for (size_t k = 0; k < out.size(); ++k) {
     out[k].frequency_hz = batches.front().carriers[k].frequency_hz;
-    take_by_transmitters(batches, [&](const FrameResult& batch, size_t first, size_t end) {
-      const CarrierFields& from = batch.carriers[k];
-      append(out[k].a, from.a, first, end);
-      append(out[k].gain_db, from.gain_db, first, end);
-      append(out[k].doppler_hz, from.doppler_hz, first, end);
-    });
+    const auto rows = [&](auto CarrierFields::*column) {
+      columns.rows(
+          out[k].*column, [ k, column ](const FrameResult& batch) -> const auto& { return batch.carriers[k].*column; });
+    };
+    rows(&CarrierFields::a);
+    rows(&CarrierFields::gain_db);
+    rows(&CarrierFields::doppler_hz);
   }
+  columns.wait();
   return out;
 }
 
@@ -92,8 +152,10 @@ void add_counts(FrameResult& to, const FrameResult& from) {
 
 }  // namespace
 
-std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint32_t most) {
-  const uint32_t asked = trace.diffraction ? trace.batch_receivers.value_or(most_receivers) : no_end;
+std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
+                                            uint32_t most) {
+  const auto fitting = static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes_of_receiver, least_receivers, no_end));
+  const uint32_t asked = trace.diffraction ? trace.batch_receivers.value_or(fitting) : no_end;
   const uint32_t batch = std::min(asked, most);
   if (receiver_count <= batch) return {{}};
   std::vector<ReceiverRange> out;
@@ -119,7 +181,7 @@ FrameResult joined_batches(std::vector<FrameResult> batches) {
   }
   out.world = std::move(batches.front().world);
   for (size_t i = 1; i < batches.size(); ++i)
-    append(out.world.links, batches[i].world.links, 0, batches[i].world.links.size());
+    out.world.links.insert(out.world.links.end(), batches[i].world.links.begin(), batches[i].world.links.end());
   std::ranges::sort(out.world.links);
   return out;
 }

@@ -31,7 +31,8 @@ struct Simulation::State {
       return FrameTask::of_drive({.frame = frame,
                                   .pose = [this, frame] { return plan().world.state(frame); },
                                   .names = names(),
-                                  .timed = profiled},
+                                  .timed = profiled,
+                                  .as_planned = true},
                                  links);
     };
   }
@@ -43,7 +44,8 @@ struct Simulation::State {
     const auto receivers = static_cast<uint32_t>(plan().world.receivers.ends.size());
     if (whole || receivers < 2) return frames.run(task(links));
     std::deque<ReceiverRange> left;
-    for (const ReceiverRange& batch : receiver_batches(plan().trace, receivers, fitting))
+    for (const ReceiverRange& batch :
+         receiver_batches(plan().trace, receivers, setup.context.info().global_memory, fitting))
       left.push_back({batch.first, std::min(batch.end, receivers)});
     if (left.size() == 1) {
       try {
@@ -65,6 +67,7 @@ struct Simulation::State {
   }
 
   FrameResult run_batches(const TaskOf& task, const LinkPart& links, std::deque<ReceiverRange> left) {
+    Stopwatch whole;
     std::vector<FrameResult> parts;
     LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
     while (!left.empty()) {
@@ -91,6 +94,7 @@ struct Simulation::State {
       setup.elements(out);
       out.seconds["elements"] += watch.lap();
     }
+    out.seconds["frame"] = whole.lap();
     return out;
   }
 

@@ -85,20 +85,23 @@ World make_world(const Config& config, const Scene& scene) {
   const FrameClock clock = drives(fleet, live) ? make_clock(config.time, fleet.trajectories) : FrameClock(0, 0, 1);
   const double reach_m = reach_of(fleet, ends, live, scene);
   std::vector<std::string> warnings = warnings_of(config, scene, fleet, live, clock);
-  return {.live = std::move(live),
-          .fleet = std::move(fleet),
-          .ground = std::move(ground),
-          .transmitters = std::move(ends.transmitters),
-          .receivers = std::move(ends.receivers),
-          .twins = std::move(twins),
-          .links = std::move(links),
-          .clock = clock,
-          .reach_m = reach_m,
-          .warnings = std::move(warnings)};
+  World out{.live = std::move(live),
+            .fleet = std::move(fleet),
+            .ground = std::move(ground),
+            .transmitters = std::move(ends.transmitters),
+            .receivers = std::move(ends.receivers),
+            .twins = std::move(twins),
+            .links = std::move(links),
+            .clock = clock,
+            .reach_m = reach_m,
+            .warnings = std::move(warnings)};
+  if (!out.live && out.fleet.trajectories.tracks.empty()) out.resting = world_at(out, 0, {});
+  return out;
 }
 
 WorldState World::state(uint64_t frame) const {
   const double time = clock.time_s(frame);
+  if (resting) return *resting;
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
   for (const Track& track : fleet.trajectories.tracks) vehicles.push_back(vehicle_at(track, time));
@@ -108,6 +111,11 @@ WorldState World::state(uint64_t frame) const {
 }
 
 WorldState World::state(double time_s, const std::vector<PlacedPose>& placed) const {
+  if (resting) {
+    WorldState out = *resting;
+    out.time_s = time_s;
+    return out;
+  }
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
   for (const Track& track : fleet.trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});

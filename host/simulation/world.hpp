@@ -31,6 +31,8 @@ struct World {
   FrameClock clock;
   double reach_m;  // no recentred coordinate of an end or of a corner of an instance is larger, in any frame
   std::vector<std::string> warnings;
+  // The state of a world in which nothing moves, at 0 s: neither a drive nor a live world.
+  std::optional<WorldState> resting = {};
 
   // The world at the time of a frame. Vehicles that are absent, and their antennas, are where they were last or will be
   // first. Throws ConfigError for a frame that there is not.

@@ -209,7 +209,7 @@ struct TraceConfig {
   double sphere_radius_m = 1.0;
   uint64_t seed = 1;
   std::optional<uint64_t> batch_rays = {};       // number of rays traced at once; not given: chosen for the device
-  std::optional<uint32_t> batch_receivers = {};  // number of ray-launching receivers computed at once; not given: 8192
+  std::optional<uint32_t> batch_receivers = {};  // ray-launching receivers computed at once; not given: 8192 and more
 
   // Receivers get the rays that pass through their spheres, instead of exact paths.
   bool by_spheres() const { return reception == "sphere"; }

@@ -44,19 +44,24 @@ class MostCandidates {
 
 TEST_CASE("receivers are cut into ranges that hold each of them once") {
   TraceConfig trace;
+  uint64_t memory = 8ull << 30;
   const auto cut = [&](uint32_t receivers) {
     std::vector<std::pair<uint32_t, uint32_t>> out;
-    for (const ReceiverRange& batch : receiver_batches(trace, receivers)) out.emplace_back(batch.first, batch.end);
+    for (const ReceiverRange& batch : receiver_batches(trace, receivers, memory))
+      out.emplace_back(batch.first, batch.end);
     return out;
   };
   using Cut = std::vector<std::pair<uint32_t, uint32_t>>;
   const Cut whole{{0, no_end}};
   CHECK(cut(1000000) == whole);  // a receiver that launches no rays keeps nothing
-  CHECK(receiver_batches(trace, 10, 6).size() == 2);
-  CHECK(receiver_batches(trace, 6, 6).size() == 1);
+  CHECK(receiver_batches(trace, 10, memory, 6).size() == 2);
+  CHECK(receiver_batches(trace, 6, memory, 6).size() == 1);
   trace.diffraction = true;
   CHECK(cut(8192) == whole);
   CHECK(cut(8193) == Cut{{0, 8192}, {8192, 8193}});
+  memory = 80ull << 30;
+  CHECK(cut(30000) == whole);
+  CHECK(cut(50000).size() == 2);
   trace.batch_receivers = 3;
   CHECK(cut(3) == whole);
   CHECK(cut(7) == Cut{{0, 3}, {3, 6}, {6, 7}});
@@ -89,7 +94,8 @@ TEST_CASE("a frame in batches of receivers is the frame in one, bit for bit") {
     const FrameResult found = simulation.run_frame(0);
     CHECK(within);
     CHECK(least == most);  // at the end of the last batch
-    CHECK(part + 1 == receiver_batches(config.trace, static_cast<uint32_t>(whole.world.receivers.size())).size());
+    const auto receivers = static_cast<uint32_t>(whole.world.receivers.size());
+    CHECK(part + 1 == receiver_batches(config.trace, receivers, 0).size());
     CHECK(identical(found.paths, whole.paths));
     CHECK(found.paths.quarters == whole.paths.quarters);
     CHECK(found.carriers.at(0).a == whole.carriers[0].a);
