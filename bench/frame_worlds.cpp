@@ -111,6 +111,10 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.trace.scattering = true;
   });
   add("diffraction", [](Config& c) { diffract(c, 1); });
+  add("edge rays", [](Config& c) {
+    diffract(c, 1);
+    c.trace.edge_rays = 256;
+  });
   add("two diffractions", [](Config& c) { diffract(c, 2); });
   add(
       "drive", [&](Config& c) { drive(c, vehicles, frames); }, frames);

@@ -8,7 +8,7 @@
 
 The configuration is configs/coverage_2km.toml, which comes with the package. Every cell has every path of up to `--depth`
 interactions, of which one may be a diffraction. The error is measured against the same map with ten times the rays, of
-the transmitter and of the cells: the share of cells that hear less than 0.1 dB right, or nothing where the other map
+the transmitter and of the edges: the share of cells that hear less than 0.1 dB right, or nothing where the other map
 hears something. The last line is JSON.
 """
 import argparse
@@ -30,7 +30,7 @@ def keys(options, times):
     grid = {"x_min_m": -half, "x_max_m": half, "y_min_m": -half, "y_max_m": half, "step_m": options.step}
     return {"scene.generate": f"--seed 1 --blocks {blocks}x{blocks}",
             "trace": {"rays": options.rays * times, "max_depth": options.depth,
-                      "diffraction_rays": options.cell_rays * times},
+                      "edge_rays": options.edge_rays * times},
             **{f"receiver_grid.0.{key}": value for key, value in grid.items()}}
 
 
@@ -58,7 +58,7 @@ def main():
     parser.add_argument("--side", type=float, default=2000, help="of the map, metres")
     parser.add_argument("--step", type=float, default=5, help="side of a cell, metres")
     parser.add_argument("--rays", type=int, default=1_000_000, help="of the transmitter")
-    parser.add_argument("--cell-rays", type=int, default=1000, help="of each cell, which look for the edges around it")
+    parser.add_argument("--edge-rays", type=int, default=1000, help="of each edge that the transmitter sees")
     parser.add_argument("--depth", type=int, default=3, help="interactions of a path")
     parser.add_argument("--device", help="part of its name")
     parser.add_argument("--no-reference", action="store_true", help="do not measure the error")

@@ -142,6 +142,7 @@ std::vector<std::string> recommendations(const Study& study) {
   add_reuse(study, out);
   add_limits(study, "Depth", {"depth"}, out);
   if (reference(study, "diffraction_rays")) add_limits(study, "Rays of receivers", {"diffraction_rays"}, out);
+  if (reference(study, "edge_rays")) add_limits(study, "Rays of edges", {"edge_rays"}, out);
   add_deeper(study, out);
   add_mechanisms(study, out);
   return out;

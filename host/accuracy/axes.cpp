@@ -60,10 +60,40 @@ Setting of_listener_rays(uint64_t rays) {
   return {"diffraction_rays", grouped(rays), {fmt::format("trace.diffraction_rays={}", rays)}};
 }
 
+constexpr uint64_t most_edge_rays = 65536;  // the most that trace.edge_rays may be
+
+Setting of_edge_rays(uint64_t rays) { return {"edge_rays", grouped(rays), {fmt::format("trace.edge_rays={}", rays)}}; }
+
+// In place of the next one, where receivers launch no rays.
+std::optional<Axis> edge_axis(const Config& own) {
+  if (!own.trace.diffraction || own.trace.edge_rays == 0) return std::nullopt;
+  std::set<uint64_t> steps = {100, 300, 1000, 3000};
+  steps.insert(own.trace.edge_rays);
+  Axis axis{of_edge_rays(std::min<uint64_t>(3 * *steps.rbegin(), most_edge_rays)), {}};
+  for (const uint64_t rays : steps) axis.settings.push_back(of_edge_rays(rays));
+  return axis;
+}
+
+// Does a setting need rays of receivers in place of those of edges? See check_edge_rays in host/config.
+bool needs_receivers(const Setting& setting) {
+  return std::ranges::any_of(setting.keys, [](const std::string& key) {
+    return key == "trace.max_diffractions=2" || key == "trace.transmission=true" || key == "trace.discovery=beams";
+  });
+}
+
+// Settings that rays of edges do not go with have none, and so do those that they are compared with in mechanisms.
+void without_edge_rays(Axis& axis, bool all) {
+  std::vector<Setting*> settings{&axis.reference};
+  for (Setting& setting : axis.settings) settings.push_back(&setting);
+  const bool any = std::ranges::any_of(settings, [](const Setting* setting) { return needs_receivers(*setting); });
+  for (Setting* setting : settings)
+    if (needs_receivers(*setting) || (all && any)) setting->keys.push_back("trace.edge_rays=0");
+}
+
 // Begins at a few hundred, which maps of many receivers can afford. There is no axis with trace.rays = "auto", which
 // does not use this number.
 std::optional<Axis> listener_axis(const Config& own) {
-  if (!own.trace.diffraction || !own.trace.rays) return std::nullopt;
+  if (!own.trace.diffraction || !own.trace.rays || own.trace.edge_rays > 0) return std::nullopt;
   std::set<uint64_t> steps;
   for (const uint64_t rays : {300, 1000, 3000, 10000, 30000})
     if (rays <= *own.trace.rays) steps.insert(rays);
@@ -95,9 +125,12 @@ std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
   if (certify || own.trace.by_beams()) certify_axis(all.front());
   if (const auto listeners = listener_axis(own)) all.push_back(*listeners);
+  if (const auto edges = edge_axis(own)) all.push_back(*edges);
+  const size_t mechanisms_from = all.size();
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(
         {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});
+  for (size_t i = 0; own.trace.edge_rays > 0 && i < all.size(); ++i) without_edge_rays(all[i], i >= mechanisms_from);
   return all;
 }
 

@@ -11,7 +11,7 @@
 namespace wavetracer::accuracy {
 
 struct Setting {
-  std::string axis;               // rays, auto, reuse, depth, diffraction_rays, or the name of a Feature
+  std::string axis;               // rays, auto, reuse, depth, diffraction_rays, edge_rays, or the name of a Feature
   std::string name;               // name on its axis
   std::vector<std::string> keys;  // KEY=VALUE settings that override the user's own
   std::string needs = {};         // the Feature without which the row has no meaning; empty: none

@@ -115,6 +115,12 @@ std::string missed_unknown_line(const Run& run, const Totals& totals) {
   return fmt::format("{:<11}unknown{}: {}\n", of.frames > 0 ? "" : "missed", frames, missed_unknown_reason(run.config));
 }
 
+// The keys that make a run find more.
+std::string more_rays(const TraceConfig& trace) {
+  const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
+  return trace.diffraction && trace.edge_rays > 0 ? rays + ", or of trace.edge_rays," : rays;
+}
+
 // Says what rays may have missed; empty without rays.
 std::string missed_line(const Run& run, const Totals& totals) {
   if (totals.missed.frames == 0) return missed_unknown_line(run, totals);
@@ -126,9 +132,7 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
-                     none                    ? ""
-                     : run.config.trace.rays ? ": a higher number of trace.rays finds more of them"
-                                             : ": a higher trace.recall finds more of them") +
+                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run.config.trace))) +
          missed_unknown_line(run, totals);
 }
 

@@ -274,6 +274,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_floor(config, out);
   check_reception(config, out);
   check_features(config, out);
+  check_edge_rays(config, out);
   check_link_budget(config.radio, out);
   check_waypoints(config, out);
   check_cache(config, out);

@@ -25,10 +25,12 @@ std::vector<std::string> advice(const Run& run, const Totals& totals) {
   const uint64_t sight = totals.kinds[0];  // at most one per link
   if (!edges_left_out || totals.counts.paths == 0 || 2 * sight >= totals.links) return {};
   if (said(run.summary.warnings) || said(totals.warnings)) return {};
+  // Rays of each cell would take minutes; see trace.edge_rays.
+  const bool is_map = !run.config.receiver_grids.empty() && totals.frames == 1;
   return {fmt::format(
       "line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
-      "set it to true, or ask `wavetracer accuracy -c FILE` what it would add",
-      grouped(sight), grouped(totals.links))};
+      "set it to true{}, or ask `wavetracer accuracy -c FILE` what it would add",
+      grouped(sight), grouped(totals.links), is_map ? ", with trace.edge_rays = 1000 for this map" : "")};
 }
 
 }  // namespace wavetracer

@@ -81,7 +81,7 @@ struct Tuning {
   uint32_t trace_group;  // work-items per group where one takes a block
   Work trace_moving, bounces;
   Work cache_rays, cache_entries;  // cache_lookup and cache_store; cache_purge
-  Work receive;
+  Work receive;                    // also edge_rays and hear
 
   Work slots;  // collect: slots of the table of sequences
   Work sequences;

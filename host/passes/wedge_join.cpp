@@ -28,8 +28,7 @@ uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
 
 }  // namespace
 
-WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
-                     uint32_t row_depth, double wavelength_m)
+WedgeJoin::WedgeJoin(gpu::Context& context, uint32_t max_depth, uint32_t row_depth, double wavelength_m)
     : context_(context),
       kernel_(context),
       max_depth_(max_depth),
@@ -37,7 +36,6 @@ WedgeJoin::WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receive
       group_(tuning_of(context.info()).join_group),
       most_(most_candidates(context.info(), row_depth)),
       end_detour_m_(static_cast<float>(WT_END_DETOUR * wavelength_m)),
-      receiver_of_origin_(context.buffer(receiver_of_origin, "receivers of origins")),
       list_(context.buffer<wt_wedge_candidate>(least_candidates, {"wedge candidates", advice::links})) {}
 
 void WedgeJoin::refuse(uint32_t candidates) const {
@@ -63,15 +61,14 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
     kernel_({items, group_}, Stage::wedge_join,
             calls::wedge_join::wedge_join{.keys = prefixes.keys,
                                           .prefixes = prefixes.sorted,
-                                          .receiver_of_origin = receiver_of_origin_,
+                                          .receiver_of_end = ends.receiver_of_end,
                                           .links = ends.links,
                                           .wedges = wedges.wedges,
                                           .surfaces = scene.surfaces,
                                           .out = list_,
                                           .counters = counters.buffer(),
                                           .args = arguments});
-    if (pairs && max_depth_ >= 2)
-      (*pairs)(scene, prefixes, wedges, ends, receiver_of_origin_, arguments, list_, counters);
+    if (pairs && max_depth_ >= 2) (*pairs)(scene, prefixes, wedges, ends, arguments, list_, counters);
   };
   return fill_list(
       counters, &wt_counters::wedge_candidates, Stage::wedge_join, [&] { return list_.size(); }, run,

@@ -3,8 +3,6 @@
 // those that see a wedge each. The list grows until it holds them, or as far as it may: then the caller asks for them
 // in parts.
 #pragma once
-#include <vector>
-
 #include "gpu/gpu.hpp"
 #include "kernel_calls/wedge_join.hpp"
 #include "passes/counters.hpp"
@@ -17,10 +15,9 @@ namespace wavetracer {
 
 class WedgeJoin {
  public:
-  // receiver_of_origin: for each end that launches, the receiver that it is, or WT_NONE. row_depth: interactions that a
-  // solved path has room for. wavelength_m: the longest one, for paths over free ends of edges.
-  WedgeJoin(gpu::Context& context, const std::vector<uint32_t>& receiver_of_origin, uint32_t max_depth,
-            uint32_t row_depth, double wavelength_m = 0);
+  // row_depth: interactions that a solved path has room for. wavelength_m: the longest one, for paths over free ends of
+  // edges.
+  WedgeJoin(gpu::Context& context, uint32_t max_depth, uint32_t row_depth, double wavelength_m = 0);
   // prefixes: sorted by their keys; first to end - 1 of them serve as those of transmitters. pairs: for paths over two
   // wedges too, or nullptr. Returns the number of candidates in list(); if it is more than most(), they are not there.
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,
@@ -39,7 +36,6 @@ class WedgeJoin {
   gpu::KernelOf<calls::wedge_join::wedge_join> kernel_;
   uint32_t max_depth_, lanes_, group_, most_;
   float end_detour_m_;
-  gpu::Buffer<uint32_t> receiver_of_origin_;
   gpu::Buffer<wt_wedge_candidate> list_;
 };
 

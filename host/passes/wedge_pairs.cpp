@@ -54,9 +54,8 @@ void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefi
 }
 
 void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                            const RadioEnds& ends, const gpu::Buffer<uint32_t>& receiver_of_origin,
-                            const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
-                            Counters& counters) {
+                            const RadioEnds& ends, const wt_wedge_join_arguments& join,
+                            gpu::Buffer<wt_wedge_candidate>& list, Counters& counters) {
   wt_wedge_join_arguments own = join;
   own.lanes = lanes_;
   kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs,
@@ -69,7 +68,7 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                                           .keys = prefixes.keys,
                                           .runs = runs_,
                                           .prefixes = prefixes.sorted,
-                                          .receiver_of_origin = receiver_of_origin,
+                                          .receiver_of_end = ends.receiver_of_end,
                                           .links = ends.links,
                                           .wedges = wedges.wedges,
                                           .boxes = scene.surfaces,

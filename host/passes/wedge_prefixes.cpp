@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/edges/wedge_prefixes.cl.
-// A work-item takes one node of the trie, then one prefix.
+// One work-item or several take a node of the trie; then each takes one prefix.
 #include "passes/wedge_prefixes.hpp"
+
+#include <algorithm>
 
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
+namespace {
+
+constexpr uint32_t most_lanes = 16;  // work-items of a node, on GPUs
+
+}  // namespace
 
 WedgePrefixes::WedgePrefixes(gpu::Context& context)
     : context_(context), work_(tuning_of(context.info()).prefixes), kernel_(context), place_(context) {
@@ -26,14 +33,16 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
                                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                            Counters& counters) {
   const Counters::Count count = &wt_counters::wedge_prefixes;
+  const uint32_t lanes = context_.info().cpu ? 1 : std::min(ends.most_ends, most_lanes);
   list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
-        kernel_(work_.range(node_count), Stage::wedge_prefixes,
+        kernel_(work_.range(node_count * lanes), Stage::wedge_prefixes,
                 calls::wedge_prefixes::wedge_prefixes{
                     .table = trie,
                     .quarters = quarters,
                     .nodes = nodes,
-                    .origins = ends.transmitters,
+                    .ends = ends.transmitters,
+                    .first_ends = ends.first_ends,
                     .surfaces = scene.exact_surfaces,
                     .boxes = scene.surfaces,
                     .first_wedges = wedges.first,
@@ -44,7 +53,7 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
                     .prefixes = list_.prefixes,
                     .counters = counters.buffer(),
                     .args = wt_wedge_prefixes_arguments{static_cast<uint32_t>(trie.size() - 1), node_count,
-                                                        static_cast<uint32_t>(list_.keys.size())}});
+                                                        static_cast<uint32_t>(list_.keys.size()), lanes}});
       },
       [&] { return counters.read(Stage::wedge_prefixes).*count; }, [&] { return list_.keys.size(); },
       [&](size_t entries) {

@@ -29,13 +29,13 @@ namespace wavetracer {
 constexpr uint32_t prefix_block = 4096, most_at_once = 1 << 15;
 
 struct DiffractedPaths {
-  // receiver_of_origin: see WedgeJoin; wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth:
-  // interactions that a solved path has room for, at least max_depth.
-  DiffractedPaths(gpu::Context& context, Wedges world, const std::vector<uint32_t>& receiver_of_origin,
-                  uint32_t max_depth, uint32_t row_depth, double wavelength_m, std::optional<WedgePairs> two)
+  // wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth: interactions that a solved path has room
+  // for, at least max_depth.
+  DiffractedPaths(gpu::Context& context, Wedges world, uint32_t max_depth, uint32_t row_depth, double wavelength_m,
+                  std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
-        join(context, receiver_of_origin, max_depth, row_depth, wavelength_m),
+        join(context, max_depth, row_depth, wavelength_m),
         pairs(std::move(two)),
         solve(context, row_depth, wavelength_m),
         sort_(context) {

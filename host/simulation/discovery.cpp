@@ -114,6 +114,23 @@ DiscoveryCounts Discovery::find_all(const DeviceScene& scene, std::span<const La
   return counts;
 }
 
+DiscoveryCounts Discovery::find_filled(const DeviceScene& scene, uint64_t total,
+                                       const std::function<void(RayQueue&, uint64_t, uint32_t)>& fill,
+                                       const std::function<bool()>& done) {
+  DiscoveryCounts counts = nothing_yet(follower_);
+  const uint64_t size = std::min(batch_rays_, total);
+  if (total > 0) reserve(size);
+  while (counts.rays < total) {
+    const auto count = static_cast<uint32_t>(std::min(size, total - counts.rays));
+    trace_batch(scene, follower_, counts, [&](RayQueue& rays) {
+      fill(rays, counts.rays, count);
+      source_.label(rays);
+    });
+    if (done()) counts.rays += count;
+  }
+  return counts;
+}
+
 DiscoveryCounts Discovery::nothing_yet(RayFollower& follower) const {
   DiscoveryCounts counts;
   counts.segments_per_depth.assign(wavefront_.segments(follower), 0);

@@ -3,6 +3,7 @@
 // Launches are cut into batches, which limit the memory for any number of rays; a batch whose sequences do not fit
 // grows the set and is traced again.
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -36,6 +37,11 @@ class Discovery {
   // refined where it still finds something. trace.rays must be "auto" (without a number). frame: the number of
   // frames since the last cold one, see Refinement.
   DiscoveryCounts find_refined(const DeviceScene& scene, const std::vector<Launcher>& who, uint64_t frame);
+  // Traces `total` rays that fill(queue, first, count) puts into the empty queue, batch by batch. done: called after a
+  // batch; returns false if the batch must be traced again.
+  DiscoveryCounts find_filled(const DeviceScene& scene, uint64_t total,
+                              const std::function<void(RayQueue&, uint64_t, uint32_t)>& fill,
+                              const std::function<bool()>& done);
   Sequences& sequences() { return sequences_; }
 
  private:

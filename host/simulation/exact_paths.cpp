@@ -29,8 +29,7 @@ uint32_t surface_count(const Scene& scene, const World& world) {
 }  // namespace
 
 ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-                       const TraceConfig& trace, double longest_wavelength_m, const Origins& origins,
-                       bool frames_follow)
+                       const TraceConfig& trace, double longest_wavelength_m, bool frames_follow)
     : max_depth(trace.max_depth),
       candidates(context, tracing_depth(trace).reflections),
       solve(context, tracing_depth(trace).row, frames_follow && !trace.transmission),
@@ -41,7 +40,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     std::optional<WedgePairs> two;
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.fleet.models, world.fleet.instances, trace.free_edges),
-                        origins.receiver_of_origin, trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
+                        trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
     if (depth.edges > 1) {
       const auto instances = static_cast<uint32_t>(world.fleet.instances.size());
       const WedgeGrid grid(wedge_records(scene, world.fleet.models, world.fleet.instances),

@@ -13,6 +13,7 @@
 #include "passes/transmissions.hpp"
 #include "passes/visible.hpp"
 #include "simulation/diffracted_paths.hpp"
+#include "simulation/edge_discovery.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
@@ -22,7 +23,7 @@ namespace wavetracer {
 struct ExactPaths {
   // trace: see with_features. frames_follow: a path that is hidden in a frame is mostly hidden in the next one, too.
   ExactPaths(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, const World& world,
-             const TraceConfig& trace, double longest_wavelength_m, const Origins& origins, bool frames_follow);
+             const TraceConfig& trace, double longest_wavelength_m, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
@@ -36,6 +37,7 @@ struct ExactPaths {
   std::optional<Blockers> blockers;  // set where frames follow each other and legs are not listed
   Solve solve;
   std::optional<DiffractedPaths> diffraction;
+  std::unique_ptr<EdgeDiscovery> from_edges;  // with trace.edge_rays, else null
   std::optional<Scatter> scatter;
   std::optional<Crowns> crowns;
   std::optional<Occlusion> occlusion;  // this or the next one is set

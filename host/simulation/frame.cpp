@@ -7,6 +7,7 @@
 #include "simulation/late_paths.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
+#include "simulation/solve_paths.hpp"
 #include "simulation/tracing_depth.hpp"
 
 namespace wavetracer {
@@ -28,17 +29,20 @@ FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_
 
 void FrameLoop::forget() {
   warm_frames_ = 0;
+  heard_ = false;
   if (s_.cache) s_.cache->clear();
 }
 
 // A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of a
-// part of their links neither reuse sequences nor leave any.
+// part of their links neither reuse sequences nor leave any, except that what listeners hear of edges serves all
+// batches of receivers.
 FrameResult FrameLoop::run(FrameTask task) {
-  const bool whole = task.links().is_all();
-  if (!whole) forget();
+  const bool whole = task.links().is_all(), hears = s_.exact_paths.from_edges && task.links().is_batch();
+  if (!whole && !(hears && heard_ && task.links().is_later_batch())) forget();
   try {
     FrameResult out = solve(task);
     if (!whole) forget();
+    heard_ = hears;
     return out;
   } catch (const FrameStopped&) {
     forget();
@@ -67,12 +71,12 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   set_ends(task, out.world, block ? &*block : nullptr);
   const RadioEnds& ends = ends_;
   const bool warm = plan_.reuse && warm_frames_ > 0, spared = task.is_between_poses() && warm && clock_.spares();
-  const bool searches = !spared && clock_.due(out.world, !warm, task.mark(discovery_));
+  const bool searches = !spared && !heard_ && clock_.due(out.world, !warm, task.mark(discovery_));
   std::optional<Paths> known;  // computed before rays add to the sequences
   if (searches && warm && clock_.spares()) known = known_paths(task.frame(), out.world, ends, account);
   // Frames are alike if they do the same as the one before; those that follow rays and those of blocks of links are
   // not.
-  const bool alike = !block && !task.only_compiles() && !known && !s_.cache && !s_.trails;
+  const bool alike = !block && !s_.exact_paths.from_edges && !task.only_compiles() && !known && !s_.cache && !s_.trails;
   if (searches) next_frame(s_.discovery->sequences());
   if (s_.cache) s_.cache->begin_frame(out.world);
   if (s_.trails) s_.trails->begin_frame(task.frame(), ends, out.world);
@@ -128,6 +132,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
         account.device_done();
         account.counted(now, ends.transmitter_count, besides);
       });
+  out.rays.add(besides.rays);
   if (out.rays.unread > 0) out.rays.add_ended(out.rays.unread, out.counted.ended);
   return out;
 }
@@ -187,9 +192,12 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
 }
 
 void FrameLoop::set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
+  const bool cut = block && s_.exact_paths.from_edges;  // the other receivers have heard, too
   ends_.moved = !(rests(task) && places_rest_);
-  if (ends_.moved) set_places(s_.context, ends_, world.transmitters, world.receivers, plan_.origins.listeners);
-  places_rest_ = rests(task);
+  if (ends_.moved || cut)
+    set_places(s_.context, ends_, world.transmitters, world.receivers, cut ? block->listeners : plan_.origins.listeners,
+               plan_.origins.receiver_of_transmitter);
+  places_rest_ = rests(task) && !cut;
   if (rests(task) && links_rest_ && !block) return;
   links_rest_ = false;
   set_links(s_.context, ends_, world.receivers, block ? block->solved : world.links);
@@ -229,61 +237,6 @@ Uncounted FrameLoop::receive_paths(const RadioEnds& ends, FrameAccount& account)
   upload_visible(s_.context, s_.trails->paths(), visible);
   set.counters().restart(&wt_counters::visible, visible.count, Stage::visible);
   return {};
-}
-
-Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                      const FrameWatch& watch, FrameAccount& account) {
-  Counters& counters = set.counters();
-  uint64_t kinds_done = 0;
-  Uncounted out;
-  exact.visible.clear();
-  const auto see = [&](SolvedList& solved) {
-    exact.check_legs(scene, ends, solved, counters);  // the passes of legs (exact_paths.cpp)
-    exact.visible(solved, counters);                  // visible
-    account.device_done();
-  };
-  constexpr uint64_t steps = 100;  // for each kind
-  const auto tell = [&] { watch.tell("paths", steps * ++kinds_done, steps * exact.kinds()); };
-  watch.tell("paths", 0, steps * exact.kinds());
-
-  uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
-  if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
-  const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates
-  SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
-                                     counters, exact.blockers ? &*exact.blockers : nullptr);  // solve
-  see(mirrored);
-  tell();
-  set.keep(mirrored);
-
-  if (exact.diffraction) {
-    DiffractedPaths& edges = *exact.diffraction;
-    edges.wedges(scene);  // wedges
-    WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
-                                               set.nodes(), nodes, counters);   // wedge_prefixes
-    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
-    edges.sort(prefixes);                                                       // sort, wedge_prefixes, wedge_pairs
-    out = join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) {
-      watch.tell("paths", steps * kinds_done + steps * done / std::max(prefixes.count, 1u), steps * exact.kinds());
-    });
-    if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
-    tell();
-  }
-  const auto see_scattered = [&](SolvedList& rows) {
-    see(rows);
-    tell();
-    out.candidates += rows.count;
-    out.solved += rows.count;
-  };
-  if (exact.scatter) {
-    SolvedList& by_tiles =
-        (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
-    see_scattered(by_tiles);
-  }
-  if (exact.crowns) {
-    SolvedList& by_cells = (*exact.crowns)(ends);  // crowns
-    see_scattered(by_cells);
-  }
-  return out;
 }
 
 }  // namespace wavetracer

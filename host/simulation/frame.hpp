@@ -52,14 +52,10 @@ class FrameLoop {
   // In a world at rest, frames keep what an earlier one has made: places, the links where these are all, and the launch
   // of all ends.
   bool places_rest_ = false, links_rest_ = false;
+  bool heard_ = false;  // all listeners have heard the rays of edges, for the batches that follow
   std::optional<LaunchPlan> launch_;
   RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one
 };
-
-// Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
-// sequences since the last call; then their exchanges are added. Returns the counts that no counter has.
-Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
-                      const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

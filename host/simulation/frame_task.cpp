@@ -21,9 +21,9 @@ FrameNames FrameNames::none() {
   return {no_name, no_name};
 }
 
-LinkPart LinkPart::batch(ReceiverRange receivers, LeftOut& left_out) const {
+LinkPart LinkPart::batch(ReceiverRange receivers, LeftOut& left_out, bool later) const {
   LinkPart out = *this;
-  out.batch_ = Batch{receivers, &left_out};
+  out.batch_ = Batch{receivers, &left_out, later};
   return out;
 }
 

@@ -41,11 +41,13 @@ class LinkPart {
   // Those of a block of transmitters.
   explicit LinkPart(TransmitterRange block) : transmitters_(block) {}
   // Those of this part that end at a batch of receivers. The paths that the batch leaves out are added to left_out,
-  // which outlives the part: whoever joins the batches warns of them, and computes the elements of arrays.
-  LinkPart batch(ReceiverRange receivers, LeftOut& left_out) const;
+  // which outlives the part: whoever joins the batches warns of them, and computes the elements of arrays. later: it
+  // follows another batch of the same frame, whose sequences may serve it, too.
+  LinkPart batch(ReceiverRange receivers, LeftOut& left_out, bool later) const;
 
   bool is_all() const { return !transmitters_ && !batch_; }
   bool is_batch() const { return batch_.has_value(); }
+  bool is_later_batch() const { return batch_ && batch_->later; }
   TransmitterRange transmitters() const { return transmitters_.value_or(TransmitterRange{0, no_end}); }
   ReceiverRange receivers() const { return batch_ ? batch_->receivers : ReceiverRange{}; }
   // Adds the paths that the batch has left out. Throws std::bad_optional_access if this is no batch.
@@ -55,6 +57,7 @@ class LinkPart {
   struct Batch {
     ReceiverRange receivers;
     LeftOut* left_out;
+    bool later;
   };
 
   std::optional<TransmitterRange> transmitters_;

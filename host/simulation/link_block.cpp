@@ -10,13 +10,15 @@ namespace wavetracer {
 LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to,
                           std::span<const uint32_t> receiver_of_transmitter,
                           std::span<const uint32_t> transmitter_of_receiver, const Origins& origins) {
-  LinkBlock block{{}, {}, std::vector<char>(origins.count(), 0)};
+  LinkBlock block{{}, {}, std::vector<char>(origins.count(), 0), {}};
+  std::vector<char> own(transmitter_of_receiver.size(), 0);
   const auto launch = [&](uint32_t origin) {
     if (origin != no_end) block.launches[origin] = 1;
   };
   for (const Link& link : links) {
     if (link.tx < from.first || link.tx >= from.end || link.rx < to.first || link.rx >= to.end) continue;
     block.own.push_back(link);
+    own[link.rx] = 1;
     block.solved.push_back(link);
     launch(link.tx);
     launch(origins.origin_of_receiver[link.rx]);  // in paths that are met from both ends
@@ -28,6 +30,12 @@ LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from,
   std::ranges::sort(block.solved);
   const auto repeated = std::ranges::unique(block.solved);
   block.solved.erase(repeated.begin(), repeated.end());
+  const auto& [first, receivers] = origins.listeners;
+  for (uint32_t listener = 0; listener < origins.listeners.count(); ++listener) {
+    for (uint32_t i = first[listener]; i < first[listener + 1]; ++i)
+      if (own[receivers[i]]) block.listeners.receivers.push_back(receivers[i]);
+    block.listeners.close();
+  }
   return block;
 }
 

@@ -21,6 +21,7 @@ struct LinkBlock {
   std::vector<Link> own;       // between the transmitters and receivers of the block, sorted
   std::vector<Link> solved;    // own ones and their twins (finished_paths.hpp), sorted
   std::vector<char> launches;  // by origin: its rays may find a path of an own link
+  Listeners listeners;         // those of all origins, with the receivers of own links only
 };
 
 // links: all links of the frame, sorted.

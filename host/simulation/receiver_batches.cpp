@@ -11,9 +11,10 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint32_t least_receivers = 8192;  // where nothing else is asked for
-// A receiver has some 300 to 1500 sequences of about 350 bytes; they may take a quarter of the memory.
-constexpr uint64_t bytes_of_receiver = uint64_t{4} * 1500 * 350;
+constexpr uint32_t least_receivers = 8192;  // a batch has them, unless the user asks for fewer
+// A receiver that launches rays has some 300 to 1500 sequences of about 350 bytes, one that hears edges some 100; they
+// may take a quarter of the memory.
+uint64_t bytes_of_receiver(const TraceConfig& trace) { return uint64_t{4} * 350 * (trace.edge_rays > 0 ? 300 : 1500); }
 
 // Rows first to end - 1 of a batch.
 struct Piece {
@@ -154,7 +155,8 @@ void add_counts(FrameResult& to, const FrameResult& from) {
 
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
                                             uint32_t most) {
-  const auto fitting = static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes_of_receiver, least_receivers, no_end));
+  const auto fitting =
+      static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes_of_receiver(trace), least_receivers, no_end));
   const uint32_t asked = trace.diffraction ? trace.batch_receivers.value_or(fitting) : no_end;
   const uint32_t batch = std::min(asked, most);
   if (receiver_count <= batch) return {{}};

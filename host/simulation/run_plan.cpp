@@ -5,7 +5,9 @@
 #include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
 #include "scene/materials.hpp"
+#include "simulation/edge_discovery.hpp"
 #include "simulation/feature_choice.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -14,6 +16,13 @@ Config with_all_ends(Config config, const World& world) {
   config.transmitters = world.transmitters.ends;
   config.receivers = world.receivers.ends;
   return config;
+}
+
+void check_at_rest(const World& world) {
+  if (!world.resting)
+    throw ConfigError(
+        "trace.edge_rays needs a world in which nothing moves, and this one has vehicles: give 0, so that receivers "
+        "launch rays, or remove the vehicles");
 }
 
 // A sphere receives what this frame's rays meet.
@@ -37,7 +46,11 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   const TraceConfig trace = with_features(config.trace, features);
   Origins origins =
       make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.diffraction);
-  const bool reuse = reuses(trace, world, frames_follow);
+  if (trace.diffraction && trace.edge_rays > 0) {
+    check_at_rest(world);
+    origins = hearing_origins(world.receivers.standing, origins.transmitter_count(), listener_size_m);
+  }
+  const bool reuse = !origins.squares && reuses(trace, world, frames_follow);
   drop_used(scene.report.warnings, world.fleet.models);
   return {.scene = std::move(scene),
           .world = std::move(world),

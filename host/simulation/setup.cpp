@@ -124,7 +124,9 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
                                                                 .watch = watch.get(),
                                                                 .hilly = !trace.rays && is_hilly(scene)});
   auto beams = make_beams(context, *plan, *watch);
-  ExactPaths exact(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), origins, reuse);
+  ExactPaths exact(context, device_scene, scene, world, trace, longest_wavelength_m(config.radio), reuse);
+  if (origins.squares)
+    exact.from_edges = std::make_unique<EdgeDiscovery>(context, device_scene, trace, origins, *watch);
   FinishedPaths finish(context, scene, plan->computed(), world);
   ElementOutputs elements(config, scene, world);
   return {.stages = stages,

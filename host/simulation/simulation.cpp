@@ -73,7 +73,7 @@ struct Simulation::State {
     while (!left.empty()) {
       setup.frame_watch->set_part(parts.size(), parts.size() + left.size());
       try {
-        parts.push_back(frames.run(task(links.batch(left.front(), left_out))));
+        parts.push_back(frames.run(task(links.batch(left.front(), left_out, !parts.empty()))));
         left.pop_front();
       } catch (const gpu::BufferError&) {
         if (left.front().end - left.front().first < 2) throw;

@@ -183,7 +183,6 @@ constexpr bool along_curve(Directions directions) { return directions == "horizo
 constexpr bool at_random(Directions directions) { return directions == "random"; }
 
 using Reception = Choice<"exact", "sphere">;
-
 // The way that sequences are found: sampled by rays, or followed by beams, which miss none.
 using DiscoveryWay = Choice<"rays", "beams">;
 
@@ -203,6 +202,7 @@ struct TraceConfig {
   bool free_edges = true;                                // edges of one face diffract as half planes
   bool edge_ends = false;                                // a static edge's wave ends with the wave of its corner
   std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000
+  uint64_t edge_rays = 0;                                // per edge and prefix that sees it; 0: receivers launch rays
   double tile_m = 5;                                     // largest side length of a tile of scattering
   Directions directions = "horizon";
   Reception reception = "exact";

@@ -27,13 +27,13 @@ inline int may_end(const global wt_wedge_prefix* a, const global wt_wedge_prefix
 // The path crosses the edge where the unfolded one does: between both images' feet on its line, divided as their
 // distances from it (Keller's cone).
 kernel void wedge_join(const global uint* keys, const global wt_wedge_prefix* prefixes,
-                       const global uint* receiver_of_origin, const global ushort* links, const global wt_wedge* wedges,
+                       const global uint* receiver_of_end, const global ushort* links, const global wt_wedge* wedges,
                        const global wt_surface* surfaces, global wt_wedge_candidate* out, global wt_counters* counters,
                        wt_wedge_join_arguments args) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
   const global wt_wedge_prefix* a = prefixes + i;
-  if (a->origin >= args.transmitter_count || a->depth >= args.max_depth) return;
+  if (a->end >= args.transmitter_count || a->depth >= args.max_depth) return;
   const uint wedge = wt_wedge_of(keys[i]), last = wt_wedge_key(wedge, args.max_depth - 1 - a->depth);
   const uint free_ends = wedges[wedge].free_ends;
   const uint first = wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0));
@@ -41,7 +41,7 @@ kernel void wedge_join(const global uint* keys, const global wt_wedge_prefix* pr
   batch.count = 0;
   for (uint j = first + lane; j < args.count && keys[j] <= last; j += args.lanes) {
     const global wt_wedge_prefix* b = prefixes + j;
-    const uint receiver = wt_wanted_receiver(a, b, 1, args.max_depth, receiver_of_origin, links, args.groups);
+    const uint receiver = wt_wanted_receiver(a, b, 1, args.max_depth, receiver_of_end, links, args.groups);
     if (receiver == WT_NONE) continue;
     const float legs = a->away + b->away, at = (a->along * b->away + b->along * a->away) / legs;
     const float margin = margin_of(fabs(a->along) + fabs(b->along) + legs);

@@ -67,7 +67,7 @@ inline int begins_group(const global uint* keys, const global wt_wedge_prefix* p
   group->count = group->most = 0;
   for (uint k = i; k < min(i + TOGETHER, args.end) && wt_wedge_of(keys[k]) == wedge; ++k) {
     const global wt_wedge_prefix* a = prefixes + k;
-    if (a->origin >= args.transmitter_count || a->depth + 2 > args.max_depth) continue;
+    if (a->end >= args.transmitter_count || a->depth + 2 > args.max_depth) continue;
     group->numbers[group->count++] = k;
     group->most = max(group->most, args.max_depth - 2 - a->depth);
   }
@@ -111,7 +111,7 @@ inline uint known_of(const global uint* kept, uint kept_wedges, uint a, uint b) 
 kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys, const global uint* runs,
-                        const global wt_wedge_prefix* prefixes, const global uint* receiver_of_origin,
+                        const global wt_wedge_prefix* prefixes, const global uint* receiver_of_end,
                         const global ushort* links, const global wt_wedge* wedges, const global wt_surface* boxes,
                         global wt_wedge_candidate* out, global wt_counters* counters, wt_wedge_join_arguments args,
                         wt_sight_arguments sight_args, uint run_count) {
@@ -143,7 +143,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];
         const uint pieces_a = group.pieces[k];
-        const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_origin, links, args.groups);
+        const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_end, links, args.groups);
         if (!pieces_a || receiver == WT_NONE) continue;
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
         known = look(&sight, low, high, wanted, known, &hiders);

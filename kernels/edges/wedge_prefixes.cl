@@ -11,7 +11,7 @@
 
 // An onlooker of wedges: the node of a prefix and the surface that its rays met next.
 typedef struct {
-  uint node, seen, origin, depth, last;
+  uint node, seen, end, depth, last;
   uint quarters;
   double3 image;
 } wt_onlooker;
@@ -42,6 +42,25 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
   return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
 }
 
+inline void list_view(uint wedge, double3 at, const wt_onlooker* from, uint seen_by, const global wt_wedge* wedges,
+                      uint slot, global uint* keys, global wt_wedge_prefix* prefixes,
+                      wt_wedge_prefixes_arguments args) {
+  if (slot >= args.capacity) return;
+  keys[slot] = wt_wedge_key(wedge, from->depth);
+  prefixes[slot].quarters = seen_by;
+  prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
+  prefixes[slot].node = from->node;
+  prefixes[slot].end = from->end;
+  prefixes[slot].depth = from->depth;
+  prefixes[slot].last = from->last;
+  prefixes[slot].image[0] = (float)from->image.x;
+  prefixes[slot].image[1] = (float)from->image.y;
+  prefixes[slot].image[2] = (float)from->image.z;
+  prefixes[slot].along = (float)at.x;
+  prefixes[slot].away = (float)wt_from_edge(at);
+  prefixes[slot].length = (float)wedges[wedge].length;
+}
+
 // Lists the views, except those that the prefix also has through the wedge's first face, by another node.
 inline void list_views(const global ulong* table, const global uint* quarters, const global wt_wedge* wedges,
                        const wt_onlooker* from, wt_view* views, uint count, global uint* keys,
@@ -56,54 +75,46 @@ inline void list_views(const global ulong* table, const global uint* quarters, c
   if (kept == 0) return;
   uint slot = wt_take_places(&counters->wedge_prefixes, kept);
   for (uint k = 0; k < kept && slot < args.capacity; ++k, ++slot) {
-    const global wt_wedge* w = wedges + views[k].wedge;
-    keys[slot] = wt_wedge_key(views[k].wedge, from->depth);
-    prefixes[slot].quarters = from->quarters == WT_ALL_QUARTERS
-                                  ? from->quarters
-                                  : from->quarters | by_other_face(table, args.trie_mask, quarters, from, w);
-    prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
-    prefixes[slot].node = from->node;
-    prefixes[slot].origin = from->origin;
-    prefixes[slot].depth = from->depth;
-    prefixes[slot].last = from->last;
-    prefixes[slot].image[0] = (float)from->image.x;
-    prefixes[slot].image[1] = (float)from->image.y;
-    prefixes[slot].image[2] = (float)from->image.z;
-    prefixes[slot].along = (float)views[k].at.x;
-    prefixes[slot].away = (float)wt_from_edge(views[k].at);
-    prefixes[slot].length = (float)w->length;
+    const uint wedge = views[k].wedge;
+    uint seen_by = from->quarters;
+    if (seen_by != WT_ALL_QUARTERS) seen_by |= by_other_face(table, args.trie_mask, quarters, from, wedges + wedge);
+    list_view(wedge, views[k].at, from, seen_by, wedges, slot, keys, prefixes, args);
   }
 }
 
-// One node per work-item. surface_wedges[first_wedges[s] .. first_wedges[s + 1]] are the wedges of surface s. Those
-// that the side against its normal does not see come from sides[2 s + 1] on, those that the other side does not see
-// before sides[2 s]. Each entry is listed with its prefix and with wt_wedge_key, its sort key.
-kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
-                           const global double4* origins, const global wt_exact_surface* surfaces,
-                           const global wt_surface* boxes, const global uint* first_wedges, const global uint* sides,
-                           const global uint* surface_wedges, const global wt_wedge* wedges, global uint* keys,
-                           global wt_wedge_prefix* prefixes, global wt_counters* counters,
-                           wt_wedge_prefixes_arguments args) {
-  const uint i = get_global_id(0), node_count = wt_node_count(counters, args.node_count);
-  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
-  wt_chains_prefetch(table, nodes, i, node_count);
-  uint chain[WT_MAX_DEPTH];
+// Lists what an end sees by the chain of surfaces, the last of which its rays met next; or the one wedge that the
+// chain ends with.
+inline void look(uint end, uint node, const uint* chain, uint depth, const global ulong* table,
+                 const global uint* quarters, const global double4* ends, const global wt_exact_surface* surfaces,
+                 const global wt_surface* boxes, const global uint* first_wedges, const global uint* sides,
+                 const global uint* surface_wedges, const global wt_wedge* wedges, global uint* keys,
+                 global wt_wedge_prefix* prefixes, global wt_counters* counters, wt_wedge_prefixes_arguments args) {
   wt_onlooker from;
-  from.depth = wt_chain(table, nodes[i], chain, &from.origin) - 1;
-  from.seen = chain[from.depth];
-  from.last = from.depth > 0 ? chain[from.depth - 1] : WT_NONE;
-  from.node = wt_trie_parent(table[nodes[i]]);
-  from.quarters = wt_found_by(quarters, nodes[i]);
-  from.image = origins[from.origin].xyz;
-  for (uint k = 0; k < from.depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
-  // The vehicle that carries an antenna hides nothing from it, and does not diffract its waves.
-  const uint own = from.depth == 0 ? wt_end_instance(origins[from.origin]) : WT_NONE;
+  from.end = end;
+  from.depth = depth;
+  from.seen = chain[depth];
+  from.last = depth > 0 ? chain[depth - 1] : WT_NONE;
+  from.node = wt_trie_parent(table[node]);
+  from.quarters = wt_found_by(quarters, node);
+  from.image = ends[end].xyz;
+  for (uint k = 0; k < depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
   wt_view views[WT_VIEWS];
+  if (from.seen & WT_HEARD_WEDGE) {
+    const uint wedge = from.seen & ~WT_HEARD_WEDGE;
+    views[0].wedge = wedge;
+    views[0].at = wt_in_wedge(wedges + wedge, from.image);
+    if (sees(&from, wedges + wedge, boxes, views[0].at))
+      list_view(wedge, views[0].at, &from, from.quarters, wedges, wt_take_places(&counters->wedge_prefixes, 1), keys,
+                prefixes, args);
+    return;
+  }
+  // The vehicle that carries an antenna hides nothing from it, and does not diffract its waves.
+  const uint own = depth == 0 ? wt_end_instance(ends[end]) : WT_NONE;
   uint count = 0;
   const double above = wt_above(surfaces + from.seen, from.image), rounding = wt_rounding(from.image);
   const uint first = above > rounding ? sides[2 * from.seen] : first_wedges[from.seen];
-  const uint end = above < -rounding ? sides[2 * from.seen + 1] : first_wedges[from.seen + 1];
-  for (uint k = first; k < end; ++k) {
+  const uint last = above < -rounding ? sides[2 * from.seen + 1] : first_wedges[from.seen + 1];
+  for (uint k = first; k < last; ++k) {
     const global wt_wedge* w = wedges + surface_wedges[k];
     if (own != WT_NONE && w->instance == own) continue;
     views[count].wedge = surface_wedges[k];
@@ -115,6 +126,27 @@ kernel void wedge_prefixes(const global ulong* table, const global uint* quarter
     count = 0;
   }
   if (count > 0) list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);
+}
+
+// args.lanes work-items per node, which share the ends of its root (first_ends). surface_wedges[first_wedges[s] ..
+// first_wedges[s + 1]] are the wedges of surface s. Those that the side against its normal does not see come from
+// sides[2 s + 1] on, those that the other side does not see before sides[2 s]. Each entry is listed with its prefix and
+// with wt_wedge_key, its sort key.
+kernel void wedge_prefixes(const global ulong* table, const global uint* quarters, const global uint* nodes,
+                           const global double4* ends, const global uint* first_ends,
+                           const global wt_exact_surface* surfaces, const global wt_surface* boxes,
+                           const global uint* first_wedges, const global uint* sides, const global uint* surface_wedges,
+                           const global wt_wedge* wedges, global uint* keys, global wt_wedge_prefix* prefixes,
+                           global wt_counters* counters, wt_wedge_prefixes_arguments args) {
+  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
+  const uint node_count = wt_node_count(counters, args.node_count);
+  if (i >= node_count || (nodes[i] & WT_ROOT)) return;
+  wt_chains_prefetch(table, nodes, i, node_count);
+  uint chain[WT_MAX_DEPTH], root;
+  const uint depth = wt_chain(table, nodes[i], chain, &root) - 1;
+  for (uint end = first_ends[root] + lane; end < first_ends[root + 1]; end += args.lanes)
+    look(end, nodes[i], chain, depth, table, quarters, ends, surfaces, boxes, first_wedges, sides, surface_wedges,
+         wedges, keys, prefixes, counters, args);
 }
 
 // One sorted key per work-item: its prefix goes to the place of the key. Prefixes that see nothing have the last keys,

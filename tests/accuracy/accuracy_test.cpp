@@ -101,6 +101,18 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
         std::vector<std::string>{"trace.diffraction_rays=90000", "trace.rays=90000"});
   own.trace.rays.reset();
   CHECK(axes(own, false, default_rays).size() == 2 + mechanisms().size());
+  // With rays from edges they launch none, except where settings need them.
+  own.trace.edge_rays = 500;
+  const std::vector<Axis> edges = axes(own, false, default_rays, true);
+  REQUIRE(edges.size() == 3 + mechanisms().size());
+  CHECK(edges[0].reference.keys == std::vector<std::string>{"trace.discovery=beams", "trace.edge_rays=0"});
+  CHECK(edges[2].reference.keys == std::vector<std::string>{"trace.edge_rays=9000"});
+  CHECK(edges[2].settings[1].keys == std::vector<std::string>{"trace.edge_rays=300"});
+  CHECK(edges[3].reference.keys == std::vector<std::string>{"trace.diffraction=true"});
+  for (const size_t axis : {4, 5})  // a second edge, and transmission
+    for (const Setting& setting : {edges[axis].reference, edges[axis].settings[0]})
+      CHECK(setting.keys.back() == "trace.edge_rays=0");
+  CHECK(edges[6].reference.keys == std::vector<std::string>{"trace.scattering=true"});
   // Every key and value is one that a configuration accepts.
   for (const Axis& axis : drive) {
     std::vector<Setting> all = axis.settings;

@@ -53,7 +53,7 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
 }
 
 TEST_CASE("without line of sight on most links, diffraction that is off is advised") {
-  const SampleRun sample;
+  SampleRun sample;
   Results results{totals_of(sample.frames()), {}, {}};  // line of sight on 1 of 8 links
   Run run = sample.run();
   const auto advised = [&] {
@@ -66,6 +66,10 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   CHECK(advised());
   results.totals.links = 1745;
   CHECK(advice(run, results.totals).at(0).starts_with("line of sight on 1 of 1,745 links, "));
+  CHECK(advice(run, results.totals).at(0).find("edge_rays") == std::string::npos);
+  sample.config.receiver_grids.resize(1);
+  results.totals.frames = 1;
+  CHECK(advice(run, results.totals).at(0).find("set it to true, with trace.edge_rays = 1000") != std::string::npos);
   results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
   CHECK_FALSE(advised());
   results.totals.warnings.clear();

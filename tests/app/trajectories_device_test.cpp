@@ -125,7 +125,8 @@ TEST_CASE("every configuration that comes with the program validates and runs") 
     CHECK(contains(valid.out, ": ok\n"));
     std::vector<std::string> words{
         "run", "-c", file, "-o", out, "--set", "trace.rays=2000", "--set", "trace.refresh_rays=0"};
-    if (entry.path().stem() == "coverage_2km") words.insert(words.end(), {"--set", "receiver_grid.0.step_m=100"});
+    if (entry.path().stem() == "coverage_2km")
+      words.insert(words.end(), {"--set", "receiver_grid.0.step_m=100", "--set", "trace.edge_rays=20"});
     const Outcome run = run_program(words);
     CAPTURE(run.err);
     if (entry.path().stem() == "live") {

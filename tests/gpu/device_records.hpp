@@ -83,7 +83,7 @@ inline const std::vector<Record> other_records{
       FIELD(wt_wedge, surfaces), FIELD(wt_wedge, planes), FIELD(wt_wedge, instance), FIELD(wt_wedge, free_ends)}},
     {"wt_wedge_prefix",
      sizeof(wt_wedge_prefix),
-     {FIELD(wt_wedge_prefix, node), FIELD(wt_wedge_prefix, origin), FIELD(wt_wedge_prefix, depth),
+     {FIELD(wt_wedge_prefix, node), FIELD(wt_wedge_prefix, end), FIELD(wt_wedge_prefix, depth),
       FIELD(wt_wedge_prefix, last), FIELD(wt_wedge_prefix, image), FIELD(wt_wedge_prefix, along),
       FIELD(wt_wedge_prefix, away), FIELD(wt_wedge_prefix, length), FIELD(wt_wedge_prefix, quarters),
       FIELD(wt_wedge_prefix, pieces)}},

@@ -135,7 +135,7 @@ TEST_CASE("what listeners see is no candidate, nor is a longer sequence than ask
   for (uint32_t t = 0; t < 2; ++t)
     for (uint32_t r = 0; r < 25; ++r) links.push_back({t, r});
   // Ends 2 and 3 are receivers 4 and 1; the trie contains what they see and what the transmitters see.
-  const RadioEnds ends = make_radio_ends(context(), tx, rx, links, {4, 1});
+  const RadioEnds ends = make_radio_ends(context(), tx, rx, links, single_listeners({4, 1}));
   using Found = std::set<std::pair<Sequence, uint32_t>>;
   const auto listed = [&](uint32_t origins, uint32_t max_reflections) {
     Sequences set(context(), 1 << 13);

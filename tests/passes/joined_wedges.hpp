@@ -51,7 +51,8 @@ inline Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_dept
   std::vector<EndState> tx, rx;
   for (const glm::dvec3& p : world.transmitters) tx.push_back({.position_m = p});
   for (const glm::dvec3& p : world.receivers) rx.push_back({.position_m = p});
-  const RadioEnds ends = make_radio_ends(context(), tx, rx, world.links, world.listeners);
+  RadioEnds ends = make_radio_ends(context(), tx, rx, world.links, single_listeners(world.listeners));
+  ends.receiver_of_end = context().buffer(world.receiver_of_origin, "receivers of ends");
   const Wedges wedges(context(), world.scene, {}, {}, true);
   Sequences set(context(), 1 << 15);
   const auto origins = static_cast<uint32_t>(world.receiver_of_origin.size());
@@ -69,7 +70,7 @@ inline Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_dept
   sort(list.keys, list.order, list.count, wedges.key_bits());
   see.place(list);
   if (two) two->list_runs(wedges.list(), list);
-  WedgeJoin pass(context(), world.receiver_of_origin, max_depth, max_depth);
+  WedgeJoin pass(context(), max_depth, max_depth);
   Run out;
   const std::vector<uint64_t> table = set.table().read();
   const auto keys = list.keys.read(0, list.count);

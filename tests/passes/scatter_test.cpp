@@ -65,7 +65,8 @@ Run scattered(const World& world, const TileTable& tiles, const std::vector<Sequ
     placed.place(placed.scene, world.placements);
     scene = std::move(placed.scene);
   }
-  const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.receivers, world.links, world.listeners);
+  const RadioEnds ends =
+      make_radio_ends(context(), world.transmitters, world.receivers, world.links, single_listeners(world.listeners));
   Sequences set(context(), 4096);
   enter(set, scene, sequences, 3);
   const uint32_t node_count = set.collect(static_cast<uint32_t>(world.transmitters.size() + world.listeners.size()));

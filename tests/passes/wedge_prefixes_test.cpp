@@ -43,7 +43,8 @@ Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, ui
   }
   Wedges wedges(context(), world.scene, world.models, world.instances, free_edges);
   wedges(scene);
-  const RadioEnds ends = make_radio_ends(context(), world.transmitters, world.receivers, {}, world.listeners);
+  const RadioEnds ends =
+      make_radio_ends(context(), world.transmitters, world.receivers, {}, single_listeners(world.listeners));
   Sequences set(context(), 1 << 15);
   enter(set, scene, sequences, max_depth);
   const uint32_t node_count = set.collect(ends.transmitter_count);
@@ -56,7 +57,7 @@ Listed list(const PrefixWorld& world, const std::vector<Sequence>& sequences, ui
   const std::vector<wt_wedge_prefix> prefixes = found.prefixes.read(0, found.count);
   for (uint32_t i = 0; i < found.count; ++i) {
     const Sequence s = sequence_of(table, prefixes[i].node);
-    CHECK(prefixes[i].origin == s.transmitter);
+    CHECK(prefixes[i].end == s.transmitter);
     CHECK(prefixes[i].depth == s.surfaces.size());
     CHECK(prefixes[i].last == (s.surfaces.empty() ? WT_NONE : s.surfaces.back()));
     CHECK((keys[i] & 31) == prefixes[i].depth);

@@ -33,7 +33,7 @@ std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3
     listeners.push_back(static_cast<uint32_t>(rx.size()));
     rx.push_back({.position_m = p});
   }
-  const RadioEnds ends = make_radio_ends(context(), tx, rx, {}, listeners);
+  const RadioEnds ends = make_radio_ends(context(), tx, rx, {}, single_listeners(listeners));
   const Wedges wedges(context(), scene, {}, {}, true);
   std::vector<Sequence> sequences;
   const auto first_listener = static_cast<uint32_t>(tx.size());
@@ -287,7 +287,7 @@ TEST_CASE("edges of vehicles, where they stand; to its antenna a vehicle is no w
       EndState tx{.position_m = a}, rx{.position_m = b};
       if (own_tx) tx.instance = 0;
       if (own_rx) rx.instance = 0;
-      const RadioEnds ends = make_radio_ends(context(), {tx}, {rx}, {}, {0});
+      const RadioEnds ends = make_radio_ends(context(), {tx}, {rx}, {}, single_listeners({0}));
       Sequences set(context(), 64);
       set.clear();
       WedgeSolve pass(context(), 3, every_wave_m);

@@ -29,7 +29,7 @@ TEST_CASE("the links of a drive's frame: all, a block, and batches of either") {
   CHECK(block.receivers().first == 0);
   CHECK(block.receivers().end == no_end);
   for (const LinkPart& part : {all, block}) {
-    const LinkPart batch = part.batch({10, 20}, left_out);
+    const LinkPart batch = part.batch({10, 20}, left_out, false);
     CHECK(batch.is_batch());
     CHECK(!batch.is_all());
     CHECK(batch.transmitters().first == part.transmitters().first);
@@ -45,8 +45,8 @@ TEST_CASE("the links of a drive's frame: all, a block, and batches of either") {
 TEST_CASE("batches add what they leave out to one list; what is no batch has none") {
   LeftOut left_out;
   const LinkPart all;
-  all.batch({0, 1}, left_out).add_left_out({{Link{0, 0}, 2}});
-  all.batch({1, 2}, left_out).add_left_out({{Link{0, 1}, 3}});
+  all.batch({0, 1}, left_out, false).add_left_out({{Link{0, 0}, 2}});
+  all.batch({1, 2}, left_out, true).add_left_out({{Link{0, 1}, 3}});
   CHECK(left_out == LeftOut{{Link{0, 0}, 2}, {Link{0, 1}, 3}});
   CHECK_THROWS_AS(all.add_left_out({}), std::bad_optional_access);
 }
@@ -69,7 +69,7 @@ TEST_CASE("a frame of poses changes the mark of their source; one between two fr
 TEST_CASE("each kind of task answers for itself") {
   DiscoveryMark mark;
   LeftOut left_out;
-  const FrameTask drive = FrameTask::of_drive(input(), LinkPart().batch({3, 4}, left_out));
+  const FrameTask drive = FrameTask::of_drive(input(), LinkPart().batch({3, 4}, left_out, false));
   const FrameTask poses = FrameTask::of_poses(input(), mark), between = FrameTask::between_poses(input(), mark);
   const FrameTask compiling = FrameTask::to_compile([] { return world_at(5); });
   CHECK(drive.links().is_batch());

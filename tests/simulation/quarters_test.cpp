@@ -4,6 +4,7 @@
 #include "radio/links.hpp"
 #include "simulation/drive.hpp"
 #include "simulation/frame.hpp"
+#include "simulation/solve_paths.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;

@@ -143,7 +143,27 @@ typedef struct {
   wt_uint trie_mask;
   wt_uint node_count;
   wt_uint capacity;
+  wt_uint lanes;  // work-items of a node
 } wt_wedge_prefixes_arguments;
+
+// Numbers for edge_rays: rays from number `number` of prefix `first` on, `each` of every prefix.
+typedef struct {
+  wt_uint capacity;  // that of the queue
+  wt_uint first, number, count, each;
+  wt_uint roots;    // the roots of the rays' sequences are edges, numbered from here on
+  float low, high;  // the heights of the receivers
+} wt_edge_rays_arguments;
+
+// Numbers for hear: squares with sides of `size` from (x, y) on, in rows of `columns`.
+typedef struct {
+  float x, y, size;
+  float low, high;  // the heights of all receivers
+  float margin;     // the most that a ray passes above or below the receivers of a listener
+  wt_uint columns, rows;
+  wt_uint capacity, ray_count;  // those of the queue
+  wt_uint roots;                // see edge_rays
+  wt_uint trie_mask, first_listener;
+} wt_hear_arguments;
 
 // Numbers for wedge_join and wedge_pairs: `lanes` work-items take each of the prefixes first to end - 1, in their
 // order, as the transmitter's prefix of a pair.

@@ -139,13 +139,16 @@ typedef struct {
   wt_uint receiver;
 } wt_candidate;
 
+// In the place of a sequence's last surface: the wedge that rays came from, in sequences that listeners have heard.
+#define WT_HEARD_WEDGE 0x80000000u
+
 // An edge is cut into this many pieces of equal length; a mask of bits says which of them something may see.
 #define WT_WEDGE_PIECES 4u
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
 typedef struct {
   wt_uint node;      // trie node of the prefix, or a root
-  wt_uint origin;    // the end
+  wt_uint end;       // a place in the list of ends (radio_ends.hpp)
   wt_uint depth;     // number of reflections
   wt_uint last;      // surface of the last reflection
   float image[3];    // image of the end in all reflections

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// A line's comment names the passes that it runs.
+#include "simulation/solve_paths.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace wavetracer {
+namespace {
+
+// Adds what listeners hear of the edges that transmitters see. nodes: the length of the list of nodes, which stays.
+DiscoveryCounts hear_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                           uint32_t nodes) {
+  DiffractedPaths& edges = *exact.diffraction;
+  Counters& counters = set.counters();
+  edges.wedges(scene);  // wedges
+  const WedgePrefixList& seen = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
+                                               set.nodes(), nodes, counters);  // wedge_prefixes
+  const DiscoveryCounts rays =
+      exact.from_edges->find(scene, seen, edges.wedges.list(), nodes, set);  // edge_rays to hear
+  counters.restart(&wt_counters::wedge_prefixes, 0, Stage::wedge_prefixes);
+  counters.restart_nodes(nodes, Stage::sequences);
+  return rays;
+}
+
+}  // namespace
+
+Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+                      const FrameWatch& watch, FrameAccount& account) {
+  Counters& counters = set.counters();
+  uint64_t kinds_done = 0;
+  Uncounted out;
+  exact.visible.clear();
+  const auto see = [&](SolvedList& solved) {
+    exact.check_legs(scene, ends, solved, counters);  // the passes of legs (exact_paths.cpp)
+    exact.visible(solved, counters);                  // visible
+    account.device_done();
+  };
+  constexpr uint64_t steps = 100;  // for each kind
+  const auto tell = [&] { watch.tell("paths", steps * ++kinds_done, steps * exact.kinds()); };
+  watch.tell("paths", 0, steps * exact.kinds());
+
+  uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
+  if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
+  DiscoveryCounts heard;
+  if (exact.from_edges && searched) heard = hear_edges(exact, scene, ends, set, nodes);
+  const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates
+  SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
+                                     counters, exact.blockers ? &*exact.blockers : nullptr);  // solve
+  see(mirrored);
+  tell();
+  set.keep(mirrored);
+
+  if (exact.diffraction) {
+    DiffractedPaths& edges = *exact.diffraction;
+    edges.wedges(scene);                                                // wedges
+    if (exact.from_edges) nodes = set.collect(ends.transmitter_count);  // sequences
+    WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
+                                               set.nodes(), nodes, counters);   // wedge_prefixes
+    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
+    edges.sort(prefixes);                                                       // sort, wedge_prefixes, wedge_pairs
+    out = join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) {
+      watch.tell("paths", steps * kinds_done + steps * done / std::max(prefixes.count, 1u), steps * exact.kinds());
+    });
+    if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
+    tell();
+  }
+  const auto see_scattered = [&](SolvedList& rows) {
+    see(rows);
+    tell();
+    out.candidates += rows.count;
+    out.solved += rows.count;
+  };
+  if (exact.scatter) {
+    SolvedList& by_tiles =
+        (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
+    see_scattered(by_tiles);
+  }
+  if (exact.crowns) {
+    SolvedList& by_cells = (*exact.crowns)(ends);  // crowns
+    see_scattered(by_cells);
+  }
+  out.rays = std::move(heard);
+  return out;
+}
+
+}  // namespace wavetracer
