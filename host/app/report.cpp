@@ -118,7 +118,7 @@ std::string missed_unknown_line(const Run& run, const Totals& totals) {
 // The keys that make a run find more.
 std::string more_rays(const TraceConfig& trace) {
   const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
-  return trace.diffraction && trace.edge_rays > 0 ? rays + ", or of trace.edge_rays," : rays;
+  return trace.diffraction && trace.edge_rays > 0 ? rays + " or trace.edge_rays" : rays;
 }
 
 // Says what rays may have missed; empty without rays.
