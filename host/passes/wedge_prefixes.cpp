@@ -36,7 +36,7 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
   const uint32_t lanes = context_.info().cpu ? 1 : std::min(ends.most_ends, most_lanes);
   list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
-        kernel_(work_.range(node_count * lanes), Stage::wedge_prefixes,
+        kernel_(work_.range(size_t{node_count} * lanes), Stage::wedge_prefixes,
                 calls::wedge_prefixes::wedge_prefixes{
                     .table = trie,
                     .quarters = quarters,

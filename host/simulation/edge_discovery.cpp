@@ -34,8 +34,7 @@ EdgeDiscovery::EdgeDiscovery(gpu::Context& context, const DeviceScene& scene, co
       edge_rays_(context, static_cast<uint32_t>(trace.edge_rays), origins.count(), map_.low_m, map_.high_m),
       hear_(context, origins.count(), origins.transmitter_count(), listener_margin_m),
       max_depth_(trace.max_depth),
-      trace_(after_edges(trace)),
-      discovery_(context, scene, trace_, {.follower = this, .watch = &watch}) {}
+      discovery_(context, scene, after_edges(trace), {.follower = this, .watch = &watch}) {}
 
 DiscoveryCounts EdgeDiscovery::find(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                                     uint32_t listed, Sequences& into) {

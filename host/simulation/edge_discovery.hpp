@@ -9,10 +9,6 @@
 
 namespace wavetracer {
 
-// Sides of the squares whose receivers are one listener, and how far above or below them a ray may pass. Smaller ones
-// have fewer candidates, larger ones hear more (docs/design/measurements.md).
-constexpr double listener_size_m = 20, listener_margin_m = 5;
-
 class EdgeDiscovery final : public RayFollower {
  public:
   // trace: with edge_rays. origins: with squares. scene and watch outlive this.
@@ -32,7 +28,6 @@ class EdgeDiscovery final : public RayFollower {
   EdgeRays edge_rays_;
   Hear hear_;
   uint32_t max_depth_;
-  TraceConfig trace_;
   Discovery discovery_;
   Sequences* into_ = nullptr;
 };

@@ -14,6 +14,10 @@
 
 namespace wavetracer {
 
+// Sides of the squares whose receivers are one listener, and how far above or below them a ray may pass. Smaller ones
+// have fewer candidates, larger ones hear more (docs/design/measurements.md).
+constexpr double listener_size_m = 20, listener_margin_m = 5;
+
 // Squares of the ground plan with receivers, see passes/listener_map.hpp.
 struct ListenerSquares {
   double x_m = 0, y_m = 0, size_m = 1;

@@ -5,7 +5,6 @@
 #include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
 #include "scene/materials.hpp"
-#include "simulation/edge_discovery.hpp"
 #include "simulation/feature_choice.hpp"
 #include "wavetracer/error.hpp"
 

@@ -8,12 +8,12 @@
 namespace wavetracer {
 namespace {
 
-// Adds what listeners hear of the edges that transmitters see. nodes: the length of the list of nodes, which stays.
+// Adds what listeners hear of the edges that transmitters see; wedges must have run. nodes: the length of the list of
+// nodes, which stays.
 DiscoveryCounts hear_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                            uint32_t nodes) {
   DiffractedPaths& edges = *exact.diffraction;
   Counters& counters = set.counters();
-  edges.wedges(scene);  // wedges
   const WedgePrefixList& seen = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
                                                set.nodes(), nodes, counters);  // wedge_prefixes
   const DiscoveryCounts rays =
@@ -42,6 +42,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
   if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
+  if (exact.diffraction) exact.diffraction->wedges(scene);  // wedges
   DiscoveryCounts heard;
   if (exact.from_edges && searched) heard = hear_edges(exact, scene, ends, set, nodes);
   const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates
@@ -53,7 +54,6 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
 
   if (exact.diffraction) {
     DiffractedPaths& edges = *exact.diffraction;
-    edges.wedges(scene);                                                // wedges
     if (exact.from_edges) nodes = set.collect(ends.transmitter_count);  // sequences
     WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
                                                set.nodes(), nodes, counters);   // wedge_prefixes

@@ -100,7 +100,7 @@ World make_world(const Config& config, const Scene& scene) {
 }
 
 WorldState World::state(uint64_t frame) const {
-  const double time = clock.time_s(frame);
+  const double time = clock.time_s(frame);  // throws for a frame that there is not
   if (resting) return *resting;
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
@@ -111,11 +111,6 @@ WorldState World::state(uint64_t frame) const {
 }
 
 WorldState World::state(double time_s, const std::vector<PlacedPose>& placed) const {
-  if (resting) {
-    WorldState out = *resting;
-    out.time_s = time_s;
-    return out;
-  }
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
   for (const Track& track : fleet.trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});

@@ -2,7 +2,7 @@
 // edge_rays: launches rays from the edges that transmitters see, along the cones of their diffracted waves (Keller,
 // 1962): a ray leaves the edge at the angle at which the way from the transmitter meets it. Edges that a building hides
 // from the transmitter launch, too; the exact solution decides.
-// It assumes that no edge is longer than some kilometres: places along it are as exact as float32.
+// Angles are as exact as the images of the prefixes, float32.
 #include "lib/hit.clh"
 #include "lib/trie.clh"
 #include "lib/wedge.clh"

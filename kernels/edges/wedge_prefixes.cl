@@ -42,6 +42,8 @@ inline uint by_other_face(const global ulong* table, uint mask, const global uin
   return beside == WT_NONE ? 0u : wt_found_by(quarters, beside);
 }
 
+// Lists that the onlooker sees a wedge. at: its image in the wedge's axes; seen_by: the quarters whose rays see it;
+// slot: a place of the list.
 inline void list_view(uint wedge, double3 at, const wt_onlooker* from, uint seen_by, const global wt_wedge* wedges,
                       uint slot, global uint* keys, global wt_wedge_prefix* prefixes,
                       wt_wedge_prefixes_arguments args) {
@@ -98,18 +100,17 @@ inline void look(uint end, uint node, const uint* chain, uint depth, const globa
   from.quarters = wt_found_by(quarters, node);
   from.image = ends[end].xyz;
   for (uint k = 0; k < depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
-  wt_view views[WT_VIEWS];
   if (from.seen & WT_HEARD_WEDGE) {
     const uint wedge = from.seen & ~WT_HEARD_WEDGE;
-    views[0].wedge = wedge;
-    views[0].at = wt_in_wedge(wedges + wedge, from.image);
-    if (sees(&from, wedges + wedge, boxes, views[0].at))
-      list_view(wedge, views[0].at, &from, from.quarters, wedges, wt_take_places(&counters->wedge_prefixes, 1), keys,
-                prefixes, args);
+    const double3 at = wt_in_wedge(wedges + wedge, from.image);
+    if (sees(&from, wedges + wedge, boxes, at))
+      list_view(wedge, at, &from, from.quarters, wedges, wt_take_places(&counters->wedge_prefixes, 1), keys, prefixes,
+                args);
     return;
   }
   // The vehicle that carries an antenna hides nothing from it, and does not diffract its waves.
   const uint own = depth == 0 ? wt_end_instance(ends[end]) : WT_NONE;
+  wt_view views[WT_VIEWS];
   uint count = 0;
   const double above = wt_above(surfaces + from.seen, from.image), rounding = wt_rounding(from.image);
   const uint first = above > rounding ? sides[2 * from.seen] : first_wedges[from.seen];

@@ -107,6 +107,22 @@ inline TraceConfig diffracting(uint64_t rays, uint32_t max_depth) {
   return trace;
 }
 
+// Two masts, a station and a receiver over two boxes, and a grid of receivers around them, with diffraction.
+inline Config map_over_boxes(const SceneFile& file, uint64_t rays, uint32_t max_depth, double step_m) {
+  Config config = config_of(file.path(), {{-11, 3, 7}, {9, -8, 4}}, {{0.3, 4, 1}}, rays, max_depth);
+  config.trace = diffracting(rays, max_depth);
+  config.stations.resize(1);
+  config.stations[0].name = "rsu";
+  config.stations[0].position_m = {1.1, -7.3, 2};
+  ReceiverGridConfig& grid = config.receiver_grids.emplace_back();
+  grid.name = "g";
+  grid.x_min_m = grid.y_min_m = -15;
+  grid.x_max_m = 15;
+  grid.y_max_m = 18;
+  grid.step_m = step_m;
+  return config;
+}
+
 // Checks that the paths of a frame are exactly those that exist, at the same places. Returns how many of them diffract.
 inline size_t check_complete(const std::filesystem::path& scene_file, const Points& transmitters,
                              const Points& receivers, const TraceConfig& trace) {

@@ -11,22 +11,7 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Two masts over two boxes, to a grid, a station and a receiver beside it.
-Config town(const SceneFile& file) {
-  Config config = config_of(file.path(), {{-11, 3, 7}, {9, -8, 4}}, {{0.3, 4, 1}}, 100000, 3);
-  config.trace = diffracting(100000, 3);
-  config.stations.resize(1);
-  config.stations[0].name = "rsu";
-  config.stations[0].position_m = {1.1, -7.3, 2};
-  ReceiverGridConfig grid;
-  grid.name = "g";
-  grid.x_min_m = grid.y_min_m = -15;
-  grid.x_max_m = 15;
-  grid.y_max_m = 18;
-  grid.step_m = 3;
-  config.receiver_grids = {grid};
-  return config;
-}
+Config town(const SceneFile& file) { return map_over_boxes(file, 100000, 3, 3); }
 
 Config by_edges(Config config, uint64_t rays) {
   config.trace.edge_rays = rays;

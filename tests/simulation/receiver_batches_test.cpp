@@ -15,21 +15,9 @@ using namespace wavetracer::test;
 
 namespace {
 
-// Two masts and a station over two boxes, to 35 receivers, a station among them, that launch rays.
 Config map_of(const SceneFile& file) {
-  Config config = config_of(file.path(), {{-11, 3, 7}, {9, -8, 4}}, {{0.3, 4, 1}}, 20000, 2);
-  config.trace = diffracting(20000, 2);
+  Config config = map_over_boxes(file, 20000, 2, 5);
   config.trace.diffraction_rays = 3000;
-  config.stations.resize(1);
-  config.stations[0].name = "rsu";
-  config.stations[0].position_m = {1.1, -7.3, 2};
-  ReceiverGridConfig grid;
-  grid.name = "g";
-  grid.x_min_m = grid.y_min_m = -15;
-  grid.x_max_m = 15;
-  grid.y_max_m = 18;
-  grid.step_m = 5;
-  config.receiver_grids = {grid};
   return config;
 }
 
