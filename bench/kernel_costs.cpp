@@ -172,6 +172,8 @@ constexpr KernelCost costs[] = {
     {"hear/hear", "edge rays", "segments", items_of<"hear/hear">, always<static_cast<size_t>(ray_m + 2 * word)>,
      always<static_cast<size_t>(box_operations)>, true},
     {"wedge_join/wedge_join", "diffraction", "candidates", joined, join_bytes, always<60>},
+    {"heard_join/heard_join", "edge rays", "candidates", joined, join_bytes, always<60>},
+    {"wedge_sight/count_in_sight", "edge rays", "prefixes", items_of<"wedge_sight/count_in_sight">, always<4>, nothing},
     {"wedge_solve/wedge_solve", "diffraction", "candidates", joined, wedge_solve_bytes, wedge_solve_operations, true},
     {"wedge_sight/wedge_sight", "two diffractions", "prefixes", items_of<"wedge_sight/wedge_sight">,
      always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, scene_operations},

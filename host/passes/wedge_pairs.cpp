@@ -55,7 +55,7 @@ void WedgePairs::list_runs(const WedgeList& wedges, const WedgePrefixList& prefi
 
 void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
                             const RadioEnds& ends, const wt_wedge_join_arguments& join,
-                            gpu::Buffer<wt_wedge_candidate>& list, Counters& counters) {
+                            const gpu::Buffer<wt_wedge_candidate>& list, Counters& counters) {
   wt_wedge_join_arguments own = join;
   own.lanes = lanes_;
   kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs,

@@ -25,8 +25,8 @@ class WedgePairs {
   // Appends to the list, and counts in counters.wedge_candidates. join: the arguments of the same prefixes (see
   // wedge_join).
   void operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                  const RadioEnds& ends, const wt_wedge_join_arguments& join, gpu::Buffer<wt_wedge_candidate>& list,
-                  Counters& counters);
+                  const RadioEnds& ends, const wt_wedge_join_arguments& join,
+                  const gpu::Buffer<wt_wedge_candidate>& list, Counters& counters);
 
   WedgeSight sight;  // must run before prefixes are sorted
 

@@ -19,6 +19,8 @@ class WedgePrefixes {
   WedgePrefixList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                               const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<uint32_t>& quarters,
                               const gpu::Buffer<uint32_t>& nodes, uint32_t node_count, Counters& counters);
+  // The list as it is now.
+  const WedgePrefixList& list() const { return list_; }
   // Sets list.sorted; the keys must be sorted.
   void place(WedgePrefixList& list);
 

@@ -12,12 +12,22 @@
 
 namespace wavetracer {
 
+// The most pieces of an edge: each has a bit.
+constexpr uint32_t most_pieces = 32;
+
 class WedgeSight {
  public:
-  // device_scene: made from scene. transmission: do waves pass surfaces that are not opaque?
-  WedgeSight(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission);
-  // Tests prefixes that are not sorted yet; those that see nothing get the key WT_NONE.
-  void operator()(const DeviceScene& scene, const WedgeList& wedges, WedgePrefixList& prefixes);
+  // device_scene: made from scene. transmission: do waves pass surfaces that are not opaque? pieces: of an edge, at
+  // most 32.
+  WedgeSight(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission,
+             uint32_t pieces = WT_WEDGE_PIECES);
+  // Tests the prefixes of the first `ends` ends, with their nodes in the trie, which are not sorted yet; those that see
+  // nothing get the key WT_NONE.
+  void operator()(const DeviceScene& scene, const WedgeList& wedges, const gpu::Buffer<uint64_t>& trie,
+                  WedgePrefixList& prefixes, uint32_t ends = WT_NONE);
+  // Returns the number of prefixes that see something. They are the first ones; the prefixes must be sorted.
+  uint32_t in_sight(const WedgePrefixList& prefixes);
+  uint32_t pieces() const { return pieces_; }
 
   // Tables for kernels that test other lines in the same way.
   const gpu::Buffer<uint32_t>& first_sides() const { return first_sides_; }
@@ -26,10 +36,13 @@ class WedgeSight {
 
  private:
   gpu::KernelOf<calls::wedge_sight::wedge_sight> kernel_;
+  gpu::KernelOf<calls::wedge_sight::count_in_sight> count_;
   Work work_;
   bool transmission_;
+  uint32_t pieces_;
   gpu::Buffer<uint32_t> first_sides_;  // see ConvexFaces
   gpu::Buffer<double> sides_;
+  gpu::Buffer<uint32_t> seen_;
 };
 
 }  // namespace wavetracer

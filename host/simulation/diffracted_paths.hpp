@@ -12,12 +12,15 @@
 
 #include "base/environment.hpp"
 #include "passes/growing_list.hpp"
+#include "passes/heard_join.hpp"
 #include "passes/sequences.hpp"
 #include "passes/sort.hpp"
+#include "passes/wedge_candidates.hpp"
 #include "passes/wedge_chains.hpp"
 #include "passes/wedge_join.hpp"
 #include "passes/wedge_pairs.hpp"
 #include "passes/wedge_prefixes.hpp"
+#include "passes/wedge_sight.hpp"
 #include "passes/wedge_solve.hpp"
 #include "passes/wedges.hpp"
 #include "simulation/frame_account.hpp"
@@ -28,6 +31,13 @@ namespace wavetracer {
 // frame can be cancelled in between and report its progress.
 constexpr uint32_t prefix_block = 4096, most_at_once = 1 << 15;
 
+// The passes of edges whose rays listeners hear.
+struct HeardEdges {
+  WedgeSight sight;       // tests the prefixes of transmitters
+  HeardJoin join;         // in place of wedge_join
+  uint32_t in_sight = 0;  // the prefixes of transmitters that see something of their edges, in the list of prefixes
+};
+
 struct DiffractedPaths {
   // wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth: interactions that a solved path has room
   // for, at least max_depth.
@@ -35,13 +45,15 @@ struct DiffractedPaths {
                   std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
-        join(context, max_depth, row_depth, wavelength_m),
+        join(context, max_depth, wavelength_m),
+        candidates(context, row_depth),
         pairs(std::move(two)),
         solve(context, row_depth, wavelength_m),
+        waits_(context.info().cpu),
         sort_(context) {
     // With this, tests need no scene of millions of candidates.
     if (const std::string most = environment("WAVETRACER_MOST_CANDIDATES"); !most.empty())
-      join.set_most(static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L)));
+      candidates.set_most(static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L)));
   }
 
   WedgePairs* for_two() { return pairs ? &*pairs : nullptr; }
@@ -56,31 +68,33 @@ struct DiffractedPaths {
   Wedges wedges;
   WedgePrefixes prefixes;
   WedgeJoin join;
+  WedgeCandidates candidates;
   std::optional<WedgePairs> pairs;
   WedgeSolve solve;
   std::optional<WedgeChains> chains;  // given with two edges and more
+  std::optional<HeardEdges> heard;    // with trace.edge_rays
+
+  // Does waiting for the device cost little? On CPUs it does, and there long passes run in blocks.
+  bool waits() const { return waits_; }
 
  private:
+  bool waits_;
   Sort sort_;
 };
 
-// Runs wedge_join to visible. The prefixes are divided into parts where all have too many candidates for one list, or
-// take long. see: runs the passes after wedge_solve; told(done): is called before another part, with the number of
-// prefixes that are done. Returns the counts that the counters lack: those of all parts except the last.
-template <class See, class Told>
-Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                        const WedgePrefixList& prefixes, const See& see, const Told& told) {
+// Runs a join to visible. Its items, prefixes or nodes, are divided into parts where all have too many candidates for
+// one list, or take long: at most `block` of them are joined at once. list(first, end): joins these. see: runs the
+// passes after wedge_solve; told(done): is called before another part, with the number of items that are done. Returns
+// the counts that the counters lack: those of all parts except the last.
+template <class List, class See, class Told>
+Uncounted join_by_parts(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                        uint32_t items, uint32_t block, const List& list, const See& see, const Told& told) {
   Counters& counters = set.counters();
   Uncounted out, part;
-  const bool at_once = counters.foresees() || !edges.pairs || prefixes.count <= most_at_once || !edges.join.waits();
   by_parts(
-      prefixes.count, at_once ? prefixes.count : prefix_block, counters.foresees() ? 0xFFFFFFFFu : edges.join.most(),
-      [&](uint32_t first, uint32_t end) {
-        return edges.join(scene, prefixes, first, end, edges.wedges.list(), ends, counters,
-                          edges.for_two());  // wedge_join, wedge_pairs
-      },
+      items, block, counters.foresees() ? 0xFFFFFFFFu : edges.candidates.most(), list,
       [&](uint32_t joined) {
-        SolvedList& solved = edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.join.list(), joined,
+        SolvedList& solved = edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.candidates.list(), joined,
                                          counters);  // wedge_solve
         see(solved);
         part = {joined, solved.count};
@@ -93,8 +107,38 @@ Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const 
         counters.in_parts();
         told(done);
       },
-      [&](uint32_t candidates) { edges.join.refuse(candidates); });
+      [&](uint32_t candidates) { edges.candidates.refuse(candidates); });
   return out;
+}
+
+// The same for wedge_join and wedge_pairs.
+template <class See, class Told>
+Uncounted join_prefixes(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                        const WedgePrefixList& prefixes, const See& see, const Told& told) {
+  Counters& counters = set.counters();
+  const bool at_once = counters.foresees() || !edges.pairs || prefixes.count <= most_at_once || !edges.waits();
+  return join_by_parts(
+      edges, scene, ends, set, prefixes.count, at_once ? prefixes.count : prefix_block,
+      [&](uint32_t first, uint32_t end) {
+        return edges.join(scene, prefixes, first, end, edges.wedges.list(), ends, edges.for_two(), edges.candidates,
+                          counters);  // wedge_join, wedge_pairs
+      },
+      see, told);
+}
+
+// The same for heard_join. nodes: the number of all nodes.
+template <class See, class Told>
+Uncounted join_heard(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                     uint32_t nodes, const See& see, const Told& told) {
+  HeardEdges& heard = *edges.heard;
+  return join_by_parts(
+      edges, scene, ends, set, nodes, nodes,
+      [&](uint32_t first, uint32_t end) {
+        return heard.join(scene, edges.prefixes.list(), heard.in_sight,
+                          {set.table(), set.quarters(), set.nodes(), first, end}, edges.wedges.list(), ends,
+                          edges.candidates, set.counters());  // heard_join
+      },
+      see, told);
 }
 
 }  // namespace wavetracer

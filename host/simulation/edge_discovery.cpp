@@ -31,13 +31,14 @@ ListenerMap on_device(gpu::Context& context, const ListenerSquares& squares) {
 EdgeDiscovery::EdgeDiscovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& trace,
                              const Origins& origins, const FrameWatch& watch)
     : map_(on_device(context, *origins.squares)),
-      edge_rays_(context, static_cast<uint32_t>(trace.edge_rays), origins.count(), map_.low_m, map_.high_m),
+      edge_rays_(context, static_cast<uint32_t>(trace.edge_rays), most_pieces, origins.count(), map_.low_m,
+                 map_.high_m),
       hear_(context, origins.count(), origins.transmitter_count(), listener_margin_m),
       max_depth_(trace.max_depth),
       discovery_(context, scene, after_edges(trace), {.follower = this, .watch = &watch}) {}
 
 DiscoveryCounts EdgeDiscovery::find(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                                    uint32_t listed, Sequences& into) {
+                                    uint32_t in_sight, uint32_t listed, Sequences& into) {
   into_ = &into;
   discovery_.sequences().clear();
   const auto fill = [&](RayQueue& queue, uint64_t first, uint32_t count) {
@@ -48,7 +49,7 @@ DiscoveryCounts EdgeDiscovery::find(const DeviceScene& scene, const WedgePrefixL
     into.regrow(max_depth_, listed);
     return false;
   };
-  return discovery_.find_filled(scene, edge_rays_.total(prefixes.count), fill, heard);
+  return discovery_.find_filled(scene, edge_rays_.total(in_sight), fill, heard);
 }
 
 void EdgeDiscovery::follow(const RayQueue& rays, const HitList& hits, uint32_t /*depth*/,

@@ -15,9 +15,9 @@ class EdgeDiscovery final : public RayFollower {
   EdgeDiscovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& trace, const Origins& origins,
                 const FrameWatch& watch);
   // Adds the sequences that listeners hear to `into`, whose first `listed` nodes() stay the same. prefixes: those of
-  // transmitters, not sorted.
+  // transmitters, sorted, the first in_sight of which see something of their edges.
   DiscoveryCounts find(const DeviceScene& scene, const WedgePrefixList& prefixes, const WedgeList& wedges,
-                       uint32_t listed, Sequences& into);
+                       uint32_t in_sight, uint32_t listed, Sequences& into);
 
   uint32_t extra_segments() const override { return 1; }  // to the listeners
   void follow(const RayQueue& rays, const HitList& hits, uint32_t depth,

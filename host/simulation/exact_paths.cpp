@@ -41,6 +41,9 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
     diffraction.emplace(context, Wedges(context, scene, world.fleet.models, world.fleet.instances, trace.free_edges),
                         trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
+    if (trace.edge_rays > 0)
+      diffraction->heard.emplace(HeardEdges{{context, device_scene, scene, false, most_pieces},
+                                            {context, trace.max_depth, most_pieces, longest_wavelength_m}});
     if (depth.edges > 1) {
       const auto instances = static_cast<uint32_t>(world.fleet.instances.size());
       const WedgeGrid grid(wedge_records(scene, world.fleet.models, world.fleet.instances),

@@ -116,13 +116,15 @@ FrameResult FrameLoop::solve(FrameTask& task) {
 FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends,
                                        const LinkBlock* block, bool searches, bool alike, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
+  const Search search = !searches || s_.beams ? Search::none : task.only_compiles() ? Search::few : Search::all;
   Found out;
   Uncounted besides;
   const auto passes = [&] {
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
-    besides = plan_.trace.by_spheres() ? receive_paths(ends, account)
-                                       : solve_paths(s_.exact_paths, s_.device_scene, ends, set, searches && !s_.beams,
-                                                     *s_.frame_watch, account);  // sequences to visible
+    besides = plan_.trace.by_spheres()
+                  ? receive_paths(ends, account)
+                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, search, *s_.frame_watch,
+                                account);  // sequences to visible
     account.end_stage(Stage::paths);
     finish_paths(task.frame(), world, ends, block ? &block->own : nullptr, true);  // distinct to fields
   };
@@ -141,7 +143,7 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
 Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
   const auto passes = [&] {
-    solve_paths(s_.exact_paths, s_.device_scene, ends, set, false, *s_.frame_watch, account);
+    solve_paths(s_.exact_paths, s_.device_scene, ends, set, Search::none, *s_.frame_watch, account);
     account.end_stage(Stage::paths);
     finish_paths(frame, world, ends, nullptr, false);
   };

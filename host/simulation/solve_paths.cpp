@@ -8,24 +8,55 @@
 namespace wavetracer {
 namespace {
 
+constexpr uint32_t few_edges = 16;
+
+// Lists the prefixes of transmitters that see something of their edges. nodes: those of transmitters.
+void list_heard_edges(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                      uint32_t nodes) {
+  set.counters().restart_nodes(nodes, Stage::sequences);  // regrow() has set all counters to zero
+  set.counters().restart(&wt_counters::wedge_prefixes, 0, Stage::wedge_prefixes);
+  WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(), set.nodes(),
+                                             nodes, set.counters());      // wedge_prefixes
+  edges.heard->sight(scene, edges.wedges.list(), set.table(), prefixes);  // wedge_sight
+  edges.sort(prefixes);                                                   // sort, wedge_prefixes
+  edges.heard->in_sight = edges.heard->sight.in_sight(prefixes);          // wedge_sight
+}
+
 // Adds what listeners hear of the edges that transmitters see; wedges must have run. nodes: the length of the list of
 // nodes, which stays.
 DiscoveryCounts hear_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
-                           uint32_t nodes) {
+                           uint32_t nodes, Search search) {
   DiffractedPaths& edges = *exact.diffraction;
-  Counters& counters = set.counters();
-  const WedgePrefixList& seen = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
-                                               set.nodes(), nodes, counters);  // wedge_prefixes
-  const DiscoveryCounts rays =
-      exact.from_edges->find(scene, seen, edges.wedges.list(), nodes, set);  // edge_rays to hear
-  counters.restart(&wt_counters::wedge_prefixes, 0, Stage::wedge_prefixes);
-  counters.restart_nodes(nodes, Stage::sequences);
+  list_heard_edges(edges, scene, ends, set, nodes);
+  const size_t room = set.table().size();
+  const uint32_t launching = search == Search::few ? std::min(edges.heard->in_sight, few_edges) : edges.heard->in_sight;
+  const DiscoveryCounts rays = exact.from_edges->find(scene, edges.prefixes.list(), edges.wedges.list(), launching,
+                                                      nodes, set);                   // edge_rays to hear
+  if (set.table().size() != room) list_heard_edges(edges, scene, ends, set, nodes);  // their nodes have moved
+  set.counters().restart_nodes(nodes, Stage::sequences);
   return rays;
+}
+
+// Makes the paths over one edge or two. nodes: the number of nodes; see, told: as for join_by_parts, told with the
+// number of all items as well. Returns the counts that the counters lack.
+template <class See, class Told>
+Uncounted join_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, uint32_t nodes,
+                     const See& see, const Told& told) {
+  DiffractedPaths& edges = *exact.diffraction;
+  if (exact.from_edges) {
+    nodes = set.collect(ends.transmitter_count);  // sequences
+    return join_heard(edges, scene, ends, set, nodes, see, [&](uint32_t done) { told(done, nodes); });
+  }
+  WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(), set.nodes(),
+                                             nodes, set.counters());                       // wedge_prefixes
+  if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), set.table(), prefixes);  // wedge_sight
+  edges.sort(prefixes);  // sort, wedge_prefixes, wedge_pairs
+  return join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) { told(done, prefixes.count); });
 }
 
 }  // namespace
 
-Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
                       const FrameWatch& watch, FrameAccount& account) {
   Counters& counters = set.counters();
   uint64_t kinds_done = 0;
@@ -41,10 +72,10 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
   watch.tell("paths", 0, steps * exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
-  if (searched) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
+  if (search != Search::none) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
   if (exact.diffraction) exact.diffraction->wedges(scene);  // wedges
   DiscoveryCounts heard;
-  if (exact.from_edges && searched) heard = hear_edges(exact, scene, ends, set, nodes);
+  if (exact.from_edges && search != Search::none) heard = hear_edges(exact, scene, ends, set, nodes, search);
   const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates
   SolvedList& mirrored = exact.solve(scene, ends, set.table(), set.quarters(), exact.candidates.list(), candidates,
                                      counters, exact.blockers ? &*exact.blockers : nullptr);  // solve
@@ -54,13 +85,8 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
 
   if (exact.diffraction) {
     DiffractedPaths& edges = *exact.diffraction;
-    if (exact.from_edges) nodes = set.collect(ends.transmitter_count);  // sequences
-    WedgePrefixList& prefixes = edges.prefixes(scene, edges.wedges.list(), ends, set.table(), set.quarters(),
-                                               set.nodes(), nodes, counters);   // wedge_prefixes
-    if (edges.pairs) edges.pairs->sight(scene, edges.wedges.list(), prefixes);  // wedge_sight
-    edges.sort(prefixes);                                                       // sort, wedge_prefixes, wedge_pairs
-    out = join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) {
-      watch.tell("paths", steps * kinds_done + steps * done / std::max(prefixes.count, 1u), steps * exact.kinds());
+    out = join_edges(exact, scene, ends, set, nodes, see, [&](uint32_t done, uint32_t all) {
+      watch.tell("paths", steps * kinds_done + steps * done / std::max(all, 1u), steps * exact.kinds());
     });
     if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
     tell();

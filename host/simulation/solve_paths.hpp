@@ -8,9 +8,13 @@
 
 namespace wavetracer {
 
-// Finds the exact paths of the sequences that rays have found, in exact.visible.list(). searched: rays may have added
-// sequences since the last call; then their exchanges are added. Returns the counts that no counter has.
-Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, bool searched,
+// The search for sequences before exact paths are made: none since the last call, by few rays in a frame that only
+// compiles, or by all rays.
+enum class Search { none, few, all };
+
+// Finds the exact paths of the sequences that rays have found, in exact.visible.list(). After a search it adds the
+// exchanges of sequences, and searches from edges. Returns the counts that no counter has.
+Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
                       const FrameWatch& watch, FrameAccount& account);
 
 }  // namespace wavetracer

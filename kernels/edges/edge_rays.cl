@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // edge_rays: launches rays from the edges that transmitters see, along the cones of their diffracted waves (Keller,
-// 1962): a ray leaves the edge at the angle at which the way from the transmitter meets it. Edges that a building hides
-// from the transmitter launch, too; the exact solution decides.
+// 1962): a ray leaves the edge at the angle at which the way from the transmitter meets it. Pieces of edges that a
+// building surely hides from the transmitter launch none (wedge_sight).
 // Angles are as exact as the images of the prefixes, float32.
 #include "lib/hit.clh"
 #include "lib/trie.clh"
@@ -38,10 +38,19 @@ inline double azimuth_in(arc a, double exterior, double share) {
   return at < again ? at : a.first + (at - again);
 }
 
+// The place on an edge of `length` that is at this share of the pieces in the mask.
+inline double place_in(uint pieces, uint mask, double length, double share) {
+  const double at = share * popcount(mask);
+  uint k = min((uint)at, popcount(mask) - 1), bits = mask;
+  const double inside = at - k;
+  for (; k > 0; --k) bits &= bits - 1;
+  return length * ((31u - clz(bits & -bits)) + inside) / pieces;
+}
+
 // One ray per work-item: args.each of every prefix, from number args.number of prefix args.first on. keys, prefixes:
-// those of wedge_prefixes. The azimuths of a prefix's rays follow each other, so that neighbours have similar
-// directions; places along the edge follow in steps of the golden ratio. Receivers are between the heights args.low and
-// args.high, and eight of nine rays do not lead away from there.
+// those of wedge_prefixes that wedge_sight has left, with their pieces. The azimuths of a prefix's rays follow each
+// other, so that neighbours have similar directions; places along the edge follow in steps of the golden ratio.
+// Receivers are between the heights args.low and args.high, and eight of nine rays do not lead away from there.
 kernel void edge_rays(const global uint* keys, const global wt_wedge_prefix* prefixes, const global wt_wedge* wedges,
                       global float* rays, wt_edge_rays_arguments args) {
   const uint k = get_global_id(0);
@@ -51,7 +60,8 @@ kernel void edge_rays(const global uint* keys, const global wt_wedge_prefix* pre
   const global wt_wedge_prefix* p = prefixes + i;
   const global wt_wedge* w = wedges + wedge;
   const double3 along = axis_of(w->along), face = axis_of(w->face), normal = axis_of(w->normal);
-  const double x = w->length * ((double)((n + 1) * 2654435769u) * 2.3283064365386963e-10);
+  const double x =
+      place_in(args.pieces, p->pieces, w->length, (double)((n + 1) * 2654435769u) * 2.3283064365386963e-10);
   const double3 from = wt_on_edge(w, x);
   const double over = x - p->along, way = sqrt(over * over + (double)p->away * p->away);
   const double t = way > 0.0 ? over / way : 0.0, s = sqrt(fmax(1.0 - t * t, 0.0));

@@ -148,7 +148,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
         known = look(&sight, low, high, wanted, known, &hiders);
         if (known >> 16 & wanted)
-          wt_emit_candidate(a, b, wedge_a, wedge_b, receiver, &batch, out, args.capacity, counters);
+          wt_emit_candidate(a->node, b->node, wedge_a, wedge_b, receiver, a->quarters & b->quarters, &batch, out,
+                            args.capacity, counters);
       }
     }
     if (known != was_known && max(wedge_a, wedge_b) < sight_args.kept_wedges) {

@@ -27,13 +27,6 @@ typedef struct {
 
 inline uint other_face(const global wt_wedge* w, uint seen) { return w->surfaces[w->surfaces[0] == seen]; }
 
-// Does the prefix see the wedge, as far as its last mirror shows it? boxes: those of the surfaces.
-inline int sees(const wt_onlooker* from, const global wt_wedge* w, const global wt_surface* boxes, double3 at) {
-  if (!(w->length > 0.0) || !wt_in_sector(w, at, wt_beneath(from->depth))) return 0;
-  return from->depth == 0 || wt_may_show(boxes + from->last, convert_float3(from->image),
-                                         convert_float3(wt_on_edge(w, 0.0)), convert_float3(wt_on_edge(w, w->length)));
-}
-
 // The quarters whose rays see the wedge from here on its other face.
 inline uint by_other_face(const global ulong* table, uint mask, const global uint* quarters, const wt_onlooker* from,
                           const global wt_wedge* w) {
@@ -50,7 +43,7 @@ inline void list_view(uint wedge, double3 at, const wt_onlooker* from, uint seen
   if (slot >= args.capacity) return;
   keys[slot] = wt_wedge_key(wedge, from->depth);
   prefixes[slot].quarters = seen_by;
-  prefixes[slot].pieces = (1u << WT_WEDGE_PIECES) - 1u;
+  prefixes[slot].pieces = 0xFFFFFFFFu;  // wedge_sight has not tested it
   prefixes[slot].node = from->node;
   prefixes[slot].end = from->end;
   prefixes[slot].depth = from->depth;
@@ -84,8 +77,7 @@ inline void list_views(const global ulong* table, const global uint* quarters, c
   }
 }
 
-// Lists what an end sees by the chain of surfaces, the last of which its rays met next; or the one wedge that the
-// chain ends with.
+// Lists what an end sees by the chain of surfaces, the last of which its rays met next.
 inline void look(uint end, uint node, const uint* chain, uint depth, const global ulong* table,
                  const global uint* quarters, const global double4* ends, const global wt_exact_surface* surfaces,
                  const global wt_surface* boxes, const global uint* first_wedges, const global uint* sides,
@@ -100,14 +92,6 @@ inline void look(uint end, uint node, const uint* chain, uint depth, const globa
   from.quarters = wt_found_by(quarters, node);
   from.image = ends[end].xyz;
   for (uint k = 0; k < depth; ++k) from.image = wt_reflected(surfaces + chain[k], from.image);
-  if (from.seen & WT_HEARD_WEDGE) {
-    const uint wedge = from.seen & ~WT_HEARD_WEDGE;
-    const double3 at = wt_in_wedge(wedges + wedge, from.image);
-    if (sees(&from, wedges + wedge, boxes, at))
-      list_view(wedge, at, &from, from.quarters, wedges, wt_take_places(&counters->wedge_prefixes, 1), keys, prefixes,
-                args);
-    return;
-  }
   // The vehicle that carries an antenna hides nothing from it, and does not diffract its waves.
   const uint own = depth == 0 ? wt_end_instance(ends[end]) : WT_NONE;
   wt_view views[WT_VIEWS];
@@ -120,7 +104,7 @@ inline void look(uint end, uint node, const uint* chain, uint depth, const globa
     if (own != WT_NONE && w->instance == own) continue;
     views[count].wedge = surface_wedges[k];
     views[count].at = wt_in_wedge(w, from.image);
-    if (!sees(&from, w, boxes, views[count].at)) continue;
+    if (!wt_shows_wedge(w, boxes, from.depth, from.last, from.image, views[count].at)) continue;
     wt_trie_prefetch(table, quarters, args.trie_mask, from.node, other_face(w, from.seen));
     if (++count < WT_VIEWS) continue;
     list_views(table, quarters, wedges, &from, views, count, keys, prefixes, counters, args);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // wedge_sight: finds the pieces of its edge that a prefix may see. Rays only say that a prefix sees a face. This pass
-// decides, without losing any path, whether the edge can be seen past the last mirror and past other surfaces.
+// decides, without losing any path, whether the edge can be seen in the mirrors and past other surfaces.
 #include "lib/sight.clh"
 #include "wavetracer/device/arguments.h"
 
@@ -17,42 +17,61 @@ inline int misses(const wt_sight* sight, uint mirror, const wt_lines* l) {
   return 0;
 }
 
-// May a point between b0 and b1 be seen from the image in the last mirror, if there is one?
-inline int may_see(const wt_sight* sight, const global wt_wedge_prefix* prefix, double3 image, double3 b0, double3 b1,
+// May a point between b0 and b1 be seen from the image, in the mirrors of the chain? Each leg is tested on its own, the
+// last one first: its lines begin on its mirror, where the leg before ends.
+inline int may_see(const wt_sight* sight, const uint* chain, uint depth, double3 image, double3 b0, double3 b1,
                    wt_hiders* hiders) {
-  const double size = fabs(image.x) + fabs(image.y) + fabs(image.z);
-  wt_lines l = {image, image, b0, b1, 1, 1e-3 + 4e-7 * size};
-  if (prefix->depth > 0) {
-    const global wt_exact_surface* mirror = sight->surfaces + prefix->last;
-    const double above = wt_above(mirror, image), sign = above < 0.0 ? -1.0 : 1.0;
-    const double above_0 = wt_above(mirror, b0), above_1 = wt_above(mirror, b1);
-    if (sign * above_0 > l.margin_m && sign * above_1 > l.margin_m) return 0;
-    // Lines that hardly cross the mirror's plane decide nothing.
-    if (!(sign * above > l.margin_m && sign * above_0 < -l.margin_m && sign * above_1 < -l.margin_m)) return 1;
-    l.a0 = image + (b0 - image) * (above / (above - above_0));
-    l.a1 = image + (b1 - image) * (above / (above - above_1));
-    if (misses(sight, prefix->last, &l)) return 0;
+  const double margin_m = 1e-3 + 4e-7 * (fabs(image.x) + fabs(image.y) + fabs(image.z));
+  wt_lines l = {image, image, b0, b1, 1, margin_m};
+  for (uint k = depth;; --k) {
+    if (k > 0) {
+      const global wt_exact_surface* mirror = sight->surfaces + chain[k - 1];
+      const double above = wt_above(mirror, image), sign = above < 0.0 ? -1.0 : 1.0;
+      const double above_0 = wt_above(mirror, l.b0), above_1 = wt_above(mirror, l.b1);
+      if (sign * above_0 > margin_m && sign * above_1 > margin_m) return 0;
+      // Lines that hardly cross the mirror's plane decide nothing.
+      if (!(sign * above > margin_m && sign * above_0 < -margin_m && sign * above_1 < -margin_m)) return 1;
+      l.a0 = image + (l.b0 - image) * (above / (above - above_0));
+      l.a1 = image + (l.b1 - image) * (above / (above - above_1));
+      if (misses(sight, chain[k - 1], &l)) return 0;
+    }
+    if (wt_hidden(sight, &l, hiders)) return 0;
+    if (k == 0) return 1;
+    image = wt_reflected(sight->surfaces + chain[k - 1], image);
+    l.b0 = l.a0;
+    l.b1 = l.a1;
+    l.a0 = l.a1 = image;
   }
-  return !wt_hidden(sight, &l, hiders);
 }
 
-// One prefix per work-item. A prefix that sees nothing of its edge gets the last key.
+// One prefix per work-item, if it is of one of the first args.ends ends. Each bit of its pieces then stands for one of
+// args.pieces pieces of its edge. A prefix that sees nothing of its edge gets the last key.
 kernel void wedge_sight(const global WT_NODE* nodes, const global WT_LEAF* triangles,
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
-                        const global double* sides, const global wt_wedge* wedges, global uint* keys,
-                        global wt_wedge_prefix* prefixes, wt_sight_arguments args) {
+                        const global double* sides, const global wt_wedge* wedges, const global ulong* table,
+                        global uint* keys, global wt_wedge_prefix* prefixes, wt_sight_arguments args) {
   const uint i = get_global_id(0);
-  if (i >= args.count) return;
+  if (i >= args.count || prefixes[i].end >= args.ends) return;
   const wt_sight sight = {nodes,       triangles, args.triangle_slots,  args.extent_m,   surfaces,
                           first_sides, sides,     args.static_surfaces, args.only_opaque};
   const global wt_wedge* w = wedges + wt_wedge_of(keys[i]);
   const double3 image = image_of(prefixes + i);
-  const double piece = w->length / WT_WEDGE_PIECES;
+  const double piece = w->length / args.pieces;
+  uint chain[WT_MAX_DEPTH], root;
+  const uint depth = wt_chain(table, prefixes[i].node, chain, &root);
   wt_hiders hiders = {{WT_NONE, WT_NONE, WT_NONE, WT_NONE}};
   uint seen = 0;
-  for (uint k = 0; k < WT_WEDGE_PIECES; ++k)
-    if (may_see(&sight, prefixes + i, image, wt_on_edge(w, k * piece), wt_on_edge(w, (k + 1) * piece), &hiders))
+  for (uint k = 0; k < args.pieces; ++k)
+    if (may_see(&sight, chain, depth, image, wt_on_edge(w, k * piece), wt_on_edge(w, (k + 1) * piece), &hiders))
       seen |= 1u << k;
   prefixes[i].pieces = seen;
   if (seen == 0) keys[i] = WT_NONE;
+}
+
+// One sorted key per work-item: *seen becomes the number of prefixes that see something, whose keys come first.
+kernel void count_in_sight(const global uint* keys, global uint* seen, uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  if (i == 0 && keys[0] == WT_NONE) *seen = 0;
+  if (keys[i] != WT_NONE && (i + 1 == count || keys[i + 1] == WT_NONE)) *seen = i + 1;
 }

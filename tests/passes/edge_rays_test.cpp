@@ -6,12 +6,16 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
 #include "passes/queue_words.hpp"
+#include "passes/sort.hpp"
 #include "passes/wedge_cases.hpp"
 #include "passes/wedge_prefixes.hpp"
+#include "passes/wedge_sight.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -32,8 +36,8 @@ struct Launched {
   std::vector<EdgeRay> rays;
 };
 
-// The rays of every prefix of two transmitters, in batches of this many.
-Launched launch(uint32_t each, float low_m, float high_m, uint32_t batch) {
+// The rays of every prefix of two transmitters, in batches of this many. tested: wedge_sight has run.
+Launched launch(uint32_t each, float low_m, float high_m, uint32_t batch, bool tested = false) {
   const Scene scene = box_and_panels();
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 100);
   std::vector<EndState> tx;
@@ -44,12 +48,20 @@ Launched launch(uint32_t each, float low_m, float high_m, uint32_t batch) {
   enter(set, uploaded, all_sequences(2, 9, 2), 2);
   const uint32_t nodes = set.collect(2);
   WedgePrefixes see(context());
-  const WedgePrefixList& list =
+  WedgePrefixList& list =
       see(uploaded, wedges.list(), ends, set.table(), set.quarters(), set.nodes(), nodes, set.counters());
-  Launched out{list.keys.read(0, list.count), list.prefixes.read(0, list.count), wedges.list().wedges.read(), {}};
-  EdgeRays pass(context(), each, ray_roots, low_m, high_m);
-  const uint64_t total = pass.total(list.count);
-  CHECK(total == uint64_t{list.count} * each);
+  WedgeSight sight(context(), uploaded, scene, false, most_pieces);
+  if (tested) sight(uploaded, wedges.list(), set.table(), list);
+  Sort sort(context());
+  sort(list.keys, list.order, list.count, wedges.key_bits());
+  see.place(list);
+  const uint32_t in_sight = sight.in_sight(list), all = list.count;
+  CHECK((tested ? in_sight < all : in_sight == all));
+  CHECK(in_sight > 0);
+  Launched out{list.keys.read(0, in_sight), list.sorted.read(0, in_sight), wedges.list().wedges.read(), {}};
+  EdgeRays pass(context(), each, most_pieces, ray_roots, low_m, high_m);
+  const uint64_t total = pass.total(in_sight);
+  CHECK(total == uint64_t{in_sight} * each);
   for (uint64_t first = 0; first < total; first += batch) {
     const auto count = static_cast<uint32_t>(std::min<uint64_t>(batch, total - first));
     RayQueue queue = make_ray_queue(context(), batch, "rays of edges");
@@ -117,6 +129,30 @@ TEST_CASE("places are spread over the edge: no gap is much wider than that of ev
     for (size_t n = 1; n < places.size(); ++n) widest = std::max(widest, places[n] - places[n - 1]);
     CHECK(widest < 2.7 * w.length_m / each + 0.01);  // golden steps: three gaps, the widest 2.62 of an even one
   }
+}
+
+TEST_CASE("rays leave the pieces of edges that wedge_sight has left, and are spread over them") {
+  constexpr uint32_t each = 256;
+  const Launched found = launch(each, -1e9f, 1e9f, 4096, true);
+  size_t cut = 0;
+  for (size_t i = 0; i < found.prefixes.size(); ++i) {
+    const Wedge w = wedge_of(found.wedges[found.keys[i] >> 5]);
+    const uint32_t pieces = found.prefixes[i].pieces;
+    cut += pieces != 0xFFFFFFFF;
+    std::vector<uint32_t> begun(most_pieces, 0);
+    for (size_t n = 0; n < each; ++n) {
+      const double at = place_of(w, found.rays[i * each + n]) / w.length_m * most_pieces;
+      const auto piece = static_cast<uint32_t>(std::clamp(at, 0.0, most_pieces - 1.0));
+      // Rays begin a few millimetres beside their places.
+      const bool near = std::abs(at - std::round(at)) * w.length_m / most_pieces < 0.01;
+      CHECK((near || (pieces >> piece & 1) != 0));
+      ++begun[piece];
+    }
+    const auto even = static_cast<uint32_t>(each / std::popcount(pieces));
+    for (uint32_t piece = 0; piece < most_pieces; ++piece)
+      if (pieces >> piece & 1) CHECK(begun[piece] + 3 >= even / 2);
+  }
+  CHECK(cut > 5);
 }
 
 TEST_CASE("above all receivers rays do not rise, below them they do not fall; one of nine goes anywhere") {

@@ -65,12 +65,13 @@ inline Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_dept
   const std::vector<uint32_t> seen = list.keys.read(0, list.count);  // before those that see nothing are dropped
   std::optional<WedgePairs> two;
   if (pairs) two.emplace(context(), scene, world.scene, false);
-  if (two) two->sight(scene, wedges.list(), list);
+  if (two) two->sight(scene, wedges.list(), set.table(), list);
   Sort sort(context());
   sort(list.keys, list.order, list.count, wedges.key_bits());
   see.place(list);
   if (two) two->list_runs(wedges.list(), list);
-  WedgeJoin pass(context(), max_depth, max_depth);
+  WedgeJoin pass(context(), max_depth);
+  WedgeCandidates found(context(), max_depth);
   Run out;
   const std::vector<uint64_t> table = set.table().read();
   const auto keys = list.keys.read(0, list.count);
@@ -84,8 +85,9 @@ inline Run join(const JoinWorld& world, uint32_t prefix_depth, uint32_t max_dept
     if (k % parts == 0) out.candidates.clear();
     if (k > 0) set.counters().restart(&wt_counters::wedge_candidates, 0, Stage::wedge_join);
     const uint32_t first = list.count * (k % parts) / parts, end = list.count * (k % parts + 1) / parts;
-    const uint32_t count = pass(scene, list, first, end, wedges.list(), ends, set.counters(), two ? &*two : nullptr);
-    for (const wt_wedge_candidate& c : count ? pass.list().read(0, count) : std::vector<wt_wedge_candidate>{})
+    const uint32_t count =
+        pass(scene, list, first, end, wedges.list(), ends, two ? &*two : nullptr, found, set.counters());
+    for (const wt_wedge_candidate& c : count ? found.list().read(0, count) : std::vector<wt_wedge_candidate>{})
       CHECK(
           out.candidates
               .insert({sequence_of(table, c.node), sequence_of(table, c.back), {c.wedges[0], c.wedges[1]}, c.receiver})
@@ -105,12 +107,11 @@ inline bool reaches(const JoinWorld& world, const Sequence& s, const Wedge& wedg
   return reference::in_free_sector(wedge, p, points->empty() ? world.end(s.transmitter) : points->back());
 }
 
-// Tells whether nothing is between the last reflection, or the end, and the point of the edge.
+// Tells whether nothing is in the way from the end over its reflections to the point of the edge.
 inline bool sees(const JoinWorld& world, const Sequence& s, const glm::dvec3& p) {
-  const auto points = image_method(world.quads, world.end(s.transmitter), s.surfaces, p);
-  const glm::dvec3 from = points->empty() ? world.end(s.transmitter) : points->back();
-  const uint32_t mirror = s.surfaces.empty() ? reference::no_surface : s.surfaces.back();
-  return reference::passages(world.scene, from, mirror, p, reference::no_surface).empty();
+  const glm::dvec3 end = world.end(s.transmitter);
+  const auto points = image_method(world.quads, end, s.surfaces, p);
+  return !obstructed(world.scene, end, *points, s.surfaces, p, [](uint32_t) { return true; });
 }
 
 struct JoinCount {
@@ -118,8 +119,8 @@ struct JoinCount {
 };
 
 // Checks every pair of prefixes. Pairs that may be joined are `allowed`; those that solve must be candidates or, if
-// paths go over two wedges, hidden.
-inline JoinCount check(const JoinWorld& world, const Run& run, uint32_t max_depth, bool pairs) {
+// wedge_sight has tested them (as for paths over two wedges), hidden.
+inline JoinCount check(const JoinWorld& world, const Run& run, uint32_t max_depth, bool pairs, bool tested = false) {
   JoinCount out;
   std::set<Joined> allowed;
   for (const auto& [from, v] : run.prefixes)
@@ -150,7 +151,7 @@ inline JoinCount check(const JoinWorld& world, const Run& run, uint32_t max_dept
       ++out.solved;
       if (run.candidates.contains(joined)) continue;
       ++out.hidden;
-      CHECK(pairs);
+      CHECK((pairs || tested));
       CHECK_FALSE((sees(world, from, p) && sees(world, to, q) &&
                    reference::passages(world.scene, p, reference::no_surface, q, reference::no_surface).empty()));
     }

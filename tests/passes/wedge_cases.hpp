@@ -2,14 +2,17 @@
 // Helpers of the tests of the wedge passes: quads with wedges on the device, ends, and wedges read back. Sequences are
 // listed, not traced; numbers of surfaces are those of the quads.
 #pragma once
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "passes/exact.hpp"
 #include "passes/place.hpp"
 #include "passes/triangles.hpp"
 #include "passes/wedges.hpp"
+#include "reference/planes.hpp"
 #include "reference/quads.hpp"
 
 namespace wavetracer::test {
@@ -76,6 +79,25 @@ inline Sequence sequence_of(const std::vector<uint64_t>& table, uint32_t node) {
 
 inline bool share_plane(const Wedge& v, const Wedge& w) {
   return v.plane[0] == w.plane[0] || v.plane[0] == w.plane[1] || v.plane[1] == w.plane[0] || v.plane[1] == w.plane[1];
+}
+
+// Tells whether a leg of the way from `end` over these points on these surfaces to p passes a surface for which
+// blocks(surface) is true.
+template <class Blocks>
+bool obstructed(const Scene& scene, const glm::dvec3& end, const std::vector<glm::dvec3>& points,
+                const std::vector<uint32_t>& surfaces, const glm::dvec3& p, const Blocks& blocks) {
+  glm::dvec3 from = end;
+  uint32_t left = reference::no_surface;
+  for (size_t leg = 0; leg <= points.size(); ++leg) {
+    const bool last = leg == points.size();
+    const glm::dvec3 to = last ? p : points[leg];
+    const uint32_t met = last ? reference::no_surface : surfaces[leg];
+    const auto passed = reference::passages(scene, from, left, to, met);
+    if (std::ranges::any_of(passed, [&](const reference::Passage& one) { return blocks(one.surface); })) return true;
+    from = to;
+    left = met;
+  }
+  return false;
 }
 
 }  // namespace wavetracer::test

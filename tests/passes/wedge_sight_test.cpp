@@ -43,15 +43,12 @@ SightWorld random_world(uint64_t seed) {
   return world;
 }
 
-// Tells whether a path over these mirrors reaches the point, with no surface that blocks its last leg.
+// Tells whether a path over these mirrors reaches the point, with no surface that blocks one of its legs.
 bool sees(const SightWorld& world, const std::vector<bool>& blocks, const Sequence& s, const glm::dvec3& p) {
   const glm::dvec3 end = world.transmitters[s.transmitter].position_m;
   const auto points = image_method(world.quads, end, s.surfaces, p);
   if (!points) return false;
-  const uint32_t mirror = s.surfaces.empty() ? reference::no_surface : s.surfaces.back();
-  const auto passed =
-      reference::passages(world.scene, points->empty() ? end : points->back(), mirror, p, reference::no_surface);
-  return std::ranges::none_of(passed, [&](const reference::Passage& one) { return blocks[one.surface]; });
+  return !obstructed(world.scene, end, *points, s.surfaces, p, [&](uint32_t surface) { return blocks[surface]; });
 }
 
 struct SightCount {
@@ -72,7 +69,7 @@ SightCount check(const SightWorld& world, bool transmission) {
       prefixes(scene, wedges.list(), ends, set.table(), set.quarters(), set.nodes(), node_count, set.counters());
   const std::vector<uint32_t> keys = list.keys.read(0, list.count);
   WedgeSight sight(context(), scene, world.scene, transmission);
-  sight(scene, wedges.list(), list);
+  sight(scene, wedges.list(), set.table(), list);
   const std::vector<uint32_t> after = list.keys.read(0, list.count);
   const std::vector<uint64_t> table = set.table().read();
   const auto seen = list.prefixes.read(0, list.count);

@@ -41,7 +41,7 @@ Paths found(const Config& config, DirectionShare share) {
                                        .followed = false,
                                        .sorted = false});
   FrameAccount account(s.context, 0);
-  solve_paths(s.exact_paths, s.device_scene, ends, s.discovery->sequences(), true, *s.frame_watch, account);
+  solve_paths(s.exact_paths, s.device_scene, ends, s.discovery->sequences(), Search::all, *s.frame_watch, account);
   Counters& counters = s.discovery->sequences().counters();
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
   s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, false, counters);

@@ -150,6 +150,7 @@ typedef struct {
 typedef struct {
   wt_uint capacity;  // that of the queue
   wt_uint first, number, count, each;
+  wt_uint pieces;   // pieces of an edge in the masks of prefixes
   wt_uint roots;    // the roots of the rays' sequences are edges, numbered from here on
   float low, high;  // the heights of the receivers
 } wt_edge_rays_arguments;
@@ -166,7 +167,7 @@ typedef struct {
 } wt_hear_arguments;
 
 // Numbers for wedge_join and wedge_pairs: `lanes` work-items take each of the prefixes first to end - 1, in their
-// order, as the transmitter's prefix of a pair.
+// order, as the transmitter's prefix of a pair. heard_join takes the nodes first to end - 1 so.
 typedef struct {
   wt_uint count;  // the number of all prefixes
   wt_uint first;
@@ -177,11 +178,14 @@ typedef struct {
   wt_uint max_depth;
   wt_uint capacity;
   float end_detour_m;  // the detour over a free end of an edge up to which there are paths
+  wt_uint pieces;      // heard_join: pieces of an edge in the masks of prefixes
 } wt_wedge_join_arguments;
 
 // Things that may block a leg, for wedge_sight and wedge_pairs (lib/sight.clh).
 typedef struct {
-  wt_uint count;  // the number of prefixes
+  wt_uint count;   // the number of prefixes
+  wt_uint ends;    // prefixes of the first so many ends are tested
+  wt_uint pieces;  // pieces of an edge, at most 32
   wt_uint triangle_slots;
   float extent_m;
   wt_uint static_surfaces;

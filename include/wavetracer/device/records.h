@@ -142,7 +142,8 @@ typedef struct {
 // In the place of a sequence's last surface: the wedge that rays came from, in sequences that listeners have heard.
 #define WT_HEARD_WEDGE 0x80000000u
 
-// An edge is cut into this many pieces of equal length; a mask of bits says which of them something may see.
+// An edge is cut into pieces of equal length; a mask of bits says which of them something may see. Pairs of edges have
+// this many pieces each.
 #define WT_WEDGE_PIECES 4u
 
 // A prefix of an end that sees a wedge. Ends are transmitters, then the receivers that launch for themselves.
