@@ -82,6 +82,7 @@ Cell values_of(const Heard& heard, const RadioConfig& radio) {
   const LinkRow& server = *heard.server;
   const LinkBudget budget = link_budget(radio, server.path_gain_db);
   cell.path_gain_db = server.path_gain_db;
+  cell.narrowband_gain_db = server.narrowband_gain_db;
   cell.received_dbm = budget.received_dbm;
   cell.snr_db = budget.snr_db;
   const double disturbing_mw = to_power(noise_dbm(radio)) + (heard.others > 0 ? to_power(cell.interference_dbm) : 0);
@@ -92,29 +93,44 @@ Cell values_of(const Heard& heard, const RadioConfig& radio) {
   cell.k_factor_db = to_db(server.k_factor);
   cell.line_of_sight = server.los ? 1 : 0;
   cell.paths = server.paths;
+  cell.beam_gain_db = server.beam_gain_db;
+  if (server.tx_beam) cell.tx_beam = *server.tx_beam;
+  if (server.rx_beam) cell.rx_beam = *server.rx_beam;
   return cell;
 }
 
-// Returns the reason why the run cannot tell a layer; empty if it can.
-std::string problem_of(const LayerKind& layer, const RadioConfig& radio) {
+// Returns what the run lacks for a layer; empty if it can tell it.
+std::string lack_of(const LayerKind& layer, const RadioConfig& radio, const Map& map) {
+  if (layer.of_beams && !map.beams)
+    return "the links.csv of a run where a transmitter or the grid has an [[array]] with a codebook";
   std::string keys;
   if (layer.of_powers && !radio.transmit_power_dbm) keys = "radio.transmit_power_dbm";
   if (layer.of_noise && !radio.bandwidth_hz) keys += (keys.empty() ? "" : " and ") + std::string("radio.bandwidth_hz");
-  return keys.empty() ? "" : fmt::format("{} needs {}, which the run's configuration does not set", layer.name, keys);
+  return keys.empty() ? "" : keys + ", which the run's configuration does not set";
 }
 
 void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& radio, Map& map) {
   for (const std::string& name : wanted) {
     const LayerKind& layer = layer_kind(name);
-    check_layer(layer, radio, "--layers");
+    check_layer(layer, radio, map, "--layers");
     if (std::ranges::find(map.layers, &layer) == map.layers.end()) map.layers.push_back(&layer);
   }
   if (!wanted.empty()) return;
-  for (const LayerKind& layer : layer_kinds)
-    if (const std::string problem = problem_of(layer, radio); problem.empty())
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> lacking;  // the lack, and the layers that have it
+  for (const LayerKind& layer : layer_kinds) {
+    const std::string lack = lack_of(layer, radio, map);
+    if (lack.empty()) {
       map.layers.push_back(&layer);
+      continue;
+    }
+    const auto same = std::ranges::find(lacking, lack, [](const auto& each) { return each.first; });
+    if (same == lacking.end())
+      lacking.push_back({lack, {layer.name}});
     else
-      map.left_out.push_back(problem);
+      same->second.push_back(layer.name);
+  }
+  for (const auto& [lack, names] : lacking)
+    map.left_out.push_back(fmt::format("{} {} {}", fmt::join(names, ", "), names.size() == 1 ? "needs" : "need", lack));
 }
 
 }  // namespace
@@ -133,9 +149,9 @@ const LayerKind& layer_kind(const std::string& name) {
                                 spelling_hint(name, known)));
 }
 
-void check_layer(const LayerKind& layer, const RadioConfig& radio, const std::string& option) {
-  if (const std::string problem = problem_of(layer, radio); !problem.empty())
-    throw ConfigError(fmt::format("{} {}", option, problem));
+void check_layer(const LayerKind& layer, const RadioConfig& radio, const Map& map, const std::string& option) {
+  if (const std::string lack = lack_of(layer, radio, map); !lack.empty())
+    throw ConfigError(fmt::format("{} {} needs {}", option, layer.name, lack));
 }
 
 size_t Map::reached_cells() const {
@@ -155,7 +171,6 @@ Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame
                  const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice) {
   Map map{.grid = grid.name, .tx = choice.tx, .frame = frame.number, .time_s = frame.time_s};
   for (const RadioEnd& end : run.transmitters()) map.transmitters.push_back(end.name);
-  choose_layers(choice.layers, radio, map);
   const std::vector<uint32_t> cell_of = find_cells(run, frame, grid, map);
   std::vector<Heard> heard(size_t{map.columns} * map.rows);
   const auto each = [&](const auto& visit) {
@@ -169,6 +184,8 @@ Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame
   });
   map.cells.reserve(heard.size());
   for (const Heard& cell : heard) map.cells.push_back(values_of(cell, radio));
+  for (const LinkRow& link : links) map.beams |= cell_of[link.link.rx] != no_cell && !std::isnan(link.beam_gain_db);
+  choose_layers(choice.layers, radio, map);
   return map;
 }
 

@@ -21,6 +21,7 @@ namespace wavetracer::coverage {
 struct Cell {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double path_gain_db = none;
+  double narrowband_gain_db = none;  // gain of the server at the carrier: fields of all paths with their phases
   double received_dbm = none;
   double snr_db = none;
   double sinr_db = none;
@@ -31,28 +32,39 @@ struct Cell {
   double k_factor_db = none;    // power of the direct path over that of all others; infinite if there is no other one
   double line_of_sight = none;  // 1 if the server has a direct path to the cell, else 0
   double paths = none;          // number of paths of the server
+  double beam_gain_db = none;   // gain of the server through the best pair of beams
+  double tx_beam = none, rx_beam = none;  // numbers of these beams
 };
 
 struct LayerKind {
   std::string_view name, unit, words;  // unit: empty for numbers without one
   double Cell::*value;
-  bool of_powers, of_noise;  // needs radio.transmit_power_dbm, radio.bandwidth_hz
+  // The layer needs radio.transmit_power_dbm, radio.bandwidth_hz, or an array with a codebook.
+  bool of_powers = false, of_noise = false, of_beams = false;
   // Tells whether values are choices, which have colours of their own, and not amounts.
-  constexpr bool of_choices() const { return value == &Cell::best_server || value == &Cell::line_of_sight; }
+  constexpr bool of_choices() const {
+    return value == &Cell::line_of_sight || value == &Cell::best_server || of_pair();
+  }
+  // Tells whether values are numbers of beams.
+  constexpr bool of_pair() const { return value == &Cell::tx_beam || value == &Cell::rx_beam; }
 };
 
-inline constexpr std::array<LayerKind, 11> layer_kinds = {{
-    {"path_gain_db", "dB", "path gain", &Cell::path_gain_db, false, false},
-    {"received_dbm", "dBm", "received power", &Cell::received_dbm, true, false},
+inline constexpr std::array<LayerKind, 15> layer_kinds = {{
+    {"path_gain_db", "dB", "path gain", &Cell::path_gain_db},
+    {"narrowband_gain_db", "dB", "gain at the carrier, with phases", &Cell::narrowband_gain_db},
+    {"received_dbm", "dBm", "received power", &Cell::received_dbm, true},
     {"snr_db", "dB", "signal-to-noise ratio", &Cell::snr_db, true, true},
     {"sinr_db", "dB", "signal to interference and noise", &Cell::sinr_db, true, true},
-    {"interference_dbm", "dBm", "power of the other transmitters", &Cell::interference_dbm, true, false},
-    {"best_server", "", "strongest transmitter", &Cell::best_server, false, false},
-    {"margin_db", "dB", "path gain over the strongest other transmitter", &Cell::margin_db, false, false},
-    {"delay_spread_ns", "ns", "rms delay spread", &Cell::delay_spread_ns, false, false},
-    {"k_factor_db", "dB", "power of the direct path over that of all others", &Cell::k_factor_db, false, false},
-    {"line_of_sight", "", "line of sight", &Cell::line_of_sight, false, false},
-    {"paths", "", "number of paths", &Cell::paths, false, false},
+    {"interference_dbm", "dBm", "power of the other transmitters", &Cell::interference_dbm, true},
+    {"best_server", "", "strongest transmitter", &Cell::best_server},
+    {"margin_db", "dB", "path gain over the strongest other transmitter", &Cell::margin_db},
+    {"delay_spread_ns", "ns", "rms delay spread", &Cell::delay_spread_ns},
+    {"k_factor_db", "dB", "power of the direct path over that of all others", &Cell::k_factor_db},
+    {"line_of_sight", "", "line of sight", &Cell::line_of_sight},
+    {"paths", "", "number of paths", &Cell::paths},
+    {"beam_gain_db", "dB", "gain through the best pair of beams", &Cell::beam_gain_db, false, false, true},
+    {"tx_beam", "", "beam of the transmitter", &Cell::tx_beam, false, false, true},
+    {"rx_beam", "", "beam of the receiver", &Cell::rx_beam, false, false, true},
 }};
 
 // Returns the names of all kinds, in their order.
@@ -60,9 +72,6 @@ std::vector<std::string> layer_names();
 
 // Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
 const LayerKind& layer_kind(const std::string& name);
-
-// Throws ConfigError if the layer needs a key of [radio] that is not set. option: its name, for the error.
-void check_layer(const LayerKind& layer, const RadioConfig& radio, const std::string& option);
 
 struct Map {
   std::string grid;
@@ -74,6 +83,7 @@ struct Map {
   uint32_t frame = 0;
   double time_s = 0;
   std::vector<Cell> cells = {};               // row by row from the south
+  bool beams = false;                         // a link to the grid has beams
   std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
   std::vector<std::string> left_out = {};     // why layers are not there
 
@@ -85,13 +95,17 @@ struct Map {
   std::vector<double> values(const LayerKind& layer) const;
 };
 
+// Throws ConfigError if the layer needs a key of [radio] that is not set, or beams that the map lacks. option: its
+// name, for the error.
+void check_layer(const LayerKind& layer, const RadioConfig& radio, const Map& map, const std::string& option);
+
 struct MapChoice {
   std::optional<uint32_t> tx = {};       // nothing: the strongest transmitter of each cell
   std::vector<std::string> layers = {};  // names; none: all that the run can tell
 };
 
 // links: of this frame (results/link_rows.hpp). Throws InputError if the run lacks receivers of the grid, or has them
-// twice, ConfigError for layers that there are not, or that were named and need a key of [radio] that is not set.
+// twice, ConfigError for layers that there are not, or that were named and need what the run does not have.
 Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
                  const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice);
 

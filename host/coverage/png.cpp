@@ -68,7 +68,7 @@ std::string words_of(const Map& map, const LayerKind& layer, const Palette& pale
 }  // namespace
 
 std::span<const Colour> choice_colours(const LayerKind& layer) {
-  if (layer.value == &Cell::best_server) return server_colours;
+  if (layer.value == &Cell::best_server || layer.of_pair()) return server_colours;
   if (layer.value == &Cell::line_of_sight) return sight_colours;
   return {};
 }

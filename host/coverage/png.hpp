@@ -10,8 +10,8 @@
 
 namespace wavetracer::coverage {
 
-// Colours of transmitters, by their rows; they repeat. They stay apart for most eyes: the first eight are those of
-// Okabe and Ito (2008), with grey for their black.
+// Colours of transmitters and of beams, by their numbers; they repeat. They stay apart for most eyes: the first eight
+// are those of Okabe and Ito (2008), with grey for their black.
 inline constexpr std::array<Colour, 12> server_colours = {{{0x00, 0x72, 0xb2},
                                                            {0xe6, 0x9f, 0x00},
                                                            {0x00, 0x9e, 0x73},
@@ -39,7 +39,7 @@ struct ColourRange {
 // but the lowest and highest percent; in others it begins at 0. Values that are not finite do not count.
 ColourRange colour_range(const LayerKind& layer, std::span<const double> values);
 
-// values: row by row from the south. Transmitters have colours of their own that repeat after twelve; line of sight is
+// values: row by row from the south. Transmitters and beams have colours that repeat after twelve; line of sight is
 // blue, and other paths are orange.
 std::string png(const Map& map, const LayerKind& layer, std::span<const double> values);
 

@@ -34,16 +34,28 @@ std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio)
   return layer.unit.empty() ? std::string(layer.words) : fmt::format("{} ({}){}", layer.words, layer.unit, noise);
 }
 
-// Returns the palette and the marks of values that are choices: names of transmitters, or no and yes.
+// Returns the palette and the marks of values that are choices: names of transmitters, no and yes, or numbers of beams.
 std::string choice_colours(const std::vector<std::string>& names, std::span<const Colour> colours) {
+  constexpr size_t most_marks = 20;  // more names would overlap
+  const size_t step = (names.size() + most_marks - 1) / most_marks;
   std::string steps, marks;
   for (size_t k = 0; k < names.size(); ++k) {
     const std::string colour = "'" + hex(colours[k % colours.size()]) + "'", between = k == 0 ? "" : ", ";
     steps += fmt::format("{}{} {}, {} {}", between, k, colour, k + 1, colour);
-    marks += fmt::format("{}'{}' {}", between, quoted(names[k]), k);
+    if (k % step == 0) marks += fmt::format("{}'{}' {}", between, quoted(names[k]), k);
   }
   return fmt::format("set palette defined ({})\nset cbrange [-0.5:{}]\nset cbtics noenhanced ({})\n", steps,
                      static_cast<double>(names.size()) - 0.5, marks);
+}
+
+// Returns a name for each beam up to the largest number that a cell has.
+std::vector<std::string> beam_names(std::span<const double> values) {
+  double last = 0;
+  for (const double value : values)
+    if (value > last) last = value;
+  std::vector<std::string> out;
+  while (static_cast<double>(out.size()) <= last) out.push_back(std::to_string(out.size()));
+  return out;
 }
 
 std::string colours_of(const coverage::Map& map, const coverage::LayerKind& layer) {
@@ -51,6 +63,7 @@ std::string colours_of(const coverage::Map& map, const coverage::LayerKind& laye
     return choice_colours(map.transmitters, coverage::choice_colours(layer));
   if (layer.value == &coverage::Cell::line_of_sight)
     return choice_colours({"other paths only", "line of sight"}, coverage::choice_colours(layer));
+  if (layer.of_pair()) return choice_colours(beam_names(map.values(layer)), coverage::choice_colours(layer));
   const coverage::ColourRange range = coverage::colour_range(layer, map.values(layer));
   return fmt::format("set palette negative\nset cbrange [{:g}:{:g}]\n", range.low, range.high);
 }

@@ -112,7 +112,6 @@ class Plotter {
     const auto tx = find_end(run_.transmitters(), choice_.link.tx, "--tx");
     const RadioConfig& radio = world_.config.radio;
     const coverage::LayerKind& layer = shown_layer(choice_.layer, radio);
-    if (!choice_.layer.empty()) coverage::check_layer(layer, radio, "--layer");
     const size_t row = choice_.link.frame ? find_frame(run_, *choice_.link.frame) : 0;
     const SavedFrame frame = run_.frame(row);
     const std::vector<LinkRow> links = link_rows(frame, link_table(run_), run_.first_link(row), run_.frequency_hz());
@@ -120,6 +119,7 @@ class Plotter {
       if (!choice_.grid.empty() && grids_[k] != choice_.grid) continue;
       const coverage::Map map =
           coverage::coverage_map(run_, radio, frame, links, world_.config.receiver_grids[k], {tx, {}});
+      if (!choice_.layer.empty()) coverage::check_layer(layer, radio, map, "--layer");
       if (std::ranges::all_of(map.values(layer), [](double value) { return std::isnan(value); }))
         report_.warnings.push_back(fmt::format("coverage: {} to the grid \"{}\" in frame {}{}",
                                                map.reached_cells() == 0 ? "no path" : fmt::format("no {}", layer.name),

@@ -74,6 +74,12 @@ size_t row_of_link(const std::vector<LinkRow>& rows, const Link& link) {
   return static_cast<size_t>(found - rows.begin());
 }
 
+// Takes the number of a beam, of which a codebook has at most 65536; other values are those of a file that is damaged.
+void take_beam(const std::vector<double>& column, size_t at, std::optional<uint32_t>& beam) {
+  constexpr double beams = 65536;
+  if (at < column.size() && column[at] >= 0 && column[at] < beams) beam = static_cast<uint32_t>(column[at]);
+}
+
 // left_out: set to the share of the power that paths.h5 lacks, for each row.
 void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_link, std::vector<LinkRow>& rows,
                 std::vector<double>& left_out) {
@@ -91,6 +97,9 @@ void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_
     take(table.rms_delay_spread_s, row.rms_delay_spread_s);
     take(table.missed_power_share, row.missed_power_share);
     take(table.left_out_power_share, left_out[number]);
+    take_beam(table.tx_beam, at, row.tx_beam);
+    take_beam(table.rx_beam, at, row.rx_beam);
+    take(table.beam_gain_db, row.beam_gain_db);
   }
 }
 

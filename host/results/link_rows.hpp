@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 #include "results/link_table.hpp"
 #include "results/saved_run.hpp"
@@ -22,6 +23,10 @@ struct LinkRow {
   // Power of the direct path divided by that of all other paths, as a ratio of powers: infinite if there is no other
   // one; NaN if paths.h5 has no direct path.
   double k_factor = std::numeric_limits<double>::quiet_NaN();
+  // The best pair of beams, and its gain: NaN where neither end has a codebook, and without links.csv. Without a path
+  // the gain is minus infinity, and there is no pair.
+  std::optional<uint32_t> tx_beam = {}, rx_beam = {};
+  double beam_gain_db = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Returns every link that was computed or has a path, sorted. first_link: row of the frame's first link in the table.

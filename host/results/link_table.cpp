@@ -24,6 +24,9 @@ constexpr NamedColumn named_columns[] = {
     {"los", &LinkTable::los},
     {"missed_power_share", &LinkTable::missed_power_share},
     {"left_out_power_share", &LinkTable::left_out_power_share},
+    {"tx_beam", &LinkTable::tx_beam},
+    {"rx_beam", &LinkTable::rx_beam},
+    {"beam_gain_db", &LinkTable::beam_gain_db},
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <complex>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -45,15 +47,17 @@ RadioConfig whole_radio() {
 // Sums over all rows of the paths of a cell, for each transmitter.
 struct Sums {
   std::vector<double> power, direct, delay;
+  std::vector<std::complex<double>> field;  // at the carrier
   std::vector<uint32_t> paths;
   Sums(const Paths& p, uint32_t rx, size_t transmitters)
-      : power(transmitters), direct(transmitters), delay(transmitters), paths(transmitters) {
+      : power(transmitters), direct(transmitters), delay(transmitters), field(transmitters), paths(transmitters) {
     for (size_t i = 0; i < p.size(); ++i) {
       if (p.rx[i] != rx) continue;
       const double own = std::norm(p.a[i][0]);
       power[p.tx[i]] += own;
       direct[p.tx[i]] += p.depth[i] == 0 ? own : 0;
       delay[p.tx[i]] += own * p.delay_s[i];
+      field[p.tx[i]] += p.a[i][0] * std::polar(1.0, -2 * M_PI * std::fmod(test::made_carrier_hz * p.delay_s[i], 1));
       ++paths[p.tx[i]];
     }
   }
@@ -89,12 +93,13 @@ void check_cell(const Cell& cell, const Paths& p, uint32_t rx, std::optional<uin
   else
     CHECK(std::isnan(cell.interference_dbm));
   if (own == 0) {
-    for (const double value : {cell.path_gain_db, cell.received_dbm, cell.snr_db, cell.sinr_db, cell.margin_db,
-                               cell.delay_spread_ns, cell.k_factor_db, cell.line_of_sight, cell.paths})
+    for (const double value : {cell.path_gain_db, cell.narrowband_gain_db, cell.received_dbm, cell.snr_db, cell.sinr_db,
+                               cell.margin_db, cell.delay_spread_ns, cell.k_factor_db, cell.line_of_sight, cell.paths})
       CHECK(std::isnan(value));
     return;
   }
   CHECK(cell.path_gain_db == near(db(own)));
+  CHECK(cell.narrowband_gain_db == near(db(std::norm(sums.field[server]))));
   CHECK(cell.received_dbm == near(power_dbm + db(own)));
   CHECK(cell.snr_db == near(db(own * sent_mw / noise_mw)));
   CHECK(cell.sinr_db == near(db(own * sent_mw / (noise_mw + others * sent_mw))));
@@ -136,8 +141,11 @@ TEST_CASE("layers are the sums over the paths of a cell, for the best server and
   for (const std::optional<uint32_t> tx : {std::optional<uint32_t>(), std::optional(0u), std::optional(2u)}) {
     const Map map = map_of(run, whole_radio(), {.tx = tx});
     REQUIRE(map.cells.size() == 20);
-    CHECK(map.layers.size() == layer_kinds.size());
-    CHECK(map.left_out.empty());
+    CHECK(map.layers.size() == layer_kinds.size() - 3);
+    REQUIRE(map.left_out.size() == 1);
+    CHECK(map.left_out[0] ==
+          "beam_gain_db, tx_beam, rx_beam need the links.csv of a run where a transmitter or the grid has an [[array]] "
+          "with a codebook");
     for (uint32_t cell = 0; cell < 20; ++cell) check_cell(map.cells[cell], made.frame.paths, cell + 1, tx);
   }
   CHECK(std::isnan(map_of(run, whole_radio()).cells[5].path_gain_db));
@@ -199,6 +207,55 @@ TEST_CASE("paths that limits of the output left out still count") {
   }
 }
 
+TEST_CASE("beams are those of the server's best pair, and need an array with a codebook at the grid or a transmitter") {
+  MadeGrid made(3, 1, {{0, 0, 20}, {9, 0, 20}});
+  made.add(0, 0, 1e-3, 1e-7, 0);
+  made.add(0, 1, 1e-4, 1e-7, 0);
+  made.add(1, 0, 1e-4, 1e-7, 0);
+  made.add(1, 1, 1e-3, 1e-7, 0);
+  BeamRows& beams = made.frame.beams;
+  for (uint32_t tx = 0; tx < 2; ++tx)
+    for (uint32_t cell = 0; cell < 3; ++cell)
+      for (uint32_t pair = 0; pair < 4; ++pair) {
+        beams.tx.push_back(tx);
+        beams.rx.push_back(cell + 1);
+        beams.tx_beam.push_back(pair / 2);
+        beams.rx_beam.push_back(pair % 2);
+        beams.gain_db.push_back(cell == 2 ? -INFINITY : pair == 1 + tx ? -50.0 - cell : -70.0);
+      }
+  const SavedRun run = made.written();
+  const Map best = map_of(run, {}), first = map_of(run, {}, {.tx = 0, .layers = {"tx_beam", "rx_beam"}});
+  CHECK(best.layers.back() == &layer_kind("rx_beam"));
+  CHECK(best.cells[0].beam_gain_db == -50);
+  CHECK(best.cells[0].tx_beam == 0);
+  CHECK(best.cells[0].rx_beam == 1);
+  CHECK(best.cells[1].beam_gain_db == -51);
+  CHECK(best.cells[1].tx_beam == 1);
+  CHECK(best.cells[1].rx_beam == 0);
+  CHECK(first.cells[1].tx_beam == 0);
+  CHECK(first.cells[1].rx_beam == 1);
+  for (const double value : {best.cells[2].beam_gain_db, best.cells[2].tx_beam, best.cells[2].rx_beam})
+    CHECK(std::isnan(value));
+  CHECK(layer_kind("tx_beam").of_choices());
+  CHECK_FALSE(layer_kind("beam_gain_db").of_choices());
+}
+
+TEST_CASE("numbers of beams that no codebook has are not taken from links.csv") {
+  MadeGrid made(3, 1, {{0, 0, 20}});
+  for (uint32_t cell = 0; cell < 3; ++cell) made.add(0, cell, 1e-3, 1e-7, 0);
+  made.written();
+  std::ofstream table(made.folder.path() / "run" / "links.csv");
+  table << "tx_beam,rx_beam,beam_gain_db\n,,\n-1,65536,-60\n1e300,65535,-60\ninf,nan,-60\n";
+  table.close();
+  const Map map = map_of(SavedRun(made.folder.path() / "run"), {});
+  for (const Cell& cell : map.cells) {
+    CHECK(cell.beam_gain_db == -60);
+    CHECK(std::isnan(cell.tx_beam));
+  }
+  CHECK(std::isnan(map.cells[0].rx_beam));
+  CHECK(map.cells[1].rx_beam == 65535);
+}
+
 TEST_CASE("layers that need a key of the radio are left out, or refused if they were named") {
   MadeGrid made(2, 2, {{0, 0, 20}});
   made.add(0, 0, 1e-3, 1e-7, 0);
@@ -213,9 +270,13 @@ TEST_CASE("layers that need a key of the radio are left out, or refused if they 
     return std::string();
   };
   Map map = map_of(run, radio);
-  CHECK(map.layers.size() == layer_kinds.size() - 4);
-  REQUIRE(map.left_out.size() == 4);
-  CHECK(map.left_out[0] == "received_dbm needs radio.transmit_power_dbm, which the run's configuration does not set");
+  CHECK(map.layers.size() == layer_kinds.size() - 7);
+  REQUIRE(map.left_out.size() == 3);
+  CHECK(map.left_out[0] ==
+        "received_dbm, interference_dbm need radio.transmit_power_dbm, which the run's configuration does not set");
+  CHECK(
+      refusal("tx_beam") ==
+      "--layers tx_beam needs the links.csv of a run where a transmitter or the grid has an [[array]] with a codebook");
   CHECK(
       refusal("sinr_db") ==
       "--layers sinr_db needs radio.transmit_power_dbm and radio.bandwidth_hz, which the run's configuration does not "

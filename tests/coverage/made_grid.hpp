@@ -16,7 +16,7 @@
 
 namespace wavetracer::test {
 
-constexpr double made_step_m = 10, made_height_m = 1.5;
+constexpr double made_step_m = 10, made_height_m = 1.5, made_carrier_hz = 5.9e9;
 
 struct MadeGrid {
   uint32_t columns, rows;
@@ -28,6 +28,7 @@ struct MadeGrid {
   MadeGrid(uint32_t of_columns, uint32_t of_rows, const std::vector<glm::dvec3>& transmitters)
       : columns(of_columns), rows(of_rows) {
     Config& config = sample.config;
+    config.radio.frequency_hz = made_carrier_hz;
     config.transmitters.clear();
     sample.instances.clear();
     sample.models.clear();

@@ -7,36 +7,13 @@ Friis' formula in free space, and with sums over the rows of paths.h5.
 
 Needs numpy, h5py, GDAL's programs (Debian's gdal-bin) and an OpenCL device; answers 77 where one is missing.
 """
-import csv
 import json
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
-FREE_SPACE = """
-scene.file = "{scene}"
-scene.default_material = "concrete"
-trace.max_depth = 0
-[radio]
-frequency_hz = 3.5e9
-transmit_power_dbm = 43
-bandwidth_hz = 20e6
-noise_figure_db = 6
-[[transmitter]]
-name = "west"
-position_m = [10, 30, 25]
-[[transmitter]]
-name = "east, far"
-position_m = [100, 40, 25]
-[[receiver_grid]]
-name = "g"
-x_min_m = 0
-x_max_m = 120
-y_min_m = 0
-y_max_m = 60
-step_m = 4
-"""
+import h5py
+import numpy as np
+from map_reading import FREE_SPACE, LIGHT_M_S, column, db, free_run, main, run, same, table
+
 CITY = """
 scene.generate = "--seed 1 --blocks 2x2"
 trace.rays = 20000
@@ -69,32 +46,6 @@ y_min_m = 5
 y_max_m = 10
 step_m = 5
 """
-PLANE = "v -200 -200 0\nv 300 -200 0\nv 300 300 0\nv -200 300 0\nf 1 2 3 4\n"
-LIGHT_M_S = 299792458
-
-
-def run(*arguments, code=0, text=None):
-    done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True, input=text)
-    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
-    return done
-
-
-def table(file):
-    with open(file, newline="") as lines:
-        return list(csv.DictReader(lines))
-
-
-def column(rows, name):
-    return np.array([float(row[name]) for row in rows])
-
-
-def same(a, b, digits=1e-9):
-    assert np.allclose(a, b, rtol=digits, atol=digits, equal_nan=True), np.nanmax(np.abs(a - b))
-
-
-def db(power):
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(power > 0, 10 * np.log10(power), np.nan)
 
 
 def check_free_space(rows):
@@ -184,15 +135,26 @@ def powers(h5):
     return out
 
 
+def narrowband_powers(h5):
+    """|h|^2 of each link at the carrier: fields of all paths added up; shape (tx, rx)."""
+    paths, h = h5["paths"], np.zeros((len(h5["transmitters/name"]), len(h5["receivers/name"]), 2, 2), complex)
+    a = paths["a_re"][...] + 1j * paths["a_im"][...]
+    field = a * np.exp(-2j * np.pi * (h5.attrs["frequency_hz"] * paths["delay_s"][...] % 1))[:, None, None]
+    np.add.at(h[:, :, :field.shape[1], :field.shape[2]], (paths["tx"][...], paths["rx"][...]), field)
+    return (abs(h) ** 2).sum(axis=(2, 3))
+
+
 def check_city(h5, rows, power, tx=None):
     names = list(h5["receivers/name"].asstr()[...])
-    power = power[:, [names.index(f"street/{row['ix']},{row['iy']}") for row in rows]]
+    of_row = [names.index(f"street/{row['ix']},{row['iy']}") for row in rows]
+    power, narrow = power[:, of_row], narrowband_powers(h5)[:, of_row]
     best, cells = np.argmax(power, axis=0), np.arange(len(rows))
     server = best if tx is None else np.full(len(rows), tx)
     own, other = power[server, cells], power[1 - server, cells]
     empty = own == 0
     assert 0 < empty.sum() < len(rows)
     same(column(rows, "path_gain_db"), db(own), 1e-8)
+    same(column(rows, "narrowband_gain_db"), db(narrow[server, cells]), 1e-6)
     same(column(rows, "best_server"), np.where(power.max(axis=0) > 0, best, np.nan))
     same(column(rows, "interference_dbm"), 23 + db(other), 1e-8)
     same(column(rows, "margin_db"), db(own) - db(other), 1e-7)
@@ -200,17 +162,13 @@ def check_city(h5, rows, power, tx=None):
 
 
 def free_space(program, folder):
-    place = folder / "free"
-    place.mkdir()
-    (place / "plane.obj").write_text(PLANE)
-    (place / "run.toml").write_text(FREE_SPACE.format(scene=place / "plane.obj"))
-    run(program, "run", "-c", place / "run.toml", "-o", place / "out")
+    place = free_run(program, folder, FREE_SPACE)
     maps = place / "out/coverage"
     done = run(program, "coverage", place / "out", "--format", "csv,npy,geotiff,png")
     assert "georeference.json" in done.stderr, done.stderr
     assert {Path(line) for line in done.stdout.split()} == set(maps.iterdir())
     rows, names = table(maps / "coverage.csv"), list(json.loads((maps / "coverage.json").read_text())["layers"])
-    assert len(rows) == 30 * 15 and len(names) == 11
+    assert len(rows) == 30 * 15 and len(names) == 12
     check_free_space(rows)
     check_arrays(maps, rows, names, (15, 30))
     local = check_tiff(maps, rows, "sinr_db", "dB", (0, 0))["coordinateSystem"]["wkt"]
@@ -229,14 +187,15 @@ def free_space(program, folder):
 
 
 def city(program, folder):
-    import h5py
     (folder / "city.toml").write_text(CITY)
     out = folder / "city"
     run(program, "run", "-c", folder / "city.toml", "-o", out)
     refused = run(program, "coverage", out, code=2).stderr
     assert "name one with --grid, of street, row" in refused, refused
+    refused = run(program, "coverage", out, "--grid", "row", "--layers", "tx_beam", code=2).stderr
+    assert "--layers tx_beam needs the links.csv of a run where a transmitter or the grid has" in refused, refused
     refused = run(program, "coverage", out, "--grid", "row", "--layers", "snr_db", code=2).stderr
-    assert "--layers snr_db needs radio.bandwidth_hz" in refused, refused
+    assert "--layers snr_db needs radio.bandwidth_hz, which" in refused, refused
     run(program, "coverage", out, "--grid", "row", "--format", "geotiff,png", "--layers", "paths")
     assert json.loads(run("gdalinfo", "-json", out / "coverage/paths.tif").stdout)["size"] == [8, 1]
     run(program, "run", "-c", folder / "city.toml", "-o", folder / "far", "--set", "receiver_grid.0.height_m=-5", "--set",
@@ -248,29 +207,13 @@ def city(program, folder):
         power = powers(h5)
         for tx, options in ((None, ()), (0, ("--tx", "a")), (1, ("--tx", "b"))):
             done = run(program, "coverage", out, "--grid", "street", *options)
-            assert "snr_db needs radio.bandwidth_hz" in done.stderr, done.stderr
+            assert "snr_db, sinr_db need radio.bandwidth_hz" in done.stderr, done.stderr
             check_city(h5, table(out / "coverage/coverage.csv"), power, tx)
 
 
-def main():
-    if not all(shutil.which(name) for name in ("gdalinfo", "gdal_translate", "gdallocationinfo")):
-        print("no gdal-bin")
-        return 77
-    program, folder = sys.argv[1], Path(sys.argv[2]).absolute()
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    if subprocess.run([program, "devices"], capture_output=True).returncode != 0:
-        print("no OpenCL device")
-        return 77
+def maps(program, folder):
     free_space(program, folder)
     city(program, folder)
-    return 0
 
 
-try:
-    import numpy as np
-    import h5py  # noqa: F401
-except ImportError as missing:
-    print(missing)
-    sys.exit(77)
-sys.exit(main())
+main(maps, "gdalinfo", "gdal_translate", "gdallocationinfo")

@@ -235,6 +235,27 @@ TEST_CASE("cells of the delay-time image add up to the power of all paths") {
   CHECK(cells == doctest::Approx(paths).epsilon(1e-12));
 }
 
+TEST_CASE("beams have colours of their own, and at most twenty of them are named") {
+  const Written written = grid_run();
+  const SavedRun run = written.run();
+  const SavedFrame frame = run.frame(0);
+  ReceiverGridConfig grid;
+  grid.name = "g";
+  std::vector<LinkRow> links = link_rows(frame, link_table(run), run.first_link(0), run.frequency_hz());
+  for (LinkRow& link : links) {
+    link.beam_gain_db = -80;
+    link.tx_beam = 41;
+    link.rx_beam = 0;
+  }
+  const coverage::Map map = coverage::coverage_map(run, {}, frame, links, grid, {});
+  const auto commands = [&](const char* layer) {
+    return coverage_figure(run, frame, "coverage", map, shown_layer(layer, {}), {}, {}).commands;
+  };
+  check_contains(commands("tx_beam"), "set cbrange [-0.5:41.5]\nset cbtics noenhanced ('0' 0, '3' 3, '6' 6, ");
+  check_contains(commands("tx_beam"), ", 41 '#d55e00', 42 '#d55e00')");
+  check_contains(commands("rx_beam"), "set palette defined (0 '#0072b2', 1 '#0072b2')\nset cbrange [-0.5:0.5]");
+}
+
 TEST_CASE("coverage draws the best transmitter of each cell, or the one that is named, from dark and weak to bright") {
   const Written written = grid_run();
   const SavedRun run = written.run();
@@ -270,7 +291,7 @@ TEST_CASE("coverage draws the best transmitter of each cell, or the one that is 
   check_contains(server.commands,
                  fmt::format("('{}' 0, '{}' 1)", run.transmitters()[0].name, run.transmitters()[1].name));
   check_contains(server.commands, "set palette defined (0 '#0072b2', 1 '#0072b2', 1 '#e69f00', 2 '#e69f00')");
-  check_contains(server.commands, "using 3:4:($7 > ");
+  check_contains(server.commands, "using 3:4:($8 > ");
 }
 
 TEST_CASE("the section of a box is its outline, cut at the height") {
@@ -364,6 +385,8 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
   choice.layer = "sinr_db";
   check_contains(refused(grid, choice), "--layer sinr_db needs radio.transmit_power_dbm and radio.bandwidth_hz, which");
+  choice.layer = "tx_beam";
+  check_contains(refused(grid, choice), "--layer tx_beam needs the links.csv of a run where a transmitter or the grid");
   choice.layer = "sinr";
   check_contains(refused(grid, choice), "\"sinr\" is no layer of a map, there are path_gain_db");
   choice.layer.clear();
