@@ -8,12 +8,12 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "app/saved_frames.hpp"
 #include "app/standard_streams.hpp"
 #include "base/input_file.hpp"
 #include "base/pending_file.hpp"
 #include "base/spelling.hpp"
 #include "imports/imports.hpp"
-#include "jobs/frame_range.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "motion/read.hpp"
@@ -81,20 +81,6 @@ void check_output(const Exporter& exporter, const fs::path& output) {
                                   output.string(), exporter.name));
 }
 
-// Chooses the rows of the frames that --frames names by their numbers.
-void choose_rows(const SavedRun& run, const std::string& text, ExportOptions& options) {
-  const size_t count = run.frame_count();
-  options.first_row = 0;
-  options.last_row = count - 1;
-  if (text.empty()) return;
-  const uint32_t first = run.number(0), last = run.number(count - 1);
-  const FrameRange range = parse_frames(text, uint64_t{last} + 1);
-  while (options.first_row < count && run.number(options.first_row) < range.first) ++options.first_row;
-  while (options.last_row > 0 && run.number(options.last_row) > range.last) --options.last_row;
-  if (options.first_row == count || run.number(options.last_row) > range.last || options.first_row > options.last_row)
-    throw ConfigError(fmt::format("--frames {}: {} has frames {} to {}", text, run.file().string(), first, last));
-}
-
 void export_run(const ConvertOptions& options) {
   const Exporter& exporter = chosen_exporter(options);
   check_output(exporter, options.output);
@@ -102,7 +88,9 @@ void export_run(const ConvertOptions& options) {
   ExportOptions what;
   what.output = options.output;
   what.projection = options.projection;
-  choose_rows(run, options.frames, what);
+  const FrameRows rows = frame_rows(run, options.frames);
+  what.first_row = rows.first;
+  what.last_row = rows.last;
   std::optional<RemoveOnInterrupt> guard(what.output);
   PendingDirectory parent(what.output.has_parent_path() ? what.output.parent_path() : fs::path("."));
   Progress progress;

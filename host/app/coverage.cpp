@@ -8,11 +8,11 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/saved_frames.hpp"
 #include "base/spelling.hpp"
 #include "config/retired_keys.hpp"
 #include "coverage/coverage_map.hpp"
 #include "coverage/write_map.hpp"
-#include "results/link_rows.hpp"
 #include "results/link_table.hpp"
 #include "results/run_choice.hpp"
 #include "wavetracer/config_file.hpp"
@@ -21,7 +21,7 @@ namespace wavetracer::app {
 namespace {
 
 struct CoverageOptions {
-  std::string run, folder, grid, tx;
+  std::string run, folder, grid, tx, frames;
   std::optional<uint32_t> frame;
   std::vector<std::string> layers, formats = {"csv"};
 };
@@ -46,6 +46,20 @@ const ReceiverGridConfig& chosen_grid(const Config& config, const std::string& n
   return grids.front();
 }
 
+// Returns --frames in the words of frame_rows: "all" is an empty text, and a range A-B is A:B.
+std::string range_in_words(std::string text) {
+  if (text == "all") return "";
+  const size_t dash = text.find('-');
+  if (dash != std::string::npos && dash > 0 && text.find(':') == std::string::npos) text[dash] = ':';
+  return text;
+}
+
+FrameRows chosen_rows(const SavedRun& run, const CoverageOptions& options) {
+  if (!options.frames.empty()) return frame_rows(run, range_in_words(options.frames));
+  const size_t row = options.frame ? find_frame(run, *options.frame) : 0;
+  return {row, row};
+}
+
 void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
 
 void make_coverage(const CoverageOptions& options) {
@@ -54,17 +68,18 @@ void make_coverage(const CoverageOptions& options) {
   const Config config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
   const ReceiverGridConfig& grid = chosen_grid(config, options.grid);
   const auto tx = find_end(run.transmitters(), options.tx, "--tx");
-  const size_t row = options.frame ? find_frame(run, *options.frame) : 0;
-  const SavedFrame frame = run.frame(row);
+  const FrameRows rows = chosen_rows(run, options);
   const LinkTable table = link_table(run);
   if (!table.warning.empty()) warn(table.warning);
-  const coverage::Map map =
-      coverage::coverage_map(run, config.radio, frame, link_rows(frame, table, run.first_link(row), run.frequency_hz()),
-                             grid, {.tx = tx, .layers = options.layers});
-  for (const std::string& problem : map.left_out) warn(problem);
-  if (map.reached_cells() == 0)
-    warn(fmt::format("no path to the grid \"{}\" in frame {}{}: the map is empty", grid.name, map.frame,
-                     tx ? " from \"" + options.tx + "\"" : ""));
+  const std::vector<coverage::Map> maps = coverage::coverage_maps(run, config.radio, rows.first, rows.last, table, grid,
+                                                                  {.tx = tx, .layers = options.layers});
+  for (const std::string& problem : maps.front().left_out) warn(problem);
+  if (std::ranges::all_of(maps, [](const coverage::Map& map) { return map.reached_cells() == 0; }))
+    warn(fmt::format("no path to the grid \"{}\" in {}{}: {}", grid.name,
+                     maps.size() == 1 ? fmt::format("frame {}", maps.front().frame)
+                                      : fmt::format("frames {} to {}", maps.front().frame, maps.back().frame),
+                     tx ? " from \"" + options.tx + "\"" : "",
+                     maps.size() == 1 ? "the map is empty" : "the maps are empty"));
   const std::string& scene = config.scene.file;
   const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
   const bool placed = std::ranges::any_of(options.formats, [](auto& name) { return name == "geotiff"; });
@@ -74,8 +89,8 @@ void make_coverage(const CoverageOptions& options) {
         "local system; a georeference.json beside the scene file would say it");
   const std::filesystem::path folder =
       options.folder.empty() ? run.file().parent_path() / "coverage" : std::filesystem::path(options.folder);
-  for (const std::filesystem::path& file : coverage::write_map(map, folder, options.formats, georeference))
-    std::cout << file.string() << "\n";
+  const coverage::MapsToWrite what{maps, !options.frames.empty(), options.formats, georeference};
+  for (const std::filesystem::path& file : coverage::write_maps(what, folder)) std::cout << file.string() << "\n";
 }
 
 }  // namespace
@@ -90,7 +105,12 @@ void add_coverage(CLI::App& program) {
   command->add_option("--grid", options->grid, "Name of a [[receiver_grid]]; needed if the run has several");
   command->add_option("--tx", options->tx,
                       "Name of the transmitter that serves all cells; the strongest of each cell if not given");
-  command->add_option("--frame", options->frame, "Number of the frame; the first frame if not given");
+  CLI::Option* const frame =
+      command->add_option("--frame", options->frame, "Number of the frame; the first frame if not given");
+  command
+      ->add_option("--frames", options->frames,
+                   "Numbers of several frames, each of which gets a map: A:B, A-B, A:, :B, A or all")
+      ->excludes(frame);
   command
       ->add_option("--layers", options->layers,
                    fmt::format("Layers to write, separated by commas: {}; all that the run can tell if not given",

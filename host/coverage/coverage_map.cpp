@@ -133,6 +133,27 @@ void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& ra
     map.left_out.push_back(fmt::format("{} {} {}", fmt::join(names, ", "), names.size() == 1 ? "needs" : "need", lack));
 }
 
+Map map_without_layers(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
+                       const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice) {
+  Map map{.grid = grid.name, .tx = choice.tx, .frame = frame.number, .time_s = frame.time_s};
+  for (const RadioEnd& end : run.transmitters()) map.transmitters.push_back(end.name);
+  const std::vector<uint32_t> cell_of = find_cells(run, frame, grid, map);
+  std::vector<Heard> heard(size_t{map.columns} * map.rows);
+  const auto each = [&](const auto& visit) {
+    for (const LinkRow& link : links)
+      if (const uint32_t k = cell_of[link.link.rx]; k != no_cell && std::isfinite(link.path_gain_db))
+        visit(heard[k], link);
+  };
+  each([&](Heard& cell, const LinkRow& link) { cell.add(link, choice.tx); });
+  each([&](Heard& cell, const LinkRow& link) {
+    if (!cell.server || link.link.tx != cell.server->link.tx) cell.others += to_power(link.path_gain_db);
+  });
+  map.cells.reserve(heard.size());
+  for (const Heard& cell : heard) map.cells.push_back(values_of(cell, radio));
+  for (const LinkRow& link : links) map.beams |= cell_of[link.link.rx] != no_cell && !std::isnan(link.beam_gain_db);
+  return map;
+}
+
 }  // namespace
 
 std::vector<std::string> layer_names() {
@@ -169,24 +190,27 @@ std::vector<double> Map::values(const LayerKind& layer) const {
 
 Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
                  const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice) {
-  Map map{.grid = grid.name, .tx = choice.tx, .frame = frame.number, .time_s = frame.time_s};
-  for (const RadioEnd& end : run.transmitters()) map.transmitters.push_back(end.name);
-  const std::vector<uint32_t> cell_of = find_cells(run, frame, grid, map);
-  std::vector<Heard> heard(size_t{map.columns} * map.rows);
-  const auto each = [&](const auto& visit) {
-    for (const LinkRow& link : links)
-      if (const uint32_t k = cell_of[link.link.rx]; k != no_cell && std::isfinite(link.path_gain_db))
-        visit(heard[k], link);
-  };
-  each([&](Heard& cell, const LinkRow& link) { cell.add(link, choice.tx); });
-  each([&](Heard& cell, const LinkRow& link) {
-    if (!cell.server || link.link.tx != cell.server->link.tx) cell.others += to_power(link.path_gain_db);
-  });
-  map.cells.reserve(heard.size());
-  for (const Heard& cell : heard) map.cells.push_back(values_of(cell, radio));
-  for (const LinkRow& link : links) map.beams |= cell_of[link.link.rx] != no_cell && !std::isnan(link.beam_gain_db);
+  Map map = map_without_layers(run, radio, frame, links, grid, choice);
   choose_layers(choice.layers, radio, map);
   return map;
+}
+
+std::vector<Map> coverage_maps(const SavedRun& run, const RadioConfig& radio, size_t first_row, size_t last_row,
+                               const LinkTable& table, const ReceiverGridConfig& grid, const MapChoice& choice) {
+  for (const std::string& name : choice.layers) layer_kind(name);  // before frames are read
+  std::vector<Map> maps;
+  bool beams = false;
+  for (size_t row = first_row; row <= last_row; ++row) {
+    const SavedFrame frame = run.frame(row);
+    const std::vector<LinkRow> links = link_rows(frame, table, run.first_link(row), run.frequency_hz());
+    maps.push_back(map_without_layers(run, radio, frame, links, grid, choice));
+    beams |= maps.back().beams;
+  }
+  for (Map& map : maps) {
+    map.beams = beams;
+    choose_layers(choice.layers, radio, map);
+  }
+  return maps;
 }
 
 }  // namespace wavetracer::coverage

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 #include "results/link_rows.hpp"
+#include "results/link_table.hpp"
 #include "results/saved_run.hpp"
 #include "wavetracer/config.hpp"
 
@@ -83,7 +84,7 @@ struct Map {
   uint32_t frame = 0;
   double time_s = 0;
   std::vector<Cell> cells = {};               // row by row from the south
-  bool beams = false;                         // a link to the grid has beams
+  bool beams = false;                         // a link to the grid has beams, in this frame or in one beside it
   std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
   std::vector<std::string> left_out = {};     // why layers are not there
 
@@ -104,9 +105,15 @@ struct MapChoice {
   std::vector<std::string> layers = {};  // names; none: all that the run can tell
 };
 
-// links: of this frame (results/link_rows.hpp). Throws InputError if the run lacks receivers of the grid, or has them
-// twice, ConfigError for layers that there are not, or that were named and need what the run does not have.
+// Makes the map of a frame. links: of this frame (results/link_rows.hpp). Throws InputError if the run lacks receivers
+// of the grid, or has them twice, ConfigError for layers that there are not, or that were named and need what the run
+// does not have.
 Map coverage_map(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
                  const std::vector<LinkRow>& links, const ReceiverGridConfig& grid, const MapChoice& choice);
+
+// Makes the maps of the rows first_row to last_row of a run, which all have the same layers: a layer that can be told
+// in one of these frames is there in all. table: the run's links.csv. Throws as coverage_map does.
+std::vector<Map> coverage_maps(const SavedRun& run, const RadioConfig& radio, size_t first_row, size_t last_row,
+                               const LinkTable& table, const ReceiverGridConfig& grid, const MapChoice& choice);
 
 }  // namespace wavetracer::coverage

@@ -50,10 +50,10 @@ struct Palette {
   }
 };
 
-Palette palette_of(const LayerKind& layer, std::span<const double> values) {
+Palette palette_of(const LayerKind& layer, const ColourRange& range) {
   const std::span<const Colour> choices = choice_colours(layer);
   if (layer.of_choices()) return {{choices.begin(), choices.end()}, true, {}};
-  Palette out{{}, false, colour_range(layer, values)};
+  Palette out{{}, false, range};
   for (uint32_t k = 0; k + 1 < colours; ++k) out.table.push_back(colour_at(viridis, k / (colours - 2.0)));
   return out;
 }
@@ -86,8 +86,8 @@ ColourRange colour_range(const LayerKind& layer, std::span<const double> values)
   return {std::min(std::max(step * std::floor(low / step), top - widest), top - step), top};
 }
 
-std::string png(const Map& map, const LayerKind& layer, std::span<const double> values) {
-  const Palette palette = palette_of(layer, values);
+std::string png(const Map& map, const LayerKind& layer, std::span<const double> values, const ColourRange& range) {
+  const Palette palette = palette_of(layer, range);
   std::string out("\x89PNG\r\n\x1a\n", 8), table(3, '\0'), rows;
   for (const Colour& colour : palette.table)
     for (const uint8_t part : colour) table += static_cast<char>(part);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All files are made in memory first, so that one that cannot be made leaves the folder as it was.
+// Files are written frame by frame into a folder that appears as a whole, so one that cannot be made leaves everything
+// as it was.
 #include "coverage/write_map.hpp"
+#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include "base/csv.hpp"
 #include "base/npy.hpp"
 #include "base/pending_folder.hpp"
@@ -15,9 +16,6 @@ namespace wavetracer::coverage {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Names and contents of files, in the order of their names.
-using Files = std::map<std::string, std::string>;
 
 std::string server_name(const Map& map, size_t cell) {
   if (!map.reached(cell)) return "";
@@ -34,71 +32,167 @@ std::vector<glm::dvec2> degrees_of(const Map& map, const std::optional<Georefere
   return out;
 }
 
-std::string npy(const std::vector<double>& values, const std::vector<size_t>& shape) {
-  return npy_header("<f8", shape) + std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size());
+std::string_view bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()};
 }
 
-void add_arrays(const Map& map, std::span<const glm::dvec2> degrees, Files& files) {
-  const std::vector<size_t> shape = {map.rows, map.columns};
-  std::vector<double> x_m, y_m, longitudes, latitudes;
-  for (uint32_t column = 0; column < map.columns; ++column) x_m.push_back(map.x_m(column));
-  for (uint32_t row = 0; row < map.rows; ++row) y_m.push_back(map.y_m(size_t{row} * map.columns));
-  files["x_m.npy"] = npy(x_m, {x_m.size()});
-  files["y_m.npy"] = npy(y_m, {y_m.size()});
-  files["z_m.npy"] = npy(map.z_m, shape);
-  for (const LayerKind* layer : map.layers) files[std::string(layer->name) + ".npy"] = npy(map.values(*layer), shape);
-  if (degrees.empty()) return;
-  for (const glm::dvec2& place : degrees) {
+class MapWriter {
+ public:
+  MapWriter(const MapsToWrite& what, const fs::path& folder)
+      : what_(what), first_(what.maps.front()), pending_(folder, PendingFolder::Earlier::kept) {
+    if (wanted("csv") || wanted("npy")) degrees_ = degrees_of(first_, what.georeference);
+    for (const LayerKind* layer : first_.layers) ranges_.push_back(range_of(*layer));
+  }
+
+  void write() {
+    put("coverage.json", description());
+    if (wanted("csv")) put_table();
+    if (wanted("npy")) put_arrays();
+    for (const Map& map : what_.maps) put_pictures(map);
+  }
+  std::vector<fs::path> finish() {
+    const fs::path done = pending_.commit();
+    std::vector<fs::path> out;
+    for (const std::string& name : names_) out.push_back(done / name);
+    return out;
+  }
+
+ private:
+  const MapsToWrite& what_;
+  const Map& first_;
+  PendingFolder pending_;
+  std::set<std::string> names_;
+  std::vector<glm::dvec2> degrees_;
+  std::vector<ColourRange> ranges_;  // values of the darkest and brightest colours, layer by layer
+
+  bool wanted(const char* format) const { return std::ranges::find(what_.formats, format) != what_.formats.end(); }
+  // Appends to the file of that name.
+  void put(const std::string& name, std::string_view bytes) {
+    names_.insert(name);
+    pending_.append(name, bytes);
+  }
+  ColourRange range_of(const LayerKind& layer) const;
+  std::string description() const;
+  std::string ending(const Map& map) const;
+  void put_table();
+  void put_array(const std::string& name, const std::vector<double>& values, const std::vector<size_t>& shape);
+  void put_arrays();
+  void put_pictures(const Map& map);
+};
+
+ColourRange MapWriter::range_of(const LayerKind& layer) const {
+  std::vector<double> all;
+  if (layer.of_choices()) return {};
+  for (const Map& map : what_.maps)
+    for (const Cell& cell : map.cells) all.push_back(cell.*layer.value);
+  return colour_range(layer, all);
+}
+
+std::string MapWriter::description() const {
+  nlohmann::ordered_json json = {{"grid", first_.grid}};
+  if (what_.of_frames)
+    for (const Map& map : what_.maps) json["frames"].push_back({{"frame", map.frame}, {"time_s", map.time_s}});
+  else
+    json.update({{"frame", first_.frame}, {"time_s", first_.time_s}});
+  json.update({{"tx", nullptr},
+               {"transmitters", first_.transmitters},
+               {"columns", first_.columns},
+               {"rows", first_.rows},
+               {"first_m", {first_.first_m.x, first_.first_m.y}},
+               {"step_m", {first_.step_m.x, first_.step_m.y}},
+               {"projection", nullptr}});
+  if (first_.tx) json["tx"] = first_.transmitters[*first_.tx];
+  if (what_.georeference) {
+    json["projection"] = what_.georeference->projection;
+    json["offset_m"] = {what_.georeference->offset_m.x, what_.georeference->offset_m.y};
+    json["attribution"] = what_.georeference->attribution;
+  }
+  json["layers"] = nlohmann::ordered_json::object();
+  for (size_t k = 0; k < first_.layers.size(); ++k) {
+    const LayerKind& layer = *first_.layers[k];
+    nlohmann::ordered_json& row = json["layers"][std::string(layer.name)];
+    row = {{"unit", layer.unit}, {"about", layer.words}};
+    if (layer.of_choices()) {
+      for (const Colour& c : choice_colours(layer)) row["colours"].push_back(hex(c));
+    } else {
+      row["dark_to_bright"] = {ranges_[k].low, ranges_[k].high};
+    }
+  }
+  json["left_out"] = first_.left_out;
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+// Returns the end of the names of a frame's files: its number, with as many digits as the last one has.
+std::string MapWriter::ending(const Map& map) const {
+  if (!what_.of_frames) return "";
+  return fmt::format("_{:0{}}", map.frame, std::to_string(what_.maps.back().frame).size());
+}
+
+void MapWriter::put_table() {
+  for (const Map& map : what_.maps) {
+    const std::string table = table_of(map, degrees_, what_.of_frames);
+    const size_t begin = &map == &first_ ? 0 : table.find('\n') + 1;  // there is one row of names
+    put("coverage.csv", std::string_view(table).substr(begin));
+  }
+}
+
+void MapWriter::put_array(const std::string& name, const std::vector<double>& values,
+                          const std::vector<size_t>& shape) {
+  put(name + ".npy", npy_header("<f8", shape));
+  put(name + ".npy", bytes_of(values));
+}
+
+void MapWriter::put_arrays() {
+  const std::vector<size_t> shape = {first_.rows, first_.columns};
+  std::vector<double> x_m, y_m, longitudes, latitudes, time_s;
+  for (uint32_t column = 0; column < first_.columns; ++column) x_m.push_back(first_.x_m(column));
+  for (uint32_t row = 0; row < first_.rows; ++row) y_m.push_back(first_.y_m(size_t{row} * first_.columns));
+  put_array("x_m", x_m, {x_m.size()});
+  put_array("y_m", y_m, {y_m.size()});
+  put_array("z_m", first_.z_m, shape);
+  for (const Map& map : what_.maps) time_s.push_back(map.time_s);
+  if (what_.of_frames) put_array("time_s", time_s, {time_s.size()});
+  for (const LayerKind* layer : first_.layers) {
+    const std::string name = std::string(layer->name) + ".npy";
+    put(name, npy_header("<f8", what_.of_frames ? std::vector{what_.maps.size(), shape[0], shape[1]} : shape));
+    for (const Map& map : what_.maps) put(name, bytes_of(map.values(*layer)));
+  }
+  if (degrees_.empty()) return;
+  for (const glm::dvec2& place : degrees_) {
     longitudes.push_back(place.x);
     latitudes.push_back(place.y);
   }
-  files["lon_deg.npy"] = npy(longitudes, shape);
-  files["lat_deg.npy"] = npy(latitudes, shape);
+  put_array("lon_deg", longitudes, shape);
+  put_array("lat_deg", latitudes, shape);
 }
 
-std::string description(const Map& map, const std::optional<Georeference>& georeference) {
-  nlohmann::ordered_json json = {{"grid", map.grid},
-                                 {"frame", map.frame},
-                                 {"time_s", map.time_s},
-                                 {"tx", nullptr},
-                                 {"transmitters", map.transmitters},
-                                 {"columns", map.columns},
-                                 {"rows", map.rows},
-                                 {"first_m", {map.first_m.x, map.first_m.y}},
-                                 {"step_m", {map.step_m.x, map.step_m.y}},
-                                 {"projection", nullptr}};
-  if (map.tx) json["tx"] = map.transmitters[*map.tx];
-  if (georeference) {
-    json["projection"] = georeference->projection;
-    json["offset_m"] = {georeference->offset_m.x, georeference->offset_m.y};
-    json["attribution"] = georeference->attribution;
+void MapWriter::put_pictures(const Map& map) {
+  const MapPlace place = place_of(map, what_.georeference);
+  for (size_t k = 0; k < map.layers.size(); ++k) {
+    const LayerKind& layer = *map.layers[k];
+    const std::string name = std::string(layer.name) + ending(map);
+    const std::vector<double> values = map.values(layer);
+    if (wanted("geotiff")) put(name + ".tif", geotiff(map, layer, values, place));
+    if (!wanted("png")) continue;
+    put(name + ".png", png(map, layer, values, ranges_[k]));
+    put(name + ".pgw", world_file(place));
   }
-  json["layers"] = nlohmann::ordered_json::object();
-  for (const LayerKind* layer : map.layers) {
-    nlohmann::ordered_json& row = json["layers"][std::string(layer->name)];
-    row = {{"unit", layer->unit}, {"about", layer->words}};
-    if (layer->of_choices()) {
-      for (const Colour& c : choice_colours(*layer)) row["colours"].push_back(hex(c));
-    } else {
-      const ColourRange range = colour_range(*layer, map.values(*layer));
-      row["dark_to_bright"] = {range.low, range.high};
-    }
-  }
-  json["left_out"] = map.left_out;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
-std::string table_of(const Map& map, std::span<const glm::dvec2> degrees) {
+std::string table_of(const Map& map, std::span<const glm::dvec2> degrees, bool of_frames) {
   std::vector<std::string> names = {"ix", "iy", "x_m", "y_m", "z_m"};
+  if (of_frames) names.insert(names.begin(), {"frame", "time_s"});
   if (!degrees.empty()) names.insert(names.end(), {"lon_deg", "lat_deg"});
   for (const LayerKind* layer : map.layers) names.emplace_back(layer->name);
   names.emplace_back("tx");
   Csv table(names);
   const auto text = [](double value) { return fmt::format("{}", value); };
   for (size_t cell = 0; cell < map.cells.size(); ++cell) {
-    std::vector<std::string> row = {std::to_string(cell % map.columns), std::to_string(cell / map.columns)};
+    std::vector<std::string> row;
+    if (of_frames) row = {std::to_string(map.frame), text(map.time_s)};
+    row.insert(row.end(), {std::to_string(cell % map.columns), std::to_string(cell / map.columns)});
     for (const double value : {map.x_m(cell), map.y_m(cell), map.z_m[cell]}) row.push_back(text(value));
     if (!degrees.empty()) row.insert(row.end(), {text(degrees[cell].x), text(degrees[cell].y)});
     for (const LayerKind* layer : map.layers) row.push_back(text(map.cells[cell].*layer->value));
@@ -108,29 +202,10 @@ std::string table_of(const Map& map, std::span<const glm::dvec2> degrees) {
   return table.text();
 }
 
-std::vector<fs::path> write_map(const Map& map, const fs::path& folder, const std::vector<std::string>& formats,
-                                const std::optional<Georeference>& georeference) {
-  const auto wanted = [&](const char* format) { return std::ranges::find(formats, format) != formats.end(); };
-  const MapPlace place = place_of(map, georeference);
-  Files files = {{"coverage.json", description(map, georeference)}};
-  std::vector<glm::dvec2> degrees;
-  if (wanted("csv") || wanted("npy")) degrees = degrees_of(map, georeference);
-  if (wanted("csv")) files["coverage.csv"] = table_of(map, degrees);
-  if (wanted("npy")) add_arrays(map, degrees, files);
-  for (const LayerKind* layer : map.layers) {
-    const std::string name(layer->name);
-    const std::vector<double> values = map.values(*layer);
-    if (wanted("geotiff")) files[name + ".tif"] = geotiff(map, *layer, values, place);
-    if (!wanted("png")) continue;
-    files[name + ".png"] = png(map, *layer, values);
-    files[name + ".pgw"] = world_file(place);
-  }
-  PendingFolder pending(folder, PendingFolder::Earlier::kept);
-  for (const auto& [name, content] : files) pending.append(name, content);
-  const fs::path done = pending.commit();
-  std::vector<fs::path> out;
-  for (const auto& [name, content] : files) out.push_back(done / name);
-  return out;
+std::vector<fs::path> write_maps(const MapsToWrite& what, const fs::path& folder) {
+  MapWriter writer(what, folder);
+  writer.write();
+  return writer.finish();
 }
 
 }  // namespace wavetracer::coverage

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _program
 from ._arguments import each, integer, path, shown
+from .errors import ConfigError
 from .runs import Run
 from .simulation import Simulation
 
@@ -57,10 +58,41 @@ def _options(grid: str | None, tx: str | None, layers: Iterable[str] | None) -> 
     return out
 
 
+def _chosen(frame: int | None, frames: Iterable[int] | str | None) -> tuple[list[int] | None, list[str]]:
+    """Numbers of frames, or None for the first frame or for all, and the options that name them to the program."""
+    if frame is not None and frames is not None:
+        raise ConfigError("give frame, the number of one frame, or frames, those of several, and not both")
+    if frame is not None:
+        number = integer(frame, "the number of a frame")
+        return [number], ["--frame", str(number)]
+    if frames is None:
+        return None, []
+    if isinstance(frames, str) and frames == "all":
+        return None, ["--frames=all"]
+    numbers = [integer(item, "the number of a frame")
+               for item in each(frames, 'frames is "all", or numbers of frames, such as [0, 2] or range(0, 10)')]
+    if not numbers:
+        raise ConfigError('frames is empty: give at least one number, or "all"')
+    return numbers, [f"--frames={min(numbers)}:{max(numbers)}"]
+
+
+def _of_frames(maps: xarray.Dataset, numbers: list[int]) -> xarray.Dataset:
+    """The maps of these frames, in this order, out of those of all frames between them."""
+    row = {number: k for k, number in enumerate(maps.frame.values.tolist())}
+    for number in numbers:
+        if number not in row:
+            raise ConfigError(f"frames: the run has no frame {number}, and those beside it are {shown(list(row))}")
+    return maps.isel(time=[row[number] for number in numbers])
+
+
 def _dataset(folder: pathlib.Path) -> xarray.Dataset:
     about = json.loads((folder / "coverage.json").read_text(encoding="utf-8"))
+    axes_of_layers: tuple[str, ...] = ("time", "y", "x") if "frames" in about else ("y", "x")
     coordinates: dict[str, Any] = {}
+    if "frames" in about:
+        coordinates["frame"] = ("time", [item["frame"] for item in about["frames"]], {"long_name": "number of the frame"})
     for file, name, axes, long_name, units in (
+            ("time_s", "time", ("time",), "time of the frame", "s"),
             ("x_m", "x", ("x",), "x in the coordinates of the scene, middle of the cell", "m"),
             ("y_m", "y", ("y",), "y in the coordinates of the scene, middle of the cell", "m"),
             ("z_m", "z", ("y", "x"), "height of the receivers", "m"),
@@ -68,7 +100,8 @@ def _dataset(folder: pathlib.Path) -> xarray.Dataset:
             ("lat_deg", "lat", ("y", "x"), "latitude, WGS84", "degrees_north")):
         if (folder / f"{file}.npy").exists():
             coordinates[name] = (axes, np.load(folder / f"{file}.npy"), {"units": units, "long_name": long_name})
-    values = {name: (("y", "x"), np.load(folder / f"{name}.npy"), {"units": layer["unit"] or "1", "long_name": layer["about"]})
+    values = {name: (axes_of_layers, np.load(folder / f"{name}.npy"),
+                     {"units": layer["unit"] or "1", "long_name": layer["about"]})
               for name, layer in about["layers"].items()}
     names = ("grid", "frame", "time_s", "tx", "transmitters", "projection", "offset_m")
     out: xarray.Dataset = _xarray().Dataset(values, coords=coordinates,
@@ -77,28 +110,31 @@ def _dataset(folder: pathlib.Path) -> xarray.Dataset:
 
 
 def coverage(run: Source, *, grid: str | None = None, tx: str | None = None, frame: int | None = None,
-             layers: Iterable[str] | None = None) -> xarray.Dataset:
+             frames: Iterable[int] | str | None = None, layers: Iterable[str] | None = None) -> xarray.Dataset:
     """The map of a [[receiver_grid]] in one frame as an xarray.Dataset: variables of shape (y, x), NaN where a cell has
     no value, with units and long_name as attributes, over coordinates x, y and z in metres, and lon and lat in degrees
-    if the scene has a georeference.
+    if the scene has a georeference. With `frames` it has the maps of several frames: variables of shape (time, y, x),
+    over the coordinates time in seconds and frame, too.
 
-    run: a Run, its folder, a Simulation, or a configuration, of which one frame is computed. grid: its name, needed if
+    run: a Run, its folder, a Simulation, or a configuration, of which these frames are computed. grid: its name, needed if
     there are several. tx: the transmitter that serves all cells; the strongest of each cell if not given. frame: its
-    number; the first one if not given. layers: names, such as "path_gain_db", "sinr_db" and "best_server" (a place in
-    the attribute `transmitters`); all that the run can tell if not given. docs/formats.md has their formulas. Raises
-    ImportError without xarray.
+    number; the first one if not given. frames: instead of it, numbers of frames, such as range(0, 10), or "all".
+    layers: names, such as "path_gain_db", "sinr_db" and "best_server" (a place in the attribute `transmitters`); all
+    that the run can tell if not given. docs/formats.md has their formulas. Raises ImportError without xarray.
     """
     _xarray()
     options, folder = _options(grid, tx, layers), _folder_of(run)
-    number = None if frame is None else integer(frame, "the number of a frame")
+    numbers, named = _chosen(frame, frames)
     with tempfile.TemporaryDirectory(prefix="wavetracer-") as work:
         if folder is None:
             simulation = run if isinstance(run, Simulation) else Simulation(run)  # type: ignore[arg-type]
             folder = pathlib.Path(work) / "run"
-            simulation.run(folder, [0 if number is None else number], progress=False).close()
+            first = range(len(simulation)) if named == ["--frames=all"] else [0]
+            wanted = first if numbers is None else sorted(set(numbers))
+            simulation.run(folder, wanted, progress=False).close()
             if simulation is not run:
                 simulation.close()
-        if number is not None:
-            options += ["--frame", str(number)]
+        options += named
         _program.call("coverage", folder, "-o", pathlib.Path(work) / "maps", "--format", "npy", *options)
-        return _dataset(pathlib.Path(work) / "maps")
+        maps = _dataset(pathlib.Path(work) / "maps")
+    return maps if frames is None or numbers is None else _of_frames(maps, numbers)

@@ -67,6 +67,12 @@ def db(power):
         return np.where(power > 0, 10 * np.log10(power), np.nan)
 
 
+def pixels(file):
+    """Value of each pixel by its place, as GDAL reads both."""
+    lines = run("gdal_translate", "-q", "-of", "XYZ", file, "/vsistdout/").stdout.split("\n")
+    return {(round(float(x), 3), round(float(y), 3)): float(value) for x, y, value in (line.split() for line in lines if line)}
+
+
 def free_run(program, folder, config):
     """Runs a configuration over a plane in a new folder "free", and returns that folder; the run is "out" in it."""
     place = folder / "free"

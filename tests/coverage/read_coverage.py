@@ -12,7 +12,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from map_reading import FREE_SPACE, LIGHT_M_S, column, db, free_run, main, run, same, table
+from map_reading import FREE_SPACE, LIGHT_M_S, column, db, free_run, main, pixels, run, same, table
 
 CITY = """
 scene.generate = "--seed 1 --blocks 2x2"
@@ -71,12 +71,6 @@ def check_arrays(folder, rows, names, shape):
         same(np.load(folder / f"{name}.npy"), column(rows, name).reshape(shape), 0)
     same(np.load(folder / "x_m.npy"), column(rows, "x_m").reshape(shape)[0], 0)
     same(np.load(folder / "y_m.npy"), column(rows, "y_m").reshape(shape)[:, 0], 0)
-
-
-def pixels(file):
-    """Value of each pixel by its place, as GDAL reads both."""
-    lines = run("gdal_translate", "-q", "-of", "XYZ", file, "/vsistdout/").stdout.split("\n")
-    return {(round(float(x), 3), round(float(y), 3)): float(value) for x, y, value in (line.split() for line in lines if line)}
 
 
 def check_tiff(folder, rows, name, unit, offset_m):

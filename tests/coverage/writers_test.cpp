@@ -110,7 +110,7 @@ TEST_CASE("the table has a row for each cell, and files replace those of an earl
   test::TemporaryFolder folder;
   std::ofstream(folder.path() / "paths.png") << "old";
   std::ofstream(folder.path() / "notes.txt") << "mine";
-  const std::vector<fs::path> files = write_map(map, folder.path(), {"csv", "npy", "geotiff", "png"}, {});
+  const std::vector<fs::path> files = write_maps({{&map, 1}, false, {"csv", "npy", "geotiff", "png"}}, folder.path());
   CHECK(files.size() == 2 + 3 + 8 * 4);
   for (const fs::path& file : files) CHECK(fs::file_size(file) > 10);
   CHECK(content(folder.path() / "coverage.csv") == table);
@@ -124,8 +124,9 @@ TEST_CASE("the table has a row for each cell, and files replace those of an earl
 TEST_CASE("a map whose projection GeoTIFF cannot name leaves the folder as it was") {
   test::TemporaryFolder folder;
   const Georeference mercator{"+proj=merc +ellps=WGS84", {0, 0}, "", {}};
-  CHECK_THROWS_AS(write_map(written_map(), folder.path(), {"csv", "geotiff"}, mercator), InputError);
+  const Map map = written_map();
+  CHECK_THROWS_AS(write_maps({{&map, 1}, false, {"csv", "geotiff"}, mercator}, folder.path()), InputError);
   CHECK(fs::is_empty(folder.path()));
-  CHECK(write_map(written_map(), folder.path(), {"csv"}, mercator).size() == 2);
+  CHECK(write_maps({{&map, 1}, false, {"csv"}, mercator}, folder.path()).size() == 2);
   CHECK(content(folder.path() / "coverage.csv").starts_with("ix,iy,x_m,y_m,z_m,lon_deg,lat_deg,"));
 }

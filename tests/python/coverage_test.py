@@ -82,6 +82,36 @@ for arguments, kind, said in (({"grid": "h"}, wt.ConfigError, 'did you mean "g"'
         raise AssertionError(f"{arguments} was not refused")
     except kind as error:
         assert said in str(error), (arguments, error)
+# A drive: its maps have a dimension of time, and are those of single frames; two that differ are both where they belong.
+drive = dict(config, time={"step_s": 0.25}, track=[{"id": "bus", "waypoints": [[0, 10, 20, 0], [1, 50, 20, 0]]}],
+             vehicle_type=[{"name": "passenger", "model": "none"}],
+             mount=[{"name": "roof", "role": "transmitter", "offset_m": [0, 0, 4]}])
+moving = wt.Simulation(drive).run(folder / "drive")
+maps = wt.coverage(moving, frames="all", tx="bus/roof")
+assert dict(maps.sizes) == {"time": 5, "y": 12, "x": 24} and maps.path_gain_db.dims == ("time", "y", "x")
+assert maps.time.values.tolist() == [0, 0.25, 0.5, 0.75, 1] and maps.time.units == "s"
+assert maps.frame.values.tolist() == [0, 1, 2, 3, 4] and "time_s" not in maps.attrs and maps.z.dims == ("y", "x")
+distance = np.sqrt((maps.x - (10 + 40 * maps.time)) ** 2 + (maps.y - 20) ** 2 + 2.5 ** 2).transpose("time", "y", "x")
+assert np.allclose(maps.path_gain_db, 20 * np.log10(299792458 / 3.5e9 / (4 * np.pi) / distance), atol=1e-5)
+one = wt.coverage(moving, frame=3, tx="bus/roof")
+assert np.array_equal(one.path_gain_db, maps.path_gain_db[3]) and one.attrs["frame"] == 3
+some = wt.coverage(moving, frames=[3, 1], tx="bus/roof")
+assert some.identical(maps.isel(time=[3, 1])) and some.time.values.tolist() == [0.75, 0.25]
+assert wt.coverage(drive, frames=np.array([1, 3]), tx="bus/roof").identical(maps.isel(time=[1, 3]))
+with wt.Simulation(drive) as simulation:
+    assert wt.coverage(simulation, frames="all", tx="bus/roof").identical(maps)
+part = wt.Simulation(drive).run(folder / "part", [0, 2, 4])
+for arguments, kind, said in (({"frames": [0, 2, 3]}, wt.ConfigError, "the run has no frame 3"),
+                              ({"frames": [5]}, wt.ConfigError, "0 to 4"), ({"frames": [-1, 2]}, wt.ConfigError, "--frames"),
+                              ({"frames": "some"}, TypeError, '"all"'), ({"frames": []}, wt.ConfigError, "at least one"),
+                              ({"frames": [0], "frame": 0}, wt.ConfigError, "not both"),
+                              ({"frames": [0.5]}, TypeError, "is an integer")):
+    try:
+        wt.coverage(part, **arguments)
+        raise AssertionError(f"{arguments} was not refused")
+    except kind as error:
+        assert said in str(error), (arguments, error)
+
 try:
     wt.coverage(folder / "nothing")
     raise AssertionError("a folder that does not exist was not refused")
