@@ -12,6 +12,7 @@
 #include "base/spelling.hpp"
 #include "config/retired_keys.hpp"
 #include "coverage/coverage_map.hpp"
+#include "coverage/kml.hpp"
 #include "coverage/write_map.hpp"
 #include "results/link_table.hpp"
 #include "results/run_choice.hpp"
@@ -68,6 +69,12 @@ void make_coverage(const CoverageOptions& options) {
   const Config config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
   const ReceiverGridConfig& grid = chosen_grid(config, options.grid);
   const auto tx = find_end(run.transmitters(), options.tx, "--tx");
+  const std::string& scene = config.scene.file;
+  const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
+  const auto wanted = [&](const char* format) {
+    return std::ranges::find(options.formats, format) != options.formats.end();
+  };
+  if (wanted("kml")) coverage::georeference_for_kml(georeference, scene);  // refuse it before frames are read
   const FrameRows rows = chosen_rows(run, options);
   const LinkTable table = link_table(run);
   if (!table.warning.empty()) warn(table.warning);
@@ -80,10 +87,7 @@ void make_coverage(const CoverageOptions& options) {
                                       : fmt::format("frames {} to {}", maps.front().frame, maps.back().frame),
                      tx ? " from \"" + options.tx + "\"" : "",
                      maps.size() == 1 ? "the map is empty" : "the maps are empty"));
-  const std::string& scene = config.scene.file;
-  const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
-  const bool placed = std::ranges::any_of(options.formats, [](auto& name) { return name == "geotiff"; });
-  if (placed && !georeference)
+  if (wanted("geotiff") && !georeference)
     warn(
         "where on the earth the scene is, is not known: the files of geotiff have its own coordinates in metres, in a "
         "local system; a georeference.json beside the scene file would say it");
@@ -96,8 +100,8 @@ void make_coverage(const CoverageOptions& options) {
 }  // namespace
 
 void add_coverage(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("coverage", "Write maps of a run's [[receiver_grid]]: tables, arrays, GeoTIFF, pictures");
+  CLI::App* command = program.add_subcommand(
+      "coverage", "Write maps of a run's [[receiver_grid]]: tables, arrays, GeoTIFF, pictures, KML");
   const auto options = std::make_shared<CoverageOptions>();
   command->add_option("RUN", options->run, "Folder of a run, or its paths.h5")->required();
   command->add_option("-o,--output", options->folder,

@@ -52,7 +52,7 @@ struct LayerKind {
 
 inline constexpr std::array<LayerKind, 15> layer_kinds = {{
     {"path_gain_db", "dB", "path gain", &Cell::path_gain_db},
-    {"narrowband_gain_db", "dB", "gain at the carrier, with phases", &Cell::narrowband_gain_db},
+    {"narrowband_gain_db", "dB", "narrowband gain", &Cell::narrowband_gain_db},
     {"received_dbm", "dBm", "received power", &Cell::received_dbm, true},
     {"snr_db", "dB", "signal-to-noise ratio", &Cell::snr_db, true, true},
     {"sinr_db", "dB", "signal to interference and noise", &Cell::sinr_db, true, true},

@@ -58,13 +58,6 @@ Palette palette_of(const LayerKind& layer, const ColourRange& range) {
   return out;
 }
 
-std::string words_of(const Map& map, const LayerKind& layer, const Palette& palette) {
-  const std::string head = fmt::format("{} of {}", layer.words, map.grid);
-  if (palette.counted) return head;
-  return fmt::format("{}: {:g} {} is dark, {:g} {} is bright", head, palette.range.low, layer.unit, palette.range.high,
-                     layer.unit);
-}
-
 }  // namespace
 
 std::span<const Colour> choice_colours(const LayerKind& layer) {
@@ -86,6 +79,13 @@ ColourRange colour_range(const LayerKind& layer, std::span<const double> values)
   return {std::min(std::max(step * std::floor(low / step), top - widest), top - step), top};
 }
 
+std::string colour_words(const Map& map, const LayerKind& layer, const ColourRange& range) {
+  const std::string head = fmt::format("{} of {}", layer.words, map.grid);
+  if (layer.of_choices()) return head;
+  const std::string unit = layer.unit.empty() ? "" : fmt::format(" {}", layer.unit);
+  return fmt::format("{}: {:g}{} is dark, {:g}{} is bright", head, range.low, unit, range.high, unit);
+}
+
 std::string png(const Map& map, const LayerKind& layer, std::span<const double> values, const ColourRange& range) {
   const Palette palette = palette_of(layer, range);
   std::string out("\x89PNG\r\n\x1a\n", 8), table(3, '\0'), rows;
@@ -100,7 +100,7 @@ std::string png(const Map& map, const LayerKind& layer, std::span<const double> 
   add_chunk(out, "IHDR", big_endian(map.columns) + big_endian(map.rows) + eight_bits_palette);
   add_chunk(out, "PLTE", table);
   add_chunk(out, "tRNS", std::string(1, '\0'));
-  add_chunk(out, "tEXt", "Description" + std::string(1, '\0') + words_of(map, layer, palette));
+  add_chunk(out, "tEXt", "Description" + std::string(1, '\0') + colour_words(map, layer, range));
   add_chunk(out, "IDAT", compressed(rows));
   add_chunk(out, "IEND", "");
   return out;

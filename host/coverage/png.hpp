@@ -39,6 +39,9 @@ struct ColourRange {
 // but the lowest and highest percent; in others it begins at 0. Values that are not finite do not count.
 ColourRange colour_range(const LayerKind& layer, std::span<const double> values);
 
+// Returns a line about a picture: the layer, the grid, and for amounts the values of the darkest and brightest colour.
+std::string colour_words(const Map& map, const LayerKind& layer, const ColourRange& range);
+
 // values: row by row from the south. range: the values of the darkest and the brightest colour of a layer of amounts.
 // Transmitters and beams have colours that repeat after twelve; line of sight is blue, and other paths are orange.
 std::string png(const Map& map, const LayerKind& layer, std::span<const double> values, const ColourRange& range);

@@ -10,6 +10,7 @@
 #include "base/npy.hpp"
 #include "base/pending_folder.hpp"
 #include "coverage/geotiff.hpp"
+#include "coverage/kml.hpp"
 #include "coverage/png.hpp"
 
 namespace wavetracer::coverage {
@@ -48,7 +49,10 @@ class MapWriter {
     put("coverage.json", description());
     if (wanted("csv")) put_table();
     if (wanted("npy")) put_arrays();
-    for (const Map& map : what_.maps) put_pictures(map);
+    for (const Map& map : what_.maps) {
+      put_pictures(map);
+      if (wanted("kml")) put_overlays(map);
+    }
   }
   std::vector<fs::path> finish() {
     const fs::path done = pending_.commit();
@@ -78,6 +82,7 @@ class MapWriter {
   void put_array(const std::string& name, const std::vector<double>& values, const std::vector<size_t>& shape);
   void put_arrays();
   void put_pictures(const Map& map);
+  void put_overlays(const Map& map);
 };
 
 ColourRange MapWriter::range_of(const LayerKind& layer) const {
@@ -173,10 +178,16 @@ void MapWriter::put_pictures(const Map& map) {
     const std::string name = std::string(layer.name) + ending(map);
     const std::vector<double> values = map.values(layer);
     if (wanted("geotiff")) put(name + ".tif", geotiff(map, layer, values, place));
-    if (!wanted("png")) continue;
-    put(name + ".png", png(map, layer, values, ranges_[k]));
-    put(name + ".pgw", world_file(place));
+    if (wanted("png") || wanted("kml")) put(name + ".png", png(map, layer, values, ranges_[k]));
+    if (wanted("png")) put(name + ".pgw", world_file(place));
   }
+}
+
+void MapWriter::put_overlays(const Map& map) {
+  std::vector<Overlay> overlays;
+  for (size_t k = 0; k < map.layers.size(); ++k)
+    overlays.push_back({map.layers[k], ranges_[k], std::string(map.layers[k]->name) + ending(map) + ".png"});
+  put("coverage" + ending(map) + ".kml", kml(map, georeference_for_kml(what_.georeference, ""), overlays));
 }
 
 }  // namespace

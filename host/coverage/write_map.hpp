@@ -13,14 +13,14 @@
 
 namespace wavetracer::coverage {
 
-inline constexpr std::array<std::string_view, 4> format_names = {"csv", "npy", "geotiff", "png"};
+inline constexpr std::array<std::string_view, 5> format_names = {"csv", "npy", "geotiff", "png", "kml"};
 
 // The maps to write: that of one frame, or those of several frames in their order, which have the same layers.
 struct MapsToWrite {
   std::span<const Map> maps;
   bool of_frames = false;  // tables and arrays have the frames too, and pictures the number of the frame in their name
-  std::vector<std::string> formats = {};  // words of format_names
-  std::optional<Georeference> georeference = {};
+  std::vector<std::string> formats = {};          // words of format_names
+  std::optional<Georeference> georeference = {};  // without it kml is refused
 };
 
 // Returns the table of all cells, row by row from the south: ix, iy, x_m, y_m, z_m, lon_deg and lat_deg if they are
