@@ -159,7 +159,7 @@ void write_grid(const Place& place, const Options& options) {
   const nlohmann::ordered_json json{
       {"scene", place.name},      {"frequency_hz", config.radio.frequency_hz},          {"max_depth", max_depth},
       {"rays", options.rays},     {"transmitter_m", config.transmitters[0].position_m}, {"side_m", options.side_m},
-      {"step_m", options.step_m}, {"height_m", config.receiver_grids[0].height_m}};
+      {"step_m", options.step_m}, {"height_m", ReceiverGridConfig::default_height_m}};
   std::ofstream out(options.write_grid);
   out << json.dump(1) << "\n";
   if (!out.flush())

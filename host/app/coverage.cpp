@@ -68,6 +68,7 @@ void make_coverage(const CoverageOptions& options) {
   const SavedRun run(options.run);
   const Config config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
   const ReceiverGridConfig& grid = chosen_grid(config, options.grid);
+  coverage::check_formats_of(grid.name, grid.vertical(), options.formats);
   const auto tx = find_end(run.transmitters(), options.tx, "--tx");
   const std::string& scene = config.scene.file;
   const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);

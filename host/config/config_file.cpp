@@ -113,6 +113,7 @@ class Parser {
     finish();
     check_whole();
     finish();
+    config_.receiver_grids = one_of_each_height(config_.receiver_grids);
     config_.file = file_;
     config_.text = echoed_config(config_);
     return std::move(config_);

@@ -293,7 +293,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_arrays(config, out);
   check_trajectories(config, out);
   check_degrees(config, out);
-  check_grid_corners(config, out);
+  check_grids(config, out);
   return out;
 }
 

@@ -23,7 +23,12 @@ void check_arrays(const Config& config, std::vector<Contradiction>& out);
 void check_trajectories(const Config& config, std::vector<Contradiction>& out);
 void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
-void check_grid_corners(const Config& config, std::vector<Contradiction>& out);
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
+
+// Defined in grid_checks.cpp.
+void check_grids(const Config& config, std::vector<Contradiction>& out);
+
+// Returns the grids of which each has one height: those of several heights become NAME@HEIGHT, one after the other.
+std::vector<ReceiverGridConfig> one_of_each_height(const std::vector<ReceiverGridConfig>& grids);
 
 }  // namespace wavetracer::config

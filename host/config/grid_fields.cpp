@@ -29,15 +29,63 @@ Field grid_corner(std::string name, std::optional<std::array<double, 2>> Receive
           .example = std::move(example)};
 }
 
+Field plane_end(std::string name, std::optional<std::array<double, 2>> ReceiverGridConfig::*member, std::string doc,
+                std::string example) {
+  return {.name = std::move(name),
+          .slot = of_grid(member),
+          .unit = "m",
+          .range = places,
+          .doc = std::move(doc),
+          .example = std::move(example)};
+}
+
+Field plane_border(std::string name, std::optional<double> ReceiverGridConfig::*member, const std::string& side,
+                   std::string example) {
+  return {.name = std::move(name),
+          .slot = of_grid(member),
+          .unit = "m",
+          .range = places,
+          .doc = side + " border of a vertical plane, as z in the scene file. Not given: that of the scene.",
+          .example = std::move(example)};
+}
+
+// Returns the rows of the height of a grid, or of its heights.
+std::array<Field, 3> height_fields() {
+  return {
+      {{.name = "height_m",
+        .slot = of_grid(&ReceiverGridConfig::height_m),
+        .unit = "m",
+        .range = places,
+        .doc =
+            "Height of the receivers. Not given: 1.5, the height of a phone, and of an antenna on the roof of a car.",
+        .example = "1.5"},
+       {.name = "heights_m",
+        .slot = of_grid(&ReceiverGridConfig::heights_m),
+        .unit = "m",
+        .range = places,
+        .doc = "Instead of height_m: several heights, such as those of floors. Each makes a grid of its own, called "
+               "NAME@HEIGHT, such as rooms@4.5, and all count for the limit of a million receivers.",
+        .example = "[1.5, 4.5, 7.5]"},
+       {.name = "above",
+        .slot = of_grid(&ReceiverGridConfig::above),
+        .doc = "The reference of height_m and heights_m. zero: a height is the z coordinate in the scene file. "
+               "ground: "
+               "the ground at that place, for hilly terrain; where there is none, "
+               "the lowest point of the scene. The ground is what spans at least half of the scene, "
+               "seen from above, or else the lowest surface."}}};
+}
+
 }  // namespace
 
 Table receiver_grid_table() {
+  const auto [height, heights, above] = height_fields();
   return {
       .name = "receiver_grid",
       .doc =
           "Receivers at the centres of square cells, for a coverage map (`wavetracer plot`). "
           "They are called NAME/IX,IY, counted from 0 towards +x and +y. They follow the [[receiver]] tables, "
-          "row by row: IX counts first.",
+          "row by row: IX counts first. With from_m and to_m the cells stand on a vertical plane, as for a facade or a "
+          "cut through a street: then IX counts from from_m, and IY upwards.",
       .fields =
           {
               {.name = "name",
@@ -58,6 +106,13 @@ Table receiver_grid_table() {
                   "[48.136, 11.573]"),
               grid_corner("north_east_wgs84", &ReceiverGridConfig::north_east_wgs84,
                           "Instead of x_max_m and y_max_m: latitude and longitude of that corner.", "[48.138, 11.577]"),
+              plane_end("from_m", &ReceiverGridConfig::from_m,
+                        "Instead of the borders above: x and y where a vertical plane begins. It needs to_m. Receivers "
+                        "inside of a wall hear nothing, so the plane of a facade stands a little in front of it.",
+                        "[10.0, -20.0]"),
+              plane_end("to_m", &ReceiverGridConfig::to_m, "x and y where the vertical plane ends.", "[10.0, 20.0]"),
+              plane_border("z_min_m", &ReceiverGridConfig::z_min_m, "Lower", "0.0"),
+              plane_border("z_max_m", &ReceiverGridConfig::z_max_m, "Upper", "20.0"),
               {.name = "step_m",
                .slot = of_grid(&ReceiverGridConfig::step_m),
                .unit = "m",
@@ -65,19 +120,9 @@ Table receiver_grid_table() {
                .doc =
                    "Side of a cell. As many cells as fit between the borders are placed in the middle, at least one. "
                    "Half the step gives four times as many receivers; more than a million receivers are an error."},
-              {.name = "height_m",
-               .slot = of_grid(&ReceiverGridConfig::height_m),
-               .unit = "m",
-               .range = places,
-               .doc =
-                   "Height of the receivers. 1.5 m is the height of a phone, and of an antenna on the roof of a car."},
-              {.name = "above",
-               .slot = of_grid(&ReceiverGridConfig::above),
-               .doc = "The reference of height_m. zero: height_m is the z coordinate in the scene file. "
-                      "ground: "
-                      "the ground at that place, for hilly terrain; where there is none, "
-                      "the lowest point of the scene. The ground is what spans at least half of the scene, "
-                      "seen from above, or else the lowest surface."},
+              height,
+              heights,
+              above,
               antenna_field(of_grid, &ReceiverGridConfig::antenna),
               polarization_field(of_grid, &ReceiverGridConfig::polarization),
               array_field(of_grid, &ReceiverGridConfig::array),

@@ -175,21 +175,6 @@ void check_degrees(const Config& config, std::vector<Contradiction>& out) {
   }
 }
 
-void check_grid_corners(const Config& config, std::vector<Contradiction>& out) {
-  for (size_t i = 0; i < config.receiver_grids.size(); ++i) {
-    const ReceiverGridConfig& grid = config.receiver_grids[i];
-    const auto check = [&](const char* corner, bool in_degrees, const char* border, bool in_metres) {
-      if (in_degrees && in_metres)
-        out.push_back({{fmt::format("receiver_grid.{}.{}", i, corner), fmt::format("receiver_grid.{}.{}", i, border)},
-                       fmt::format("[[receiver_grid]] has both {} and {}: remove one of them", border, corner)});
-    };
-    check("south_west_wgs84", grid.south_west_wgs84.has_value(), "x_min_m", grid.x_min_m.has_value());
-    check("south_west_wgs84", grid.south_west_wgs84.has_value(), "y_min_m", grid.y_min_m.has_value());
-    check("north_east_wgs84", grid.north_east_wgs84.has_value(), "x_max_m", grid.x_max_m.has_value());
-    check("north_east_wgs84", grid.north_east_wgs84.has_value(), "y_max_m", grid.y_max_m.has_value());
-  }
-}
-
 // Listeners know only the edges that transmitters see and the surfaces that rays reflect from, so paths over two edges
 // and through walls would be lost.
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {

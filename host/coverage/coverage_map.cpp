@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 #include "base/spelling.hpp"
 #include "radio/link_budget.hpp"
@@ -37,6 +38,23 @@ struct Heard {
   }
 };
 
+// Sets the place and the steps of a map by its first and last cell.
+void set_shape(const glm::dvec3& first, const glm::dvec3& last, const ReceiverGridConfig& grid, Map& map) {
+  glm::dvec2 way = glm::dvec2(last) - glm::dvec2(first);
+  map.first_m = first;
+  if (grid.vertical()) {
+    VerticalPlane& plane = map.plane.emplace();
+    plane.from_m = {grid.from_m->at(0), grid.from_m->at(1)};
+    plane.to_m = {grid.to_m->at(0), grid.to_m->at(1)};
+    plane.direction = plane_direction(grid);
+    plane.first_along_m = plane.along_and_off_m(first.x, first.y).x;
+    plane.first_z_m = first.z;
+    way = {glm::length(way), last.z - first.z};
+  }
+  map.step_m = {map.columns > 1 ? way.x / (map.columns - 1) : grid.step_m,
+                map.rows > 1 ? way.y / (map.rows - 1) : grid.step_m};
+}
+
 // Returns the cell of each receiver of the run, or no_cell, and sets the shape of the map.
 std::vector<uint32_t> find_cells(const SavedRun& run, const SavedFrame& frame, const ReceiverGridConfig& grid,
                                  Map& map) {
@@ -65,11 +83,7 @@ std::vector<uint32_t> find_cells(const SavedRun& run, const SavedFrame& frame, c
     cell_of[receiver[k]] = k;
     map.z_m.push_back(frame.receiver_position_m[receiver[k]].z);
   }
-  const glm::dvec3 &first = frame.receiver_position_m[receiver.front()],
-                   &last = frame.receiver_position_m[receiver.back()];
-  map.first_m = first;
-  map.step_m = {map.columns > 1 ? (last.x - first.x) / (map.columns - 1) : grid.step_m,
-                map.rows > 1 ? (last.y - first.y) / (map.rows - 1) : grid.step_m};
+  set_shape(frame.receiver_position_m[receiver.front()], frame.receiver_position_m[receiver.back()], grid, map);
   return cell_of;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps of a receiver grid in one frame of a run: layers of one value a cell, for one transmitter or for the strongest.
+// Rows go north, or up in a map of a vertical plane.
 // A value is NaN where there is none. All transmitters send radio.transmit_power_dbm.
 #pragma once
 #include <array>
@@ -74,12 +75,26 @@ std::vector<std::string> layer_names();
 // Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
 const LayerKind& layer_kind(const std::string& name);
 
+// The plane of a map whose columns go from from_m to to_m, and whose rows go up.
+struct VerticalPlane {
+  glm::dvec2 from_m{0}, to_m{0}, direction{1, 0};  // direction: unit vector between them
+  double first_along_m = 0, first_z_m = 0;         // middle of cell 0,0: its distance from from_m, and its height
+
+  // Returns the distance of a place from from_m along the plane, and its distance from the plane.
+  glm::dvec2 along_and_off_m(double x_m, double y_m) const {
+    const double x = x_m - from_m.x, y = y_m - from_m.y;
+    return {x * direction.x + y * direction.y, x * direction.y - y * direction.x};
+  }
+};
+
 struct Map {
   std::string grid;
   uint32_t columns = 0, rows = 0;
-  glm::dvec2 first_m{0}, step_m{0};  // middle of cell 0,0 and the distance of cells, in file coordinates
-  std::vector<double> z_m = {};      // heights of cells, row by row from the south
-  std::optional<uint32_t> tx = {};   // the transmitter that was named
+  // Middle of cell 0,0 and the distance of cells, in file coordinates; on a vertical plane the distances along it and
+  // in z.
+  glm::dvec2 first_m{0}, step_m{0};
+  std::vector<double> z_m = {};     // heights of cells, row by row from the south
+  std::optional<uint32_t> tx = {};  // the transmitter that was named
   std::vector<std::string> transmitters = {};
   uint32_t frame = 0;
   double time_s = 0;
@@ -87,9 +102,17 @@ struct Map {
   bool beams = false;                         // a link to the grid has beams, in this frame or in one beside it
   std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
   std::vector<std::string> left_out = {};     // why layers are not there
+  std::optional<VerticalPlane> plane = {};    // nothing: the map is horizontal, or lies on the ground
 
-  double x_m(size_t cell) const { return first_m.x + static_cast<double>(cell % columns) * step_m.x; }
-  double y_m(size_t cell) const { return first_m.y + static_cast<double>(cell / columns) * step_m.y; }
+  double x_m(size_t cell) const {
+    return first_m.x + static_cast<double>(cell % columns) * step_m.x * (plane ? plane->direction.x : 1);
+  }
+  double y_m(size_t cell) const {
+    if (plane) return first_m.y + static_cast<double>(cell % columns) * step_m.x * plane->direction.y;
+    return first_m.y + static_cast<double>(cell / columns) * step_m.y;
+  }
+  // Returns the distance of a cell of a vertical plane from the plane's begin.
+  double along_m(size_t cell) const { return plane->first_along_m + static_cast<double>(cell % columns) * step_m.x; }
   // Tells whether the cell has a path from its server.
   bool reached(size_t cell) const { return cells[cell].paths > 0; }
   size_t reached_cells() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a layer as a PNG picture of 256 colours, one pixel a cell, the first row in the north: weak is dark, strong is
-// bright, and a cell without a value is transparent. A world file says where the picture is.
+// Writes a layer as a PNG picture of 256 colours, one pixel a cell, the first row in the north, or the highest one of a
+// vertical plane: weak is dark, strong is bright, and a cell without a value is transparent. A world file says where
+// the picture is.
 #pragma once
 #include <array>
 #include <span>

@@ -12,6 +12,7 @@
 #include "coverage/geotiff.hpp"
 #include "coverage/kml.hpp"
 #include "coverage/png.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::coverage {
 namespace {
@@ -81,6 +82,7 @@ class MapWriter {
   void put_table();
   void put_array(const std::string& name, const std::vector<double>& values, const std::vector<size_t>& shape);
   void put_arrays();
+  void put_places(const std::vector<size_t>& shape);
   void put_pictures(const Map& map);
   void put_overlays(const Map& map);
 };
@@ -105,7 +107,13 @@ std::string MapWriter::description() const {
                {"rows", first_.rows},
                {"first_m", {first_.first_m.x, first_.first_m.y}},
                {"step_m", {first_.step_m.x, first_.step_m.y}},
+               {"vertical", nullptr},
                {"projection", nullptr}});
+  if (const auto& plane = first_.plane)
+    json["vertical"] = {{"from_m", {plane->from_m.x, plane->from_m.y}},
+                        {"to_m", {plane->to_m.x, plane->to_m.y}},
+                        {"first_along_m", plane->first_along_m},
+                        {"first_z_m", plane->first_z_m}};
   if (first_.tx) json["tx"] = first_.transmitters[*first_.tx];
   if (what_.georeference) {
     json["projection"] = what_.georeference->projection;
@@ -149,12 +157,8 @@ void MapWriter::put_array(const std::string& name, const std::vector<double>& va
 
 void MapWriter::put_arrays() {
   const std::vector<size_t> shape = {first_.rows, first_.columns};
-  std::vector<double> x_m, y_m, longitudes, latitudes, time_s;
-  for (uint32_t column = 0; column < first_.columns; ++column) x_m.push_back(first_.x_m(column));
-  for (uint32_t row = 0; row < first_.rows; ++row) y_m.push_back(first_.y_m(size_t{row} * first_.columns));
-  put_array("x_m", x_m, {x_m.size()});
-  put_array("y_m", y_m, {y_m.size()});
-  put_array("z_m", first_.z_m, shape);
+  std::vector<double> time_s;
+  put_places(shape);
   for (const Map& map : what_.maps) time_s.push_back(map.time_s);
   if (what_.of_frames) put_array("time_s", time_s, {time_s.size()});
   for (const LayerKind* layer : first_.layers) {
@@ -162,13 +166,41 @@ void MapWriter::put_arrays() {
     put(name, npy_header("<f8", what_.of_frames ? std::vector{what_.maps.size(), shape[0], shape[1]} : shape));
     for (const Map& map : what_.maps) put(name, bytes_of(map.values(*layer)));
   }
-  if (degrees_.empty()) return;
-  for (const glm::dvec2& place : degrees_) {
-    longitudes.push_back(place.x);
-    latitudes.push_back(place.y);
+}
+
+// Writes the axes, and the places of cells. On a vertical plane those of a row hold for all rows.
+void MapWriter::put_places(const std::vector<size_t>& shape) {
+  std::vector<double> x_m, y_m, along_m, z_m, longitudes, latitudes;
+  for (uint32_t column = 0; column < first_.columns; ++column) {
+    x_m.push_back(first_.x_m(column));
+    if (!first_.plane) continue;
+    y_m.push_back(first_.y_m(column));
+    along_m.push_back(first_.along_m(column));
   }
-  put_array("lon_deg", longitudes, shape);
-  put_array("lat_deg", latitudes, shape);
+  for (uint32_t row = 0; row < first_.rows; ++row) {
+    const size_t cell = size_t{row} * first_.columns;
+    if (first_.plane)
+      z_m.push_back(first_.z_m[cell]);
+    else
+      y_m.push_back(first_.y_m(cell));
+  }
+  put_array("x_m", x_m, {x_m.size()});
+  put_array("y_m", y_m, {y_m.size()});
+  if (first_.plane) {
+    put_array("along_m", along_m, {along_m.size()});
+    put_array("z_m", z_m, {z_m.size()});
+  } else {
+    put_array("z_m", first_.z_m, shape);
+  }
+  if (degrees_.empty()) return;
+  const size_t places = first_.plane ? first_.columns : degrees_.size();
+  for (size_t cell = 0; cell < places; ++cell) {
+    longitudes.push_back(degrees_[cell].x);
+    latitudes.push_back(degrees_[cell].y);
+  }
+  const std::vector<size_t> of_places = first_.plane ? std::vector<size_t>{first_.columns} : shape;
+  put_array("lon_deg", longitudes, of_places);
+  put_array("lat_deg", latitudes, of_places);
 }
 
 void MapWriter::put_pictures(const Map& map) {
@@ -179,7 +211,7 @@ void MapWriter::put_pictures(const Map& map) {
     const std::vector<double> values = map.values(layer);
     if (wanted("geotiff")) put(name + ".tif", geotiff(map, layer, values, place));
     if (wanted("png") || wanted("kml")) put(name + ".png", png(map, layer, values, ranges_[k]));
-    if (wanted("png")) put(name + ".pgw", world_file(place));
+    if (wanted("png") && !map.plane) put(name + ".pgw", world_file(place));
   }
 }
 
@@ -192,9 +224,22 @@ void MapWriter::put_overlays(const Map& map) {
 
 }  // namespace
 
+void check_formats_of(const std::string& grid, bool vertical, const std::vector<std::string>& formats) {
+  const auto refuse = [&](const char* format, const char* reason) {
+    if (vertical && std::ranges::find(formats, format) != formats.end())
+      throw ConfigError(
+          fmt::format("--format {}: the grid \"{}\" stands on a vertical plane, and {}: choose csv, npy or "
+                      "png",
+                      format, grid, reason));
+  };
+  refuse("geotiff", "a GeoTIFF has a place in x and y alone");
+  refuse("kml", "KML lays pictures on the ground and cannot put one upright");
+}
+
 std::string table_of(const Map& map, std::span<const glm::dvec2> degrees, bool of_frames) {
   std::vector<std::string> names = {"ix", "iy", "x_m", "y_m", "z_m"};
   if (of_frames) names.insert(names.begin(), {"frame", "time_s"});
+  if (map.plane) names.emplace_back("along_m");
   if (!degrees.empty()) names.insert(names.end(), {"lon_deg", "lat_deg"});
   for (const LayerKind* layer : map.layers) names.emplace_back(layer->name);
   names.emplace_back("tx");
@@ -205,6 +250,7 @@ std::string table_of(const Map& map, std::span<const glm::dvec2> degrees, bool o
     if (of_frames) row = {std::to_string(map.frame), text(map.time_s)};
     row.insert(row.end(), {std::to_string(cell % map.columns), std::to_string(cell / map.columns)});
     for (const double value : {map.x_m(cell), map.y_m(cell), map.z_m[cell]}) row.push_back(text(value));
+    if (map.plane) row.push_back(text(map.along_m(cell)));
     if (!degrees.empty()) row.insert(row.end(), {text(degrees[cell].x), text(degrees[cell].y)});
     for (const LayerKind* layer : map.layers) row.push_back(text(map.cells[cell].*layer->value));
     row.push_back(server_name(map, cell));
@@ -214,6 +260,7 @@ std::string table_of(const Map& map, std::span<const glm::dvec2> degrees, bool o
 }
 
 std::vector<fs::path> write_maps(const MapsToWrite& what, const fs::path& folder) {
+  check_formats_of(what.maps.front().grid, what.maps.front().plane.has_value(), what.formats);
   MapWriter writer(what, folder);
   writer.write();
   return writer.finish();

@@ -20,12 +20,31 @@ namespace {
 
 constexpr const char* empty_colour = "#e8e8e8";
 
-std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, std::optional<uint32_t> tx) {
-  Csv table({"name", "x_m", "y_m", "z_m"});
-  for (uint32_t i = 0; i < run.transmitters().size(); ++i)
-    if (const glm::dvec3& p = frame.transmitter_position_m[i]; !std::isnan(p.x) && (!tx || *tx == i))
+// On a vertical plane only transmitters within a cell of it are marked: others are not where their marks would be.
+std::string transmitter_table(const SavedRun& run, const SavedFrame& frame, const coverage::Map& map) {
+  const auto& plane = map.plane;
+  Csv table(plane ? std::vector<std::string>{"name", "along_m", "z_m"}
+                  : std::vector<std::string>{"name", "x_m", "y_m", "z_m"});
+  for (uint32_t i = 0; i < run.transmitters().size(); ++i) {
+    const glm::dvec3& p = frame.transmitter_position_m[i];
+    if (std::isnan(p.x) || (map.tx && *map.tx != i)) continue;
+    if (!plane)
       table.add(run.transmitters()[i].name, p.x, p.y, p.z);
+    else if (const glm::dvec2 at = plane->along_and_off_m(p.x, p.y); std::abs(at.y) <= map.step_m.x)
+      table.add(run.transmitters()[i].name, at.x, p.z);
+  }
   return table.text();
+}
+
+// The axes of a map in its figure: their names, and their columns in the table, counted from 1.
+struct MapAxes {
+  const char *across, *up;
+  int across_column, up_column;
+};
+
+MapAxes axes_of(const coverage::Map& map) {
+  if (map.plane) return {"along", "z", 6, 5};
+  return {"x", "y", 3, 4};
 }
 
 std::string label_of(const coverage::LayerKind& layer, const RadioConfig& radio) {
@@ -70,26 +89,30 @@ std::string colours_of(const coverage::Map& map, const coverage::LayerKind& laye
 
 // Returns the column of the table that has the layer, counted from 1.
 size_t column_of(const coverage::Map& map, const coverage::LayerKind& layer) {
-  constexpr size_t first = 6;
+  const size_t first = map.plane ? 7 : 6;
   return first + static_cast<size_t>(std::ranges::find(map.layers, &layer) - map.layers.begin());
 }
 
 // Plots a grid of one row or column.
 std::string row_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
                          const RadioConfig& radio) {
-  const bool northward = map.rows > 1;
+  const bool upward = map.rows > 1;
+  const MapAxes axes = axes_of(map);
   return fmt::format(
       "set xlabel '{} (m)'\n"
       "set ylabel '{}'\n"
       "set key off\n"
       "plot '{}.csv' using {}:{} with lines linecolor '#0072b2' linewidth 1.5\n",
-      northward ? "y" : "x", label_of(layer, radio), name, northward ? 4 : 3, column_of(map, layer));
+      upward ? axes.up : axes.across, label_of(layer, radio), name, upward ? axes.up_column : axes.across_column,
+      column_of(map, layer));
 }
 
 // Infinite values have the brightest colour.
 std::string image_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
                            const RadioConfig& radio) {
-  const double west_m = map.first_m.x - 0.5 * map.step_m.x, south_m = map.first_m.y - 0.5 * map.step_m.y;
+  const glm::dvec2 first_m = map.plane ? glm::dvec2(map.plane->first_along_m, map.plane->first_z_m) : map.first_m,
+                   low_m = first_m - 0.5 * map.step_m;
+  const MapAxes axes = axes_of(map);
   const std::vector<double> values = map.values(layer);
   const bool holes = std::ranges::any_of(values, [](double value) { return std::isnan(value); });
   constexpr double most = 1e9;
@@ -99,15 +122,15 @@ std::string image_commands(const std::string& name, const coverage::Map& map, co
              "unset grid\n"
              "set xrange [{}:{}]\n"
              "set yrange [{}:{}]\n"
-             "set xlabel 'x (m)'\n"
-             "set ylabel 'y (m)'\n"
+             "set xlabel '{} (m)'\n"
+             "set ylabel '{} (m)'\n"
              "set cblabel '{}'\n"
              "set key outside right bottom horizontal\n"
              "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '{}' fillstyle solid noborder\n",
-             west_m, west_m + map.columns * map.step_m.x, south_m, south_m + map.rows * map.step_m.y,
-             label_of(layer, radio), empty_colour) +
+             low_m.x, low_m.x + map.columns * map.step_m.x, low_m.y, low_m.y + map.rows * map.step_m.y, axes.across,
+             axes.up, label_of(layer, radio), empty_colour) +
          fmt::format(
-             "plot '{0}.csv' using 3:4:(${1} > {2:g} ? {2:g} : ${1}) with image notitle, \\\n"
+             "plot '{0}.csv' using {4}:{5}:(${1} > {2:g} ? {2:g} : ${1}) with image notitle, \\\n"
              "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6 "
              "notitle, \\\n"
              "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff' notitle, "
@@ -118,7 +141,24 @@ std::string image_commands(const std::string& name, const coverage::Map& map, co
              holes ? fmt::format(", \\\n  1/0 with boxes fillstyle solid border linecolor '#888888' fillcolor '{}' "
                                  "title 'no value, as where no path leads'",
                                  empty_colour)
-                   : "");
+                   : "",
+             axes.across_column, axes.up_column);
+}
+
+// Returns the two points, in file coordinates, of each triangle that a plane cuts. height: the distance of a vertex
+// from the plane, with a sign.
+std::vector<std::array<glm::dvec3, 2>> cuts(const Scene& scene, const auto& height) {
+  std::vector<std::array<glm::dvec3, 2>> out;
+  for (const auto& corners : scene.triangles) {
+    std::vector<glm::dvec3> points;  // points where sides cross the plane: none or two
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 &a = scene.vertices[corners[k]], &b = scene.vertices[corners[(k + 1) % 3]];
+      const double from = height(a), to = height(b);
+      if ((from < 0) != (to < 0)) points.push_back(scene.origin_m + a + from / (from - to) * (b - a));
+    }
+    if (points.size() == 2) out.push_back({points[0], points[1]});
+  }
+  return out;
 }
 
 }  // namespace
@@ -129,21 +169,24 @@ const coverage::LayerKind& shown_layer(const std::string& name, const RadioConfi
 }
 
 std::vector<std::array<double, 4>> section(const Scene& scene, double height_m) {
-  std::vector<std::array<double, 4>> out;
   const double z = height_m - scene.origin_m.z;
-  for (const auto& corners : scene.triangles) {
-    std::vector<glm::dvec3> points;  // points where sides cross the plane: none or two
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 &a = scene.vertices[corners[k]], &b = scene.vertices[corners[(k + 1) % 3]];
-      if ((a.z < z) != (b.z < z)) points.push_back(scene.origin_m + a + (z - a.z) / (b.z - a.z) * (b - a));
-    }
-    if (points.size() == 2) out.push_back({points[0].x, points[0].y, points[1].x, points[1].y});
-  }
+  std::vector<std::array<double, 4>> out;
+  for (const auto& [a, b] : cuts(scene, [z](const glm::dvec3& p) { return p.z - z; }))
+    out.push_back({a.x, a.y, b.x, b.y});
   return out;
 }
 
-std::string wall_table(const std::vector<std::array<double, 4>>& walls) {
-  Csv table({"x0_m", "y0_m", "x1_m", "y1_m"});
+std::vector<std::array<double, 4>> section(const Scene& scene, const coverage::VerticalPlane& plane) {
+  const auto at = [&](const glm::dvec3& p) { return plane.along_and_off_m(p.x, p.y); };
+  std::vector<std::array<double, 4>> out;
+  for (const auto& [a, b] : cuts(scene, [&](const glm::dvec3& p) { return at(scene.origin_m + p).y; }))
+    out.push_back({at(a).x, a.z, at(b).x, b.z});
+  return out;
+}
+
+std::string wall_table(const std::vector<std::array<double, 4>>& walls, bool upright) {
+  Csv table(upright ? std::vector<std::string>{"along0_m", "z0_m", "along1_m", "z1_m"}
+                    : std::vector<std::string>{"x0_m", "y0_m", "x1_m", "y1_m"});
   for (const auto& [x0, y0, x1, y1] : walls) table.add(x0, y0, x1, y1);
   return table.text();
 }
@@ -163,8 +206,9 @@ Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::
     return out;
   }
   const double z_m = 0.5 * (map.z_m.front() + map.z_m.back());
-  out.data.push_back({name + "_walls.csv", wall_table(section(scene, z_m))});
-  out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, map.tx)});
+  out.data.push_back({name + "_walls.csv",
+                      wall_table(map.plane ? section(scene, *map.plane) : section(scene, z_m), map.plane.has_value())});
+  out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, map)});
   out.commands = colours_of(map, layer) + image_commands(name, map, layer, radio);
   out.height_px = std::clamp(690.0 * map.rows / map.columns + 120, 300.0, 1200.0);
   return out;

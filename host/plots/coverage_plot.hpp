@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plots coverage: a layer of the map of a grid in one frame, as an image over the walls of the scene.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,8 +20,10 @@ const coverage::LayerKind& shown_layer(const std::string& name, const RadioConfi
 // Returns the lines in which triangles of the scene cross the plane z = height_m: segments x0, y0, x1, y1, in file
 // coordinates.
 std::vector<std::array<double, 4>> section(const Scene& scene, double height_m);
-// Returns them as CSV: x0_m,y0_m,x1_m,y1_m.
-std::string wall_table(const std::vector<std::array<double, 4>>& walls);
+// Returns those in which they cross the vertical plane: distance along it and z of both ends.
+std::vector<std::array<double, 4>> section(const Scene& scene, const coverage::VerticalPlane& plane);
+// Returns them as CSV: x0_m,y0_m,x1_m,y1_m, or along0_m,z0_m,along1_m,z1_m if the plane is upright.
+std::string wall_table(const std::vector<std::array<double, 4>>& walls, bool upright = false);
 
 // name: of the figure's files. layer: one of the map's, which must have a value in some cell. Weak is dark and strong
 // is bright; cells without a value are grey.

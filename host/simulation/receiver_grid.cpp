@@ -8,7 +8,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <set>
 #include <utility>
 
@@ -42,11 +44,10 @@ struct Axis {
 
 Axis axis(const ReceiverGridConfig& grid, const char* letter, double lower_m, double upper_m) {
   if (!(upper_m >= lower_m))
-    throw ConfigError(
-        fmt::format("[[receiver_grid]] \"{0}\": {1}_max_m = {2:g} is below {1}_min_m = {3:g} (not given, they are "
-                    "those of the scene; with corners in degrees, those of the corners): exchange the two, or give "
-                    "both",
-                    grid.name, letter, upper_m, lower_m));
+    throw ConfigError(fmt::format(
+        "[[receiver_grid]] \"{0}\": {1}_max_m = {2:g} is below {1}_min_m = {3:g} (not given, they are "
+        "those of the scene{4}): exchange the two, or give both",
+        grid.name, letter, upper_m, lower_m, grid.vertical() ? "" : "; with corners in degrees, those of the corners"));
   constexpr double whole = 1e-9;  // with this margin 0.3 m are three cells of 0.1 m
   const double count = std::max(std::floor((upper_m - lower_m) / grid.step_m + whole), 1.0);
   return {count, 0.5 * (lower_m + upper_m) - 0.5 * (count - 1) * grid.step_m};
@@ -70,9 +71,48 @@ std::vector<RadioEnd> placed(std::vector<RadioEnd> ends, const std::vector<Radio
   return ends;
 }
 
+GridShape plane_shape(const ReceiverGridConfig& grid, const Scene& scene) {
+  const glm::dvec2 from{grid.from_m->at(0), grid.from_m->at(1)}, to{grid.to_m->at(0), grid.to_m->at(1)},
+      direction = plane_direction(grid);
+  const double lower_m = scene.origin_m.z + scene.lower.z, upper_m = scene.origin_m.z + scene.upper.z;
+  const Axis along = axis(grid, "along", 0, glm::length(to - from));
+  const Axis up = axis(grid, "z", grid.z_min_m.value_or(lower_m), grid.z_max_m.value_or(upper_m));
+  check_count(grid, along.count * up.count);
+  const glm::dvec2 first = from + along.first_m * direction;
+  return {static_cast<uint32_t>(along.count),
+          static_cast<uint32_t>(up.count),
+          first.x,
+          first.y,
+          grid.step_m,
+          up.first_m,
+          {direction, 0},
+          {0, 0, 1}};
+}
+
+// Refuses grids that were made in code and that no place can be given.
+void check_made(const ReceiverGridConfig& grid) {
+  if (!grid.heights_m.empty())
+    throw ConfigError(
+        fmt::format("[[receiver_grid]] \"{}\": heights_m is a key of configuration files, and a configuration that is "
+                    "made in code has a grid for each height: give it height_m",
+                    grid.name));
+  if (grid.from_m.has_value() != grid.to_m.has_value() || (grid.vertical() && grid.from_m == grid.to_m))
+    throw ConfigError(
+        fmt::format("[[receiver_grid]] \"{}\": a vertical plane stands between from_m and to_m: give both, at "
+                    "different places",
+                    grid.name));
+}
+
 }  // namespace
 
+glm::dvec2 plane_direction(const ReceiverGridConfig& grid) {
+  const glm::dvec2 way{grid.to_m->at(0) - grid.from_m->at(0), grid.to_m->at(1) - grid.from_m->at(1)};
+  return way / glm::length(way);
+}
+
 GridShape grid_shape(const ReceiverGridConfig& grid, const Scene& scene, PlaceFinder& places) {
+  check_made(grid);
+  if (grid.vertical()) return plane_shape(grid, scene);
   const GridBorders borders = borders_of(grid, scene, places);
   const Axis x = axis(grid, "x", borders.lower_m.x, borders.upper_m.x);
   const Axis y = axis(grid, "y", borders.lower_m.y, borders.upper_m.y);
@@ -96,11 +136,13 @@ std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scen
     check_count(grid, static_cast<double>(out.size() - singles + uint64_t{shape.columns} * shape.rows));
     for (uint32_t iy = 0; iy < shape.rows; ++iy)
       for (uint32_t ix = 0; ix < shape.columns; ++ix) {
-        const glm::dvec2 place_m{shape.x_m + ix * shape.step_m, shape.y_m + iy * shape.step_m};
-        const double zero_m =
-            from_ground(grid.above) ? places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z) : 0;
+        glm::dvec3 place_m = shape.at(ix, iy);
+        if (!grid.vertical()) {
+          place_m.z = grid.height_m.value_or(ReceiverGridConfig::default_height_m);
+          if (from_ground(grid.above)) place_m.z += places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z);
+        }
         RadioEnd end{.name = fmt::format("{}/{},{}", grid.name, ix, iy),
-                     .position_m = {place_m.x, place_m.y, zero_m + grid.height_m},
+                     .position_m = {place_m.x, place_m.y, place_m.z},
                      .antenna = grid.antenna,
                      .polarization = grid.polarization,
                      .orientation_deg = grid.orientation_deg,

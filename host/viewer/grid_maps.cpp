@@ -3,6 +3,9 @@
 // If its last row is incomplete, it is no grid: its receivers are then ordinary ends.
 #include "viewer/grid_maps.hpp"
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include "simulation/receiver_grid.hpp"
 #include "viewer/blocks.hpp"
 
@@ -31,6 +34,32 @@ GridMap grid_from(const std::vector<RadioEnd>& receivers, uint32_t first) {
   return grid;
 }
 
+// The steps of columns and rows in x and y, and that of rows in z if the grid stands on a vertical plane, else 0.
+struct GridSteps {
+  glm::dvec2 column_m{0}, row_m{0};
+  double rise_m = 0;
+};
+
+// Cells of a single row or column are squares: they lie, or stand along x if it is a column that goes up.
+GridSteps steps_of(const GridMap& grid, const std::vector<glm::dvec3>& position_m) {
+  constexpr double upright = 1e-6;  // largest part of a step in x and y of rows that go up
+  const glm::dvec3& first = position_m[grid.first];
+  GridSteps out;
+  if (grid.columns > 1)
+    out.column_m = glm::dvec2(position_m[grid.first + grid.columns - 1] - first) / (grid.columns - 1.0);
+  if (grid.rows > 1) {
+    const glm::dvec3 step = (position_m[grid.first + grid.columns * (grid.rows - 1)] - first) / (grid.rows - 1.0);
+    if (glm::length(glm::dvec2(step)) <= upright * std::abs(step.z))
+      out.rise_m = step.z;
+    else
+      out.row_m = step;
+  }
+  if (grid.rows == 1) out.row_m = {-out.column_m.y, out.column_m.x};
+  if (grid.columns == 1)
+    out.column_m = out.rise_m != 0 ? glm::dvec2(out.rise_m, 0) : glm::dvec2(out.row_m.y, -out.row_m.x);
+  return out;
+}
+
 }  // namespace
 
 std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers) {
@@ -52,17 +81,17 @@ nlohmann::json add_grid_blocks(const std::vector<GridMap>& grids, const std::vec
     for (uint32_t k = 0; k < grid.count(); ++k)
       heights.add(static_cast<float>(position_m[grid.first + k].z - centre_m.z));
     elements += block_element("grid_" + std::to_string(out.size()), heights);
-    const glm::dvec3 first = position_m[grid.first] - centre_m,
-                     last = position_m[grid.first + grid.count() - 1] - centre_m;
-    const double step_x = grid.columns > 1 ? (last.x - first.x) / (grid.columns - 1) : 0,
-                 step_y = grid.rows > 1 ? (last.y - first.y) / (grid.rows - 1) : step_x;
+    const glm::dvec3 first = position_m[grid.first] - centre_m;
+    const GridSteps steps = steps_of(grid, position_m);
     const RadioEnd& cell = receivers[grid.first];
     out.push_back({{"name", grid.name},
                    {"first", grid.first},
                    {"columns", grid.columns},
                    {"rows", grid.rows},
                    {"first_m", {first.x, first.y}},
-                   {"step_m", {step_x != 0 ? step_x : step_y, step_y}},
+                   {"column_m", {steps.column_m.x, steps.column_m.y}},
+                   {"row_m", {steps.row_m.x, steps.row_m.y}},
+                   {"rise_m", steps.rise_m},
                    {"antenna", cell.antenna},
                    {"polarization", cell.polarization.word()}});
   }

@@ -21,7 +21,9 @@ struct GridMap {
 std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers);
 
 // Appends an element block_grid_K of heights for each grid, and returns the other data that the page needs about them.
-// position_m: of all receivers of the run. Cells must lie in equal steps along x and y, and never move.
+// position_m: of all receivers of the run. Cells must lie in equal steps along x and y, or along a line and upwards,
+// and never move. The data have the steps of columns and of rows in x and y, and `rise_m`, that of rows in z on a
+// vertical plane, else 0.
 nlohmann::json add_grid_blocks(const std::vector<GridMap>& grids, const std::vector<RadioEnd>& receivers,
                                const std::vector<glm::dvec3>& position_m, const glm::dvec3& centre_m,
                                std::string& elements);

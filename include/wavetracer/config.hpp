@@ -13,6 +13,7 @@
 
 #include "wavetracer/cache_config.hpp"
 #include "wavetracer/choice.hpp"
+#include "wavetracer/live_config.hpp"
 #include "wavetracer/material_config.hpp"
 #include "wavetracer/outdoors_config.hpp"
 
@@ -96,13 +97,22 @@ struct ReceiverGridConfig {  // [[receiver_grid]]: receivers NAME/IX,IY at the m
   std::optional<double> x_min_m, x_max_m, y_min_m, y_max_m;  // file coordinates; not given: those of the scene
   // Alternatives to x_min_m and y_min_m, and to x_max_m and y_max_m: latitude and longitude in degrees.
   std::optional<std::array<double, 2>> south_west_wgs84 = {}, north_east_wgs84 = {};
-  double step_m = 5;  // side of a cell
-  double height_m = 1.5;
+  // Instead of these borders and of a height, a vertical plane: x, y of its ends, and its lower and upper border in z
+  // (not given: those of the scene). IX counts from `from_m`, IY upwards.
+  std::optional<std::array<double, 2>> from_m = {}, to_m = {};
+  std::optional<double> z_min_m = {}, z_max_m = {};
+  double step_m = 5;                    // side of a cell
+  std::optional<double> height_m = {};  // not given: default_height_m
+  // Instead of height_m: several heights. The reader makes a grid NAME@HEIGHT of each, and leaves this empty.
+  std::vector<double> heights_m = {};
   HeightAbove above = "zero";  // zero: height_m is z; ground: above the lowest surface there
   std::string antenna = "isotropic";
   Polarization polarization = "V";
   std::array<double, 3> orientation_deg{0, 0, 0};
   std::string array = {};
+
+  static constexpr double default_height_m = 1.5;
+  bool vertical() const { return from_m.has_value(); }
 };
 
 // [trajectories]: how vehicles move. Give either file or generate, or [[track]] tables, or nothing: no vehicles.
@@ -247,26 +257,6 @@ struct OutputConfig {
   std::optional<uint32_t> max_paths_per_link = {};
   uint32_t compression = 1;  // compression of HDF5 files: level of deflate, 0: none
   bool keep_shards = false;  // keep the shards of a drive after it is complete and merged
-};
-
-struct LiveVehicleConfig {  // [[live_vehicle]]: places for vehicles of one type, filled at run time by `wavetracer
-                            // serve`
-  std::string type = "passenger";
-  uint32_t count = 1;
-};
-
-struct LiveConfig {                      // [live]: what `wavetracer serve` accepts
-  double margin_m = 100;                 // largest distance of vehicles from the scene's box
-  uint32_t max_clients = 8;              // connections that have said hello
-  uint32_t max_strangers = 8;            // connections that have not said hello
-  uint64_t max_message_bytes = 1048576;  // limit of one line
-  uint64_t max_queue_bytes = 67108864;   // limit of unread answers, per client
-  uint32_t max_pending_frames = 4;       // frames per client that are not answered yet
-  double max_rate_hz = 1000;             // messages per second and client
-  double hello_timeout_s = 3;            // from the connection to the end of hello
-  double message_timeout_s = 5;          // from the first byte of a line to its end
-  std::optional<double> idle_timeout_s = 300;
-  double send_timeout_s = 10;  // time without reading any byte of its answers
 };
 
 struct Config {

@@ -87,25 +87,31 @@ def _of_frames(maps: xarray.Dataset, numbers: list[int]) -> xarray.Dataset:
 
 def _dataset(folder: pathlib.Path) -> xarray.Dataset:
     about = json.loads((folder / "coverage.json").read_text(encoding="utf-8"))
-    axes_of_layers: tuple[str, ...] = ("time", "y", "x") if "frames" in about else ("y", "x")
+    upright = about["vertical"] is not None
+    cells: tuple[str, ...] = ("z", "along") if upright else ("y", "x")
+    axes_of_layers = ("time", *cells) if "frames" in about else cells
+    places = ("along",) if upright else cells  # the axes along which places on the ground differ
     coordinates: dict[str, Any] = {}
     if "frames" in about:
         coordinates["frame"] = ("time", [item["frame"] for item in about["frames"]], {"long_name": "number of the frame"})
     for file, name, axes, long_name, units in (
             ("time_s", "time", ("time",), "time of the frame", "s"),
-            ("x_m", "x", ("x",), "x in the coordinates of the scene, middle of the cell", "m"),
-            ("y_m", "y", ("y",), "y in the coordinates of the scene, middle of the cell", "m"),
-            ("z_m", "z", ("y", "x"), "height of the receivers", "m"),
-            ("lon_deg", "lon", ("y", "x"), "longitude, WGS84", "degrees_east"),
-            ("lat_deg", "lat", ("y", "x"), "latitude, WGS84", "degrees_north")):
+            ("along_m", "along", ("along",), "distance along the vertical plane, middle of the cell", "m"),
+            ("x_m", "x", places[-1:], "x in the coordinates of the scene, middle of the cell", "m"),
+            ("y_m", "y", places[:1], "y in the coordinates of the scene, middle of the cell", "m"),
+            ("z_m", "z", ("z",) if upright else cells, "height of the receivers", "m"),
+            ("lon_deg", "lon", places, "longitude, WGS84", "degrees_east"),
+            ("lat_deg", "lat", places, "latitude, WGS84", "degrees_north")):
         if (folder / f"{file}.npy").exists():
             coordinates[name] = (axes, np.load(folder / f"{file}.npy"), {"units": units, "long_name": long_name})
     values = {name: (axes_of_layers, np.load(folder / f"{name}.npy"),
                      {"units": layer["unit"] or "1", "long_name": layer["about"]})
               for name, layer in about["layers"].items()}
     names = ("grid", "frame", "time_s", "tx", "transmitters", "projection", "offset_m")
+    ends = {name: about["vertical"][name] for name in ("from_m", "to_m")} if upright else {}
     out: xarray.Dataset = _xarray().Dataset(values, coords=coordinates,
-                                            attrs={name: about[name] for name in names if about.get(name) is not None})
+                                            attrs={**{name: about[name] for name in names if about.get(name) is not None},
+                                                   **ends})
     return out
 
 
@@ -113,7 +119,8 @@ def coverage(run: Source, *, grid: str | None = None, tx: str | None = None, fra
              frames: Iterable[int] | str | None = None, layers: Iterable[str] | None = None) -> xarray.Dataset:
     """The map of a [[receiver_grid]] in one frame as an xarray.Dataset: variables of shape (y, x), NaN where a cell has
     no value, with units and long_name as attributes, over coordinates x, y and z in metres, and lon and lat in degrees
-    if the scene has a georeference. With `frames` it has the maps of several frames: variables of shape (time, y, x),
+    if the scene has a georeference. On a vertical plane variables have the shape (z, along), where along is the distance
+    from from_m, and x and y are coordinates over it. With `frames` it has the maps of several frames: variables of shape (time, y, x),
     over the coordinates time in seconds and frame, too.
 
     run: a Run, its folder, a Simulation, or a configuration, of which these frames are computed. grid: its name, needed if

@@ -100,3 +100,77 @@ TEST_CASE("values that are no such thing, with their place") {
   check_contains(error_of(scene + ends + "[receiver_grid]\nname = \"map\"\n"), "write [[receiver_grid]]");
   check_contains(error_of(scene + ends + grid + grid), "a.toml:11:8: receiver_grid.name = \"map\" is used twice");
 }
+
+TEST_CASE("a vertical plane is read, and saved as it was given") {
+  const Config c = parse_config(scene + ends + grid + "from_m = [1, 2]\nto_m = [4, 6.5]\nz_min_m = -1\nstep_m = 0.5\n",
+                                "/data/a.toml");
+  const Config d = parse_config(c.text, "/elsewhere/b.toml");
+  CHECK(d.text == c.text);
+  REQUIRE(d.receiver_grids.size() == 1);
+  const ReceiverGridConfig& g = d.receiver_grids[0];
+  CHECK(g.vertical());
+  CHECK(g.from_m == std::array<double, 2>{1, 2});
+  CHECK(g.to_m == std::array<double, 2>{4, 6.5});
+  CHECK(g.z_min_m == -1);
+  CHECK_FALSE((g.z_max_m || g.height_m || g.x_min_m));
+  CHECK_FALSE(parse_config(scene + ends + grid, "/data/a.toml").receiver_grids[0].vertical());
+}
+
+TEST_CASE("keys of a vertical plane and of a horizontal grid are refused together, with those that belong together") {
+  const std::string plane = grid + "from_m = [1, 2]\nto_m = [4, 6]\n";
+  for (const auto& [line, at, key] : {std::array<std::string, 3>{"x_min_m = 0\n", "12:11", "x_min_m"},
+                                      {"y_max_m = 9\n", "12:11", "y_max_m"},
+                                      {"height_m = 1.5\n", "12:12", "height_m"},
+                                      {"heights_m = [1, 2]\n", "12:13", "heights_m"},
+                                      {"above = \"ground\"\n", "12:9", "above"},
+                                      {"south_west_wgs84 = [48, 11]\n", "12:20", "south_west_wgs84"}}) {
+    const std::string said = error_of(scene + ends + plane + line);
+    CAPTURE(said);
+    check_contains(said,
+                   "a.toml:" + at + ": [[receiver_grid]] has from_m, to_m, of a vertical plane, and " + key +
+                       ", of a horizontal grid: remove one or the other. A vertical plane has from_m, to_m, z_min_m, ");
+  }
+  check_contains(error_of(scene + ends + grid + "z_max_m = 9\nx_min_m = 1\n"),
+                 "has z_max_m, of a vertical plane, and x_min_m");
+  check_contains(error_of(scene + ends + grid + "z_max_m = 9\n"),
+                 "a.toml:10:11: [[receiver_grid]] has z_max_m and no from_m");
+  check_contains(error_of(scene + ends + grid + "from_m = [0, 0]\n"),
+                 "has from_m and no to_m: a vertical plane stands between");
+  check_contains(error_of(scene + ends + grid + "from_m = [3, 4]\nto_m = [3, 4]\n"),
+                 "a.toml:11:8: [[receiver_grid]] has from_m = to_m = [3, 4], so its plane has no direction");
+  check_contains(error_of(scene + ends + grid + "from_m = [3]\n"), "receiver_grid.from_m must be two numbers");
+}
+
+TEST_CASE("several heights make a grid of each, which are saved as such") {
+  const Config c = parse_config(scene + ends + "[[receiver_grid]]\nname = \"first\"\n" + grid +
+                                    "heights_m = [1.5, 4, -0.25]\nx_min_m = 3\nabove = \"ground\"\n"
+                                    "[[receiver_grid]]\nname = \"last\"\nheights_m = [7]\n",
+                                "/data/a.toml", {"receiver_grid.2.step_m=9"});
+  const auto check = [](const Config& config) {
+    const auto& grids = config.receiver_grids;
+    REQUIRE(grids.size() == 5);
+    const char* names[] = {"first", "map@1.5", "map@4", "map@-0.25", "last@7"};
+    for (size_t k = 0; k < 5; ++k) {
+      CHECK(grids[k].name == names[k]);
+      CHECK(grids[k].heights_m.empty());
+    }
+    CHECK_FALSE(grids[0].height_m.has_value());
+    CHECK(grids[1].height_m == 1.5);
+    CHECK(grids[2].height_m == 4);
+    CHECK(grids[3].height_m == -0.25);
+    CHECK(grids[3].x_min_m == 3);
+    CHECK(from_ground(grids[3].above));
+    CHECK(grids[4].step_m == 9);
+  };
+  check(c);
+  const Config d = parse_config(c.text, "/elsewhere/b.toml");
+  check(d);
+  CHECK(d.text == c.text);
+}
+
+TEST_CASE("heights that exclude each other") {
+  check_contains(error_of(scene + ends + grid + "heights_m = [1, 2]\nheight_m = 1.5\n"),
+                 "a.toml:11:12: [[receiver_grid]] has both height_m and heights_m: remove one of them");
+  check_contains(error_of(scene + ends + grid + "heights_m = [1, 2, 1]\n"),
+                 "a.toml:10:13: receiver_grid.heights_m has 1 m twice: remove one of them");
+}

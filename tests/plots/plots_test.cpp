@@ -310,6 +310,31 @@ TEST_CASE("the section of a box is its outline, cut at the height") {
   CHECK(section(scene, 311).empty());
 }
 
+TEST_CASE("the section of a box by a vertical plane is a rectangle of the plane") {
+  Scene scene = reference::scene_of_quads(reference::box_walls({0, 0, 0}, {4, 3, 10}));
+  scene.origin_m = {100, 200, 300};
+  coverage::VerticalPlane plane;  // it crosses the box from the corner at 100, 200 to that at 104, 203, 5 m away
+  plane.from_m = {99.2, 199.4};
+  plane.direction = {0.8, 0.6};
+  double upright_m = 0, level_m = 0;
+  for (const auto& [along0, z0, along1, z1] : section(scene, plane)) {
+    const double along[] = {along0, along1}, z[] = {z0, z1};
+    for (int k = 0; k < 2; ++k) {
+      CHECK(std::min(std::abs(along[k] - 1), std::abs(along[k] - 6)) < 1e-9);
+      CHECK(z[k] >= 300 - 1e-9);
+      CHECK(z[k] <= 310 + 1e-9);
+    }
+    const bool level = std::abs(z0 - z1) < 1e-9;  // then it is a part of the roof or of the floor
+    CHECK((level ? std::min(std::abs(z0 - 300), std::abs(z0 - 310)) : std::abs(along0 - along1)) < 1e-9);
+    upright_m += std::abs(z0 - z1);
+    level_m += level ? std::abs(along0 - along1) : 0;
+  }
+  CHECK(upright_m == doctest::Approx(20).epsilon(1e-9));
+  CHECK(level_m == doctest::Approx(10).epsilon(1e-9));
+  plane.from_m = {110, 190};
+  CHECK(section(scene, plane).empty());
+}
+
 TEST_CASE("all figures that suit a run are written, each with its data and script") {
   const Written drive(SampleRun().drive(0, 12)), grid = grid_run();
   TemporaryFolder out;

@@ -82,6 +82,19 @@ for arguments, kind, said in (({"grid": "h"}, wt.ConfigError, 'did you mean "g"'
         raise AssertionError(f"{arguments} was not refused")
     except kind as error:
         assert said in str(error), (arguments, error)
+# A vertical plane: dimensions z and along, over which x and y lie.
+plane = dict(config, receiver_grid=[{"name": "wall", "from_m": [20, 30], "to_m": [26, 22], "z_min_m": 0, "z_max_m": 6,
+                                     "step_m": 2}])
+maps = wt.coverage(plane)
+assert dict(maps.sizes) == {"along": 5, "z": 3} and maps.path_gain_db.dims == ("z", "along")
+assert np.allclose(maps.along, [1, 3, 5, 7, 9]) and np.allclose(maps.z, [1, 3, 5])
+assert maps.x.dims == maps.y.dims == maps.lon.dims == maps.lat.dims == ("along",) and maps.attrs["to_m"] == [26, 22]
+assert np.allclose(maps.x, 20 + .6 * maps.along) and np.allclose(maps.y, 30 - .8 * maps.along)
+assert np.allclose(maps.path_gain_db, (20 * np.log10(299792458 / 3.5e9 / (4 * np.pi) / np.sqrt(
+    (maps.x - 10) ** 2 + (maps.y - 30) ** 2 + (maps.z - 25) ** 2))).transpose("z", "along"), atol=1e-6)
+with wt.Simulation(plane) as simulation:
+    over_time = wt.coverage(simulation, frames="all")
+    assert over_time.path_gain_db.dims == ("time", "z", "along") and over_time.z.dims == ("z",)
 # A drive: its maps have a dimension of time, and are those of single frames; two that differ are both where they belong.
 drive = dict(config, time={"step_s": 0.25}, track=[{"id": "bus", "waypoints": [[0, 10, 20, 0], [1, 50, 20, 0]]}],
              vehicle_type=[{"name": "passenger", "model": "none"}],

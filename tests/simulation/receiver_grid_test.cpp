@@ -3,6 +3,8 @@
 // Scenes are plates that the tests write; antennas are isotropic.
 #include "simulation/receiver_grid.hpp"
 
+#include <fmt/format.h>
+
 #include <complex>
 #include <numbers>
 #include <set>
@@ -111,6 +113,56 @@ TEST_CASE("borders that are not given are those of the scene, in the coordinates
   REQUIRE(ends.size() == 6 * 4);
   CHECK(ends.front().position_m == std::array<double, 3>{975, 1985, 1.5});
   CHECK(ends.back().position_m == std::array<double, 3>{1025, 2015, 1.5});
+}
+
+TEST_CASE("cells of a vertical plane stand along it, row by row upwards") {
+  ReceiverGridConfig grid;
+  grid.name = "g";
+  grid.from_m = {100, 50};
+  grid.to_m = {106.6, 58.8};  // 11 m in the direction (0.6, 0.8)
+  grid.z_min_m = 1;
+  grid.z_max_m = 6;
+  grid.step_m = 2;
+  const GridShape shape = shape_of(grid);
+  CHECK(shape.columns == 5);  // 10 m of 11, and 4 m of 5: half a metre is left at every side
+  CHECK(shape.rows == 2);
+  const std::vector<RadioEnd> ends = receivers_of(grid, box_scene());
+  REQUIRE(ends.size() == 10);
+  for (uint32_t k = 0; k < 10; ++k) {
+    CHECK(ends[k].name == fmt::format("g/{},{}", k % 5, k / 5));
+    const double along = 1.5 + 2 * (k % 5);
+    CHECK(ends[k].position_m[0] == doctest::Approx(100 + 0.6 * along).epsilon(1e-12));
+    CHECK(ends[k].position_m[1] == doctest::Approx(50 + 0.8 * along).epsilon(1e-12));
+    CHECK(ends[k].position_m[2] == (k < 5 ? 2.5 : 4.5));
+  }
+  grid.z_min_m.reset();
+  grid.z_max_m.reset();
+  CHECK(receivers_of(grid, box_scene()).front().position_m[2] == 51);  // the scene goes from 50 to 60 m
+  CHECK(receivers_of(grid, box_scene()).back().position_m[2] == 59);
+  grid.z_max_m = 7;
+  grid.z_min_m = 7;
+  CHECK(shape_of(grid).rows == 1);
+  CHECK(receivers_of(grid, box_scene()).front().position_m[2] == 7);
+}
+
+TEST_CASE("what cannot be a vertical plane says which and why") {
+  Config config;
+  ReceiverGridConfig& grid = config.receiver_grids.emplace_back();
+  grid.name = "g";
+  grid.from_m = {0, 0};
+  const auto said = [&](const char* part) { return error_of(config, box_scene()).find(part) != std::string::npos; };
+  CHECK(said("\"g\": a vertical plane stands between from_m and to_m: give both"));
+  grid.to_m = {0, 0};
+  CHECK(said("give both, at different places"));
+  grid.to_m = {30, 40};
+  grid.z_min_m = 70;
+  CHECK(said("\"g\": z_max_m = 60 is below z_min_m = 70 (not given, they are those of the scene): exchange"));
+  grid.z_min_m = 0;
+  grid.step_m = 0.01;
+  CHECK(said("30000000 receivers in all grids, and 1000000 are the limit"));
+  grid = {};
+  grid.heights_m = {1, 2};
+  CHECK(said("heights_m is a key of configuration files"));
 }
 
 TEST_CASE("names lead back to cells") {

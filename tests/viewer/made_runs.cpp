@@ -137,7 +137,7 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
   write_outputs(folder, {config, scene, instances, models, made_summary()}, frames);
 }
 
-void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder) {
+void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder, bool upright) {
   Config config;
   config.radio.frequency_hz = frequency_hz;
   config.text =
@@ -148,9 +148,12 @@ void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem:
                          {.name = "west", .position_m = {-0.5 * columns, 8, 6}}};
   config.receivers = {{.name = "car", .position_m = {20, 8, 1.5}}};
   for (uint32_t iy = 0; iy < rows; ++iy)
-    for (uint32_t ix = 0; ix < columns; ++ix)
-      config.receivers.push_back({.name = fmt::format("map/{},{}", ix, iy),
-                                  .position_m = {ix - 0.5 * columns + 0.5, iy - 0.5 * rows + 0.5, 1.5}});
+    for (uint32_t ix = 0; ix < columns; ++ix) {
+      RadioEnd& cell = config.receivers.emplace_back();
+      cell.name = fmt::format("map/{},{}", ix, iy);
+      cell.position_m = {ix - 0.5 * columns + 0.5, iy - 0.5 * rows + 0.5, 1.5};
+      if (upright) cell.position_m = {-3 + 0.6 * ix, 4 + 0.8 * ix, 1.0 + iy};
+    }
   FrameResult frame;
   for (auto [ends, states] : {std::pair{&config.transmitters, &frame.world.transmitters},
                               std::pair{&config.receivers, &frame.world.receivers}})

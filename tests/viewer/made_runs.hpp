@@ -21,7 +21,8 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder);
 
 // One frame of two transmitters, a receiver "car" and a grid "map" of cells of 1 m around the origin, 1.5 m high. Cells
 // of columns 0, 3, 6 ... have a direct and a reflected path, those of 1, 4, 7 ... a reflected one, the others none.
-void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder);
+// upright: rows go up from 1 m instead, and columns along (0.6, 0.8) from (-3, 4).
+void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder, bool upright = false);
 
 // Two frames, f = 0 and 1, without paths, of two sampled rays that start at (0, 0, 10). The first meets (10 + f, 0, 0),
 // passes the receiver, meets (10 + f, 10, 5), which the cache answered, and is lost; the second meets (20 + f, 0, 0),

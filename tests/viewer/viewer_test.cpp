@@ -169,9 +169,21 @@ TEST_CASE("a map of receivers is one, and what it shows is what its paths say") 
   const nlohmann::json meta = meta_of(page);
   CHECK(meta["receivers"].size() == 1);
   CHECK(meta["grids"][0]["first_m"][1].get<double>() + meta["centre_m"][1].get<double>() == doctest::Approx(-149.5));
-  CHECK(meta["grids"][0]["step_m"] == nlohmann::json{1, 1});
+  CHECK(meta["grids"][0]["column_m"] == nlohmann::json{1, 0});
+  CHECK(meta["grids"][0]["row_m"] == nlohmann::json{0, 1});
+  CHECK(meta["grids"][0]["rise_m"] == 0);
   CHECK(meta["links"] == 2 * 90001);
   CHECK(page.html.size() < 40e6);
+}
+
+TEST_CASE("a map on a vertical plane has steps along it and upwards") {
+  test::write_made_coverage(12, 9, folder / "upright", true);
+  const nlohmann::json grid = meta_of(write_page("upright"))["grids"][0];
+  CHECK(grid["column_m"][0].get<double>() == doctest::Approx(0.6));
+  CHECK(grid["column_m"][1].get<double>() == doctest::Approx(0.8));
+  CHECK(grid["row_m"] == nlohmann::json{0, 0});
+  CHECK(grid["rise_m"].get<double>() == doctest::Approx(1));
+  CHECK(grid["rows"] == 9);
 }
 
 TEST_CASE("what is no whole grid is none") {

@@ -3,14 +3,19 @@
 // under the pointer. A cell without a value has no colour.
 "use strict";
 
-// The height of a corner is the mean of the cells that meet there; a flat grid only needs its four corners.
+// The height of a corner is the mean of the cells that meet there; a flat grid and an upright one only need their four
+// corners.
 function map_geometry(grid) {
-  const {columns, rows, z_m, first_m: [x0, y0], step_m: [dx, dy]} = grid;
-  const flat = z_m.every((z) => z === z_m[0]);
-  const geometry = new THREE.PlaneBufferGeometry(columns * dx, rows * dy, flat ? 1 : columns, flat ? 1 : rows);
-  geometry.translate(x0 + (columns - 1) * dx / 2, y0 + (rows - 1) * dy / 2, flat ? z_m[0] : 0);
-  if (flat) return geometry;
+  const {columns, rows, z_m, first_m, column_m, row_m, rise_m} = grid;
+  const even = rise_m !== 0 || z_m.every((z) => z === z_m[0]);
+  const geometry = new THREE.PlaneBufferGeometry(columns, rows, even ? 1 : columns, even ? 1 : rows);
   const positions = geometry.attributes.position;
+  for (let k = 0; k < positions.count; ++k) {  // the plane has cells of 1 x 1 around the origin
+    const ix = positions.getX(k) + (columns - 1) / 2, iy = positions.getY(k) + (rows - 1) / 2;
+    const [x, y] = [0, 1].map((axis) => first_m[axis] + ix * column_m[axis] + iy * row_m[axis]);
+    positions.setXYZ(k, x, y, z_m[0] + iy * rise_m);
+  }
+  if (even) return geometry;
   for (let y = 0; y <= rows; ++y)
     for (let x = 0; x <= columns; ++x) {
       let sum = 0, count = 0;
@@ -33,8 +38,9 @@ class Coverage {
     this.rows = this.cells.server;  // row of `links` that each cell shows
     this.rows.fill(no_row);
     for (const grid of grids) {
-      const {columns, rows, first_m, step_m} = grid;
-      if (![...first_m, ...step_m].every(Number.isFinite) || !step_m[0] || !step_m[1]) continue;
+      const {columns, rows, first_m, column_m, row_m, rise_m} = grid;
+      if (![...first_m, ...column_m, ...row_m, rise_m].every(Number.isFinite)) continue;
+      if (!Math.hypot(...column_m) || !Math.hypot(...row_m, rise_m)) continue;
       if (Math.max(columns, rows) > largest) {
         if (largest) this.problems.push(`The map of ${grid.name} has more cells in a row than this browser can draw.`);
         continue;

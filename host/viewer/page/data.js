@@ -32,11 +32,11 @@ const cell_m = new Float32Array(3 * (meta.receivers.length + cell_count));
 const grid_of = new Int16Array(cell_m.length / 3).fill(-1);  // grid of each receiver, or -1 for none
 meta.receivers = (() => {
   const all = [];
-  grids.forEach(({name, first, columns, rows, first_m, step_m, z_m, antenna, polarization}, number) => {
+  grids.forEach(({name, first, columns, rows, first_m, column_m, row_m, z_m, antenna, polarization}, number) => {
     for (let cell = 0; cell < columns * rows; ++cell) {
       const ix = cell % columns, iy = Math.floor(cell / columns), rx = first + cell;
       all[rx] = [`${name}/${ix},${iy}`, antenna, polarization];
-      cell_m.set([first_m[0] + ix * step_m[0], first_m[1] + iy * step_m[1], z_m[cell]], 3 * rx);
+      cell_m.set([...[0, 1].map((axis) => first_m[axis] + ix * column_m[axis] + iy * row_m[axis]), z_m[cell]], 3 * rx);
       grid_of[rx] = number;
     }
   });

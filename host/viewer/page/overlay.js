@@ -125,9 +125,10 @@ class Overlay {
 
   // Draws the frame of a cell of a map.
   draw_cell(pen, frame, rx, projector) {
-    const {step_m: [dx, dy]} = grids[grid_of[rx]], [x, y, z] = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
+    const {column_m, row_m, rise_m} = grids[grid_of[rx]], [x, y, z] = frame.receiver_m.subarray(3 * rx, 3 * rx + 3);
     const signs = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
-    const corners = new Float32Array(signs.flatMap(([u, v]) => [x + u * dx / 2, y + v * dy / 2, z]));
+    const corners = new Float32Array(signs.flatMap(([u, v]) => [
+      x + (u * column_m[0] + v * row_m[0]) / 2, y + (u * column_m[1] + v * row_m[1]) / 2, z + v * rise_m / 2]));
     const at = [0, 1, 2, 3].map((k) => projector.point(corners, k));
     if (!at.every(Boolean)) return;
     // A cell that is small on the screen gets a wider frame.
