@@ -82,6 +82,8 @@ void make_coverage(const CoverageOptions& options) {
   const std::vector<coverage::Map> maps = coverage::coverage_maps(run, config.radio, rows.first, rows.last, table, grid,
                                                                   {.tx = tx, .layers = options.layers});
   for (const std::string& problem : maps.front().left_out) warn(problem);
+  const auto noted = std::ranges::find_if(maps, [](const coverage::Map& map) { return !map.notes.empty(); });
+  if (noted != maps.end()) warn(fmt::format("frame {}: {}", noted->frame, noted->notes.front()));
   if (std::ranges::all_of(maps, [](const coverage::Map& map) { return map.reached_cells() == 0; }))
     warn(fmt::format("no path to the grid \"{}\" in {}{}: {}", grid.name,
                      maps.size() == 1 ? fmt::format("frame {}", maps.front().frame)

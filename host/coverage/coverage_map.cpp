@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 #include "base/spelling.hpp"
+#include "coverage/cell_area.hpp"
 #include "radio/link_budget.hpp"
 #include "simulation/receiver_grid.hpp"
 #include "wavetracer/error.hpp"
@@ -132,6 +133,7 @@ void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& ra
   if (!wanted.empty()) return;
   std::vector<std::pair<std::string, std::vector<std::string_view>>> lacking;  // the lack, and the layers that have it
   for (const LayerKind& layer : layer_kinds) {
+    if (layer.of_areas && !map.areas) continue;
     const std::string lack = lack_of(layer, radio, map);
     if (lack.empty()) {
       map.layers.push_back(&layer);
@@ -145,6 +147,28 @@ void choose_layers(const std::vector<std::string>& wanted, const RadioConfig& ra
   }
   for (const auto& [lack, names] : lacking)
     map.left_out.push_back(fmt::format("{} {} {}", fmt::join(names, ", "), names.size() == 1 ? "needs" : "need", lack));
+}
+
+// Computes the layers of areas if they are wanted, and notes what limits of output have taken from them.
+void choose_areas(const SavedFrame& frame, double frequency_hz, const std::vector<uint32_t>& cell_of,
+                  const std::vector<Heard>& heard, const MapChoice& choice, Map& map) {
+  map.areas = choice.layers.empty() ? choice.areas : std::ranges::any_of(choice.layers, [](const std::string& name) {
+    return layer_kind(name).of_areas;
+  });
+  if (!map.areas) return;
+  constexpr double least = 1e-9;  // smaller shares are rounding errors of links.csv
+  std::vector<uint32_t> servers;
+  double left_out = 0;
+  for (const Heard& cell : heard) {
+    servers.push_back(cell.server ? cell.server->link.tx : no_cell);
+    if (cell.server) left_out = std::max(left_out, cell.server->left_out_power_share);
+  }
+  add_areas(frame.paths, frequency_hz, cell_of, servers, map);
+  if (left_out > least)
+    map.notes.push_back(fmt::format(
+        "cell_mean_db and fading_db are those of the paths in paths.h5, where limits of output ([output] min_gain_db, "
+        "dynamic_range_db, max_paths_per_link) have left out up to {:.2g}% of the power of a cell",
+        100 * left_out));
 }
 
 Map map_without_layers(const SavedRun& run, const RadioConfig& radio, const SavedFrame& frame,
@@ -164,6 +188,7 @@ Map map_without_layers(const SavedRun& run, const RadioConfig& radio, const Save
   });
   map.cells.reserve(heard.size());
   for (const Heard& cell : heard) map.cells.push_back(values_of(cell, radio));
+  choose_areas(frame, run.frequency_hz(), cell_of, heard, choice, map);
   for (const LinkRow& link : links) map.beams |= cell_of[link.link.rx] != no_cell && !std::isnan(link.beam_gain_db);
   return map;
 }

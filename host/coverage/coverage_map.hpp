@@ -36,6 +36,9 @@ struct Cell {
   double paths = none;          // number of paths of the server
   double beam_gain_db = none;   // gain of the server through the best pair of beams
   double tx_beam = none, rx_beam = none;  // numbers of these beams
+  // Gain of the server over the area of the cell, where its paths are plane waves: the mean of the coherent power, and
+  // the amount of fading, its variance divided by the square of the mean (minus infinity: the same power everywhere).
+  double cell_mean_db = none, fading_db = none;
 };
 
 struct LayerKind {
@@ -43,6 +46,7 @@ struct LayerKind {
   double Cell::*value;
   // The layer needs radio.transmit_power_dbm, radio.bandwidth_hz, or an array with a codebook.
   bool of_powers = false, of_noise = false, of_beams = false;
+  bool of_areas = false;  // the layer is made of the paths that paths.h5 has
   // Tells whether values are choices, which have colours of their own, and not amounts.
   constexpr bool of_choices() const {
     return value == &Cell::line_of_sight || value == &Cell::best_server || of_pair();
@@ -51,7 +55,7 @@ struct LayerKind {
   constexpr bool of_pair() const { return value == &Cell::tx_beam || value == &Cell::rx_beam; }
 };
 
-inline constexpr std::array<LayerKind, 15> layer_kinds = {{
+inline constexpr std::array<LayerKind, 17> layer_kinds = {{
     {"path_gain_db", "dB", "path gain", &Cell::path_gain_db},
     {"narrowband_gain_db", "dB", "narrowband gain", &Cell::narrowband_gain_db},
     {"received_dbm", "dBm", "received power", &Cell::received_dbm, true},
@@ -64,6 +68,8 @@ inline constexpr std::array<LayerKind, 15> layer_kinds = {{
     {"k_factor_db", "dB", "power of the direct path over that of all others", &Cell::k_factor_db},
     {"line_of_sight", "", "line of sight", &Cell::line_of_sight},
     {"paths", "", "number of paths", &Cell::paths},
+    {"cell_mean_db", "dB", "mean narrowband gain over the cell", &Cell::cell_mean_db, false, false, false, true},
+    {"fading_db", "dB", "amount of fading within the cell", &Cell::fading_db, false, false, false, true},
     {"beam_gain_db", "dB", "gain through the best pair of beams", &Cell::beam_gain_db, false, false, true},
     {"tx_beam", "", "beam of the transmitter", &Cell::tx_beam, false, false, true},
     {"rx_beam", "", "beam of the receiver", &Cell::rx_beam, false, false, true},
@@ -99,9 +105,11 @@ struct Map {
   uint32_t frame = 0;
   double time_s = 0;
   std::vector<Cell> cells = {};               // row by row from the south
+  bool areas = false;                         // layers of areas were computed
   bool beams = false;                         // a link to the grid has beams, in this frame or in one beside it
   std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
   std::vector<std::string> left_out = {};     // why layers are not there
+  std::vector<std::string> notes = {};        // words about paths that layers do not include
   std::optional<VerticalPlane> plane = {};    // nothing: the map is horizontal, or lies on the ground
 
   double x_m(size_t cell) const {
@@ -126,6 +134,7 @@ void check_layer(const LayerKind& layer, const RadioConfig& radio, const Map& ma
 struct MapChoice {
   std::optional<uint32_t> tx = {};       // nothing: the strongest transmitter of each cell
   std::vector<std::string> layers = {};  // names; none: all that the run can tell
+  bool areas = true;                     // if no layer is named, those of areas are there, too; they take longest
 };
 
 // Makes the map of a frame. links: of this frame (results/link_rows.hpp). Throws InputError if the run lacks receivers

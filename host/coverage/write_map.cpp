@@ -132,6 +132,10 @@ std::string MapWriter::description() const {
     }
   }
   json["left_out"] = first_.left_out;
+  json["notes"] = nlohmann::ordered_json::array();
+  for (const Map& map : what_.maps)
+    for (const std::string& note : map.notes)
+      json["notes"].push_back(what_.of_frames ? fmt::format("frame {}: {}", map.frame, note) : note);
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

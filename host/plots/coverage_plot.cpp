@@ -107,7 +107,7 @@ std::string row_commands(const std::string& name, const coverage::Map& map, cons
       column_of(map, layer));
 }
 
-// Infinite values have the brightest colour.
+// Infinite values have the brightest or the darkest colour.
 std::string image_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
                            const RadioConfig& radio) {
   const glm::dvec2 first_m = map.plane ? glm::dvec2(map.plane->first_along_m, map.plane->first_z_m) : map.first_m,
@@ -130,7 +130,7 @@ std::string image_commands(const std::string& name, const coverage::Map& map, co
              low_m.x, low_m.x + map.columns * map.step_m.x, low_m.y, low_m.y + map.rows * map.step_m.y, axes.across,
              axes.up, label_of(layer, radio), empty_colour) +
          fmt::format(
-             "plot '{0}.csv' using {4}:{5}:(${1} > {2:g} ? {2:g} : ${1}) with image notitle, \\\n"
+             "plot '{0}.csv' using {4}:{5}:(${1} > {2:g} ? {2:g} : ${1} < -{2:g} ? -{2:g} : ${1}) with image notitle, \\\n"
              "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6 "
              "notitle, \\\n"
              "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff' notitle, "

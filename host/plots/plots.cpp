@@ -118,7 +118,7 @@ class Plotter {
     for (size_t k = 0; k < grids_.size(); ++k) {
       if (!choice_.grid.empty() && grids_[k] != choice_.grid) continue;
       const coverage::Map map =
-          coverage::coverage_map(run_, radio, frame, links, world_.config.receiver_grids[k], {tx, {}});
+          coverage::coverage_map(run_, radio, frame, links, world_.config.receiver_grids[k], {tx, {}, layer.of_areas});
       if (!choice_.layer.empty()) coverage::check_layer(layer, radio, map, "--layer");
       if (std::ranges::all_of(map.values(layer), [](double value) { return std::isnan(value); }))
         report_.warnings.push_back(fmt::format("coverage: {} to the grid \"{}\" in frame {}{}",

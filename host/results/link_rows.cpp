@@ -97,6 +97,7 @@ void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_
     take(table.rms_delay_spread_s, row.rms_delay_spread_s);
     take(table.missed_power_share, row.missed_power_share);
     take(table.left_out_power_share, left_out[number]);
+    row.left_out_power_share = left_out[number];
     take_beam(table.tx_beam, at, row.tx_beam);
     take_beam(table.rx_beam, at, row.rx_beam);
     take(table.beam_gain_db, row.beam_gain_db);

@@ -19,6 +19,7 @@ struct LinkRow {
   double path_gain_db = -std::numeric_limits<double>::infinity();
   double narrowband_gain_db = -std::numeric_limits<double>::infinity();  // coherent sum at the carrier
   double rms_delay_spread_s = std::numeric_limits<double>::quiet_NaN();  // NaN if no power arrives
+  double left_out_power_share = 0;  // share of the power of all paths that paths.h5 lacks because of limits of output
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // NaN if unknown
   // Power of the direct path divided by that of all other paths, as a ratio of powers: infinite if there is no other
   // one; NaN if paths.h5 has no direct path.

@@ -162,7 +162,7 @@ def free_space(program, folder):
     assert "georeference.json" in done.stderr, done.stderr
     assert {Path(line) for line in done.stdout.split()} == set(maps.iterdir())
     rows, names = table(maps / "coverage.csv"), list(json.loads((maps / "coverage.json").read_text())["layers"])
-    assert len(rows) == 30 * 15 and len(names) == 12
+    assert len(rows) == 30 * 15 and len(names) == 14
     check_free_space(rows)
     check_arrays(maps, rows, names, (15, 30))
     local = check_tiff(maps, rows, "sinr_db", "dB", (0, 0))["coordinateSystem"]["wkt"]

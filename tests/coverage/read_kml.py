@@ -73,7 +73,7 @@ def documents(program, folder):
     done = run(program, "coverage", place / "out", "--format", "csv,kml")
     maps = place / "out/coverage"
     assert set(done.stdout.split()) == {str(file) for file in maps.iterdir()} and not list(maps.glob("*.pgw"))
-    assert len(list(maps.glob("*.png"))) == 12
+    assert len(list(maps.glob("*.png"))) == 14
     check_places(read(maps), table(maps / "coverage.csv"))
     words = ET.parse(maps / "coverage.kml").getroot().find(f"{KML}Document/{KML}description").text
     assert words == "(c) <A & B>", words

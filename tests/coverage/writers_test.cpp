@@ -102,16 +102,16 @@ TEST_CASE("the table has a row for each cell, and files replace those of an earl
   const Map map = written_map();
   const std::string table = table_of(map, {});
   CHECK(table.starts_with(
-      "ix,iy,x_m,y_m,z_m,path_gain_db,narrowband_gain_db,best_server,margin_db,delay_spread_ns,k_factor_db,line_of_sight,paths,tx\n"
+      "ix,iy,x_m,y_m,z_m,path_gain_db,narrowband_gain_db,best_server,margin_db,delay_spread_ns,k_factor_db,line_of_sight,paths,cell_mean_db,fading_db,tx\n"
       "0,0,5,5,1.5,"));
-  CHECK(table.find("\n1,1,15,15,1.5,nan,nan,nan,nan,nan,nan,nan,nan,\n") != std::string::npos);
-  CHECK(table.find(",1,t1\n") != std::string::npos);
+  CHECK(table.find("\n1,1,15,15,1.5,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,\n") != std::string::npos);
+  CHECK(table.find(",-inf,t1\n") != std::string::npos);
   CHECK(std::ranges::count(table, '\n') == 7);
   test::TemporaryFolder folder;
   std::ofstream(folder.path() / "paths.png") << "old";
   std::ofstream(folder.path() / "notes.txt") << "mine";
   const std::vector<fs::path> files = write_maps({{&map, 1}, false, {"csv", "npy", "geotiff", "png"}}, folder.path());
-  CHECK(files.size() == 2 + 3 + 8 * 4);
+  CHECK(files.size() == 2 + 3 + 10 * 4);
   for (const fs::path& file : files) CHECK(fs::file_size(file) > 10);
   CHECK(content(folder.path() / "coverage.csv") == table);
   CHECK(content(folder.path() / "notes.txt") == "mine");
