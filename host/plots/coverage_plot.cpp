@@ -107,9 +107,29 @@ std::string row_commands(const std::string& name, const coverage::Map& map, cons
       column_of(map, layer));
 }
 
-// Infinite values have the brightest or the darkest colour.
+// Returns the parts of the plot that draw walls and transmitters, as far as their tables have rows; gnuplot warns of
+// tables without any.
+std::string mark_commands(const std::string& name, const std::string& walls, const std::string& transmitters) {
+  const auto has_rows = [](const std::string& table) { return std::ranges::count(table, '\n') > 1; };
+  std::string out;
+  if (has_rows(walls))
+    out += fmt::format(
+        ", \\\n  '{}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6 "
+        "notitle",
+        name);
+  if (has_rows(transmitters))
+    out += fmt::format(
+        ", \\\n  '{}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff' notitle, "
+        "\\\n"
+        "  '' using 2:3 with points pointtype 9 pointsize 1.2 linecolor '#d55e00' notitle, \\\n"
+        "  '' using 2:3:1 with labels noenhanced left offset 1,0.6 textcolor '#000000' notitle",
+        name);
+  return out;
+}
+
+// marks: what is drawn over the image. Infinite values have the brightest or the darkest colour.
 std::string image_commands(const std::string& name, const coverage::Map& map, const coverage::LayerKind& layer,
-                           const RadioConfig& radio) {
+                           const RadioConfig& radio, const std::string& marks) {
   const glm::dvec2 first_m = map.plane ? glm::dvec2(map.plane->first_along_m, map.plane->first_z_m) : map.first_m,
                    low_m = first_m - 0.5 * map.step_m;
   const MapAxes axes = axes_of(map);
@@ -130,19 +150,13 @@ std::string image_commands(const std::string& name, const coverage::Map& map, co
              low_m.x, low_m.x + map.columns * map.step_m.x, low_m.y, low_m.y + map.rows * map.step_m.y, axes.across,
              axes.up, label_of(layer, radio), empty_colour) +
          fmt::format(
-             "plot '{0}.csv' using {4}:{5}:(${1} > {2:g} ? {2:g} : ${1} < -{2:g} ? -{2:g} : ${1}) with image notitle, \\\n"
-             "  '{0}_walls.csv' using 1:2:($3 - $1):($4 - $2) with vectors nohead linecolor '#333333' linewidth 0.6 "
-             "notitle, \\\n"
-             "  '{0}_transmitters.csv' using 2:3 with points pointtype 9 pointsize 1.8 linecolor '#ffffff' notitle, "
-             "\\\n"
-             "  '' using 2:3 with points pointtype 9 pointsize 1.2 linecolor '#d55e00' notitle, \\\n"
-             "  '' using 2:3:1 with labels noenhanced left offset 1,0.6 textcolor '#000000' notitle{3}\n",
+             "plot '{0}.csv' using {4}:{5}:(${1} > {2:g} ? {2:g} : ${1} < -{2:g} ? -{2:g} : ${1}) with image notitle{6}{3}\n",
              name, column_of(map, layer), most,
              holes ? fmt::format(", \\\n  1/0 with boxes fillstyle solid border linecolor '#888888' fillcolor '{}' "
                                  "title 'no value, as where no path leads'",
                                  empty_colour)
                    : "",
-             axes.across_column, axes.up_column);
+             axes.across_column, axes.up_column, marks);
 }
 
 // Returns the two points, in file coordinates, of each triangle that a plane cuts. height: the distance of a vertex
@@ -206,10 +220,13 @@ Figure coverage_figure(const SavedRun& run, const SavedFrame& frame, const std::
     return out;
   }
   const double z_m = 0.5 * (map.z_m.front() + map.z_m.back());
-  out.data.push_back({name + "_walls.csv",
-                      wall_table(map.plane ? section(scene, *map.plane) : section(scene, z_m), map.plane.has_value())});
-  out.data.push_back({name + "_transmitters.csv", transmitter_table(run, frame, map)});
-  out.commands = colours_of(map, layer) + image_commands(name, map, layer, radio);
+  const std::string transmitters = transmitter_table(run, frame, map),
+                    walls =
+                        wall_table(map.plane ? section(scene, *map.plane) : section(scene, z_m), map.plane.has_value());
+  out.data.push_back({name + "_walls.csv", walls});
+  out.data.push_back({name + "_transmitters.csv", transmitters});
+  out.commands =
+      colours_of(map, layer) + image_commands(name, map, layer, radio, mark_commands(name, walls, transmitters));
   out.height_px = std::clamp(690.0 * map.rows / map.columns + 120, 300.0, 1200.0);
   return out;
 }

@@ -80,7 +80,8 @@ def plane(program, folder):
     for name in ("lon_deg", "lat_deg"):
         same(np.tile(np.load(place / f"placed/{name}.npy"), 6), column(placed, name))
     assert np.load(place / "placed/paths.npy").shape == (1, 6, 9)
-    run(program, "plot", out, "--what", "coverage", "-o", place / "plots")
+    drawn = run(program, "plot", out, "--what", "coverage", "-o", place / "plots")
+    assert "Skipping" not in drawn.stderr, drawn.stderr  # gnuplot's warning of tables without a row
     commands = "".join(file.read_text() for file in (place / "plots").rglob("*.gp"))
     assert "set xlabel 'along (m)'" in commands and "set ylabel 'z (m)'" in commands, commands
     assert "using 6:5:(" in commands and "set xrange [0.55" in commands, commands
