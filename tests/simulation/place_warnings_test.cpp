@@ -94,6 +94,15 @@ TEST_CASE("receivers of grids are counted: by cells in the house, and whole grid
   CHECK(warnings_of(town, config) == Texts{"all of 1200 receivers of grid \"g\" are below the ground"});
   config.receiver_grids = {{.name = "rooms", .x_min_m = 11, .x_max_m = 29, .y_min_m = 21, .y_max_m = 27, .step_m = 1}};
   CHECK(warnings_of(town, config) == Texts{"all of 108 receivers of grid \"rooms\" are inside closed bodies"});
+  ReceiverGridConfig cut;
+  cut.name = "cut";
+  cut.from_m = {11, 24};
+  cut.to_m = {29, 24};
+  cut.z_min_m = 1;
+  cut.z_max_m = 3;
+  cut.step_m = 1;
+  config.receiver_grids = {cut};
+  CHECK(warnings_of(town, config) == Texts{"all of 36 receivers of grid \"cut\" are inside closed bodies"});
 }
 
 TEST_CASE("vehicles: through a house from when on, below and above the ground; none on it, and none in a garage") {
