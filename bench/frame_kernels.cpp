@@ -48,6 +48,7 @@ class FrameKernels {
 
   void measure(const FrameWorld& world) {
     Simulation simulation(world.config, options_.device);
+    simulation.sum_links(!world.config.output.paths);
     const size_t triangles = load_scene(world.config).triangles.size();
     const Tuning tuning = tuning_of(rows_.info());
     std::map<std::string_view, std::vector<Sample>> first, later;

@@ -71,6 +71,18 @@ void diffract(Config& config, uint32_t most) {
   config.transmitters.resize(1);
 }
 
+// Adds a square of cells around the first transmitter.
+void add_map(Config& config, double side_m, double cell_m) {
+  const std::array<double, 3> middle = config.transmitters.front().position_m;
+  ReceiverGridConfig& grid = config.receiver_grids.emplace_back();
+  grid.name = "map";
+  grid.x_min_m = middle[0] - side_m / 2;
+  grid.x_max_m = middle[0] + side_m / 2;
+  grid.y_min_m = middle[1] - side_m / 2;
+  grid.y_max_m = middle[1] + side_m / 2;
+  grid.step_m = cell_m;
+}
+
 }  // namespace
 
 std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, size_t vehicles, uint32_t frames) {
@@ -114,6 +126,12 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
   add("edge rays", [](Config& c) {
     diffract(c, 1);
     c.trace.edge_rays = 256;
+  });
+  add("sums", [](Config& c) {
+    diffract(c, 1);
+    add_map(c, 300, 6);
+    c.trace.edge_rays = 256;
+    c.output.paths = false;
   });
   add("two diffractions", [](Config& c) { diffract(c, 2); });
   add(

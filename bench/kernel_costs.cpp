@@ -179,6 +179,7 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_wedge_prefix) + sizeof(wt_wedge)>, scene_operations},
     {"wedge_chains/roof_chains", "", "pairs of ends", items_of<"wedge_chains/roof_chains">, always<sizeof(wt_solved)>,
      always<static_cast<size_t>(wedge_operations)>},
+    {"link_sums/link_sums", "sums", "paths", path_rows, always<2 * sizeof(device::wt_path_row)>, always<60>, true},
     {"path_groups/path_groups", "diffraction", "paths", path_rows, always<sizeof(device::wt_path_wave)>,
      always<static_cast<size_t>(wedge_operations)>, true},
     {"wedge_pairs/mark_runs", "two diffractions", "prefixes", items_of<"wedge_pairs/mark_runs">, always<12>, nothing},

@@ -216,9 +216,11 @@ std::string grid_lines(const LinkStatistics& links) {
 }
 
 // Says which paths the configuration leaves out of paths.h5.
-std::string left_out_line(const Totals& totals) {
+std::string left_out_line(const Run& run, const Totals& totals) {
   const LeftOutPaths& gone = totals.left_out;
   if (gone.paths == 0) return "";
+  if (!run.config.output.paths)
+    return "left out   all paths are summed in links.csv, and paths.h5 has none (output.paths)\n";
   return fmt::format(
       "left out   {} of {} paths, with {:.2g}% of the power, are not in paths.h5, as output.min_gain_db, "
       "dynamic_range_db and max_paths_per_link ask\n",
@@ -264,7 +266,7 @@ std::string report(const Run& run, const Results& results, bool verbose) {
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);
   if (verbose) out += tracing_lines(run, totals);
-  out += path_line(totals) + left_out_line(totals) + missed_line(run, totals) + certificate_line(totals) +
+  out += path_line(totals) + left_out_line(run, totals) + missed_line(run, totals) + certificate_line(totals) +
          late_line(run, totals) + link_lines(results.links, totals.frames > 1) + grid_lines(results.links) +
          compile_line(run) + frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";

@@ -196,6 +196,7 @@ void run(const RunOptions& options, Invocation& invocation) {
     return Simulation(config, device_of(options, ranks));
   }();
   simulation.profile_every(profiled_frames);
+  simulation.sum_links(!config.output.paths);
   const FrameRange range = parse_frames(options.frames, simulation.frame_count());
   const char* const started_as = ranks.started ? std::getenv("WAVETRACER_COMMAND") : nullptr;
   Run run = make_run(simulation, range.count(), started_as ? started_as : invocation.command_line);

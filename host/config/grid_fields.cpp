@@ -119,7 +119,8 @@ Table receiver_grid_table() {
                .range = {0, 1e6, true},
                .doc =
                    "Side of a cell. As many cells as fit between the borders are placed in the middle, at least one. "
-                   "Half the step gives four times as many receivers; more than a million receivers are an error."},
+                   "Half the step gives four times as many receivers; more than 20 million receivers are an error. "
+                   "More than a million are for output.paths = false and much memory."},
               height,
               heights,
               above,

@@ -5,6 +5,20 @@
 
 namespace wavetracer::config {
 
+namespace {
+
+Field paths_field() {
+  return {.name = "paths",
+          .slot = at(&Config::output, &OutputConfig::paths),
+          .doc =
+              "Write the paths to paths.h5. false: the device sums the paths of each link, and no path is read or "
+              "written, which is faster and needs less memory where links are many, as in coverage maps. "
+              "links.csv and summary.json are complete, and maps are made of them. Arrays with a codebook, "
+              "responses and other carriers (radio.frequencies_hz) need paths."};
+}
+
+}  // namespace
+
 Table output_table() {
   const auto o = [](auto member) { return at(&Config::output, member); };
   return {
@@ -35,14 +49,14 @@ Table output_table() {
            .doc = "Write every entry of the ray cache's table to cache_entries.h5 after each frame: where it is, "
                   "how often it answered, its age, and the cycles of its last answer and write. "
                   "For study: the whole table is read from the device. Needs cache.statistics = true."},
+          paths_field(),
           {.name = "min_gain_db",
            .slot = o(&OutputConfig::min_gain_db),
            .unit = "dB",
            .range = {-1000, 1000},
-           .doc =
-               "Weaker paths are left out of paths.h5. links.csv and summary.json have the number and the power of the "
-               "paths that this key and the next two leave out; all other numbers in these files are "
-               "for all paths. Not given: no limit."},
+           .doc = "Weaker paths are left out of paths.h5. links.csv and summary.json have the number and the power of "
+                  "the paths that this key and the next two leave out; all other numbers are for all paths. "
+                  "Not given: no limit."},
           {.name = "dynamic_range_db",
            .slot = o(&OutputConfig::dynamic_range_db),
            .unit = "dB",

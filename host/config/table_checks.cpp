@@ -81,6 +81,21 @@ void check_times(const std::string& key, const std::vector<std::array<double, 4>
                                  key, k, waypoints[k][0], waypoints[k - 1][0])});
 }
 
+// The device only sums what links.csv has.
+void check_sums(const Config& config, std::vector<Contradiction>& out) {
+  if (config.output.paths) return;
+  const auto refuse = [&](const std::string& key, const char* needs) {
+    out.push_back({{"output.paths", key},
+                   fmt::format("{} needs the paths of links: give output.paths = true, or remove {}", needs, key)});
+  };
+  if (config.radio.frequencies_hz.size() > 1) refuse("radio.frequencies_hz", "a run with several carriers");
+  if (config.response.bandwidth_hz) refuse("response.bandwidth_hz", "responses.h5");
+  for (size_t i = 0; i < config.arrays.size(); ++i)
+    if (config.arrays[i].has_codebook()) refuse(fmt::format("array.{}.codebook", i), "a codebook");
+  if (config.trace.by_spheres()) refuse("trace.reception", "trace.reception = \"sphere\"");
+  if (config.trace.discover_every_s > 0) refuse("trace.discover_every_s", "the count of paths that frames find late");
+}
+
 }  // namespace
 
 void check_arrays(const Config& config, std::vector<Contradiction>& out) {
@@ -94,6 +109,7 @@ void check_arrays(const Config& config, std::vector<Contradiction>& out) {
   for (size_t i = 0; i < config.arrays.size(); ++i) check_panel(config.arrays[i], fmt::format("array.{}", i), out);
   check_carriers(config.radio, out);
   check_bands(config, out);
+  check_sums(config, out);
 }
 
 void check_trajectories(const Config& config, std::vector<Contradiction>& out) {

@@ -184,9 +184,10 @@ Table trace_table() {
            .unit = "receivers",
            .range = {0, 4294967295.0},
            .none = "0",
-           .doc = "Only with diffraction, in a run of one frame: the number of receivers that are computed "
-                  "at once. It limits the memory of coverage maps, because every receiver keeps what its rays have "
-                  "found; results do not depend on it. 0: 8192, and more on devices with much memory."},
+           .doc =
+               "Only with diffraction or output.paths = false, in a run of one frame: the number of receivers that are computed "
+               "at once. It limits the memory of coverage maps, because every receiver keeps what its rays have "
+               "found; results do not depend on it. 0: 8192, and more on devices with much memory."},
       }};
 }
 

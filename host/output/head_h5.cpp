@@ -12,7 +12,7 @@ namespace {
 using hdf5::File;
 using hdf5::Id;
 
-constexpr uint64_t largest_value = uint64_t{1} << 26;  // bytes of an attribute or dataset, without texts
+constexpr uint64_t largest_value = uint64_t{1} << 29;  // bytes of an attribute or dataset, without texts
 
 // Returns the bytes of this number of values; 0 if they are too many.
 size_t bytes_of(hid_t type, hid_t space) {

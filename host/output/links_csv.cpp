@@ -23,7 +23,7 @@ constexpr std::string_view header =
     "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,"
     "doppler_spread_hz,los,"
     "missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,tx_beam,rx_beam,"
-    "beam_gain_db\n";
+    "beam_gain_db,k_factor_db\n";
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -56,17 +56,23 @@ LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
 void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
   std::string text;
   size_t row = 0, beam = 0;  // rows of the link's first path and pair of beams
-  for (const LinkFigures& link : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz)) {
+  const std::vector<LinkFigures> links =
+      frame.summed ? frame.summed->links
+                   : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz);
+  for (const LinkFigures& link : links) {
     while (row < frame.paths.size() && Link{frame.paths.tx[row], frame.paths.rx[row]} < Link{link.tx, link.rx}) ++row;
-    const LeftOutPaths gone = left_out(frame.paths, written, row, row + link.paths);
-    row += link.paths;
+    // If the device has summed the paths, all are left out.
+    const LeftOutPaths gone =
+        frame.summed ? LeftOutPaths{link.paths, 1, 1} : left_out(frame.paths, written, row, row + link.paths);
+    if (!frame.summed) row += link.paths;
     const std::string best = best_beams(frame.beams, {link.tx, link.rx}, beam);
     const LinkBudget budget = link_budget(radio_, link.path_gain_db);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{}\n",
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{},{}\n",
                    frame.world.time_s, tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db,
                    link.sum_of_powers_db, link.narrowband_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
                    link.doppler_spread_hz, link.los, link.missed_power_share, budget.received_dbm, budget.snr_db,
-                   gone.paths, gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best);
+                   gone.paths, gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best,
+                   10 * std::log10(link.k_factor));
   }
   file_.write(bytes(text));
 }

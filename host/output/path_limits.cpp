@@ -59,12 +59,12 @@ void number_groups(Paths& paths) {
 }  // namespace
 
 bool limits_paths(const OutputConfig& output) {
-  return output.min_gain_db || output.dynamic_range_db || output.max_paths_per_link;
+  return !output.paths || output.min_gain_db || output.dynamic_range_db || output.max_paths_per_link;
 }
 
 std::vector<uint8_t> written_rows(const Paths& paths, const OutputConfig& output) {
   std::vector<uint8_t> written(paths.size(), !limits_paths(output));
-  if (!limits_paths(output)) return written;
+  if (!limits_paths(output) || !output.paths) return written;
   for (size_t first = 0, end = 0; first < paths.size(); first = end) {
     end = end_of_link(paths, first);
     mark_link(paths, output, first, end, written);

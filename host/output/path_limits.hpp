@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which paths of a frame are written, by output.min_gain_db, dynamic_range_db and max_paths_per_link.
+// Decides which paths of a frame are written, by output.paths, min_gain_db, dynamic_range_db and max_paths_per_link.
 // Omitted paths are counted with their power; figures of links include all paths.
 #pragma once
 #include <cstdint>

@@ -65,7 +65,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.vertices = frame.paths.vertex_position_m.size();
   totals.links = frame.world.links.size();
   totals.counts = frame.counts;
-  totals.kinds = count_path_kinds(frame.paths);
+  totals.kinds = frame.summed ? frame.summed->kinds : count_path_kinds(frame.paths);
   totals.missed = frame.missed;
   totals.certificate = frame.certificate;
   totals.late = frame.late;

@@ -42,8 +42,8 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
       samples_(context.buffer(tables.samples, "antenna patterns")),
       antennas_(context.buffer(tables.antennas, "antennas")),
       foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {
-  make_room(context_, rows_, host_rows_, 1 << 12, "path rows");
-  make_room(context_, vertices_, host_vertices_, 1 << 14, "path vertex rows");
+  make_room(context_, rows_, 1 << 12, "path rows");
+  make_room(context_, vertices_, 1 << 14, "path vertex rows");
 }
 
 void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
@@ -55,8 +55,8 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
     for (int side = 0; side < 2; ++side)
       upload_changed(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
   }
-  make_room(context_, rows_, host_rows_, most.rows, "path rows");
-  make_room(context_, vertices_, host_vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
+  make_room(context_, rows_, most.rows, "path rows");
+  make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   arguments_.row_count = rows.places;
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
@@ -91,7 +91,13 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
                                 .args = arguments_});
 }
 
+void Fields::make_host_rooms() {
+  make_host_room(context_, rows_, host_rows_, "path rows");
+  make_host_room(context_, vertices_, host_vertices_, "path vertex rows");
+}
+
 void Fields::begin_read(uint32_t frame, RowCounts expected) {
+  make_host_rooms();
   read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())),
            static_cast<uint32_t>(std::min<size_t>(expected.vertices, vertices_.size()))};
   parts_.clear();
@@ -133,6 +139,7 @@ void Fields::fill_arriving(RowCounts count) {
 }
 
 void Fields::begin_read_carrier(RowCounts expected) {
+  make_host_rooms();
   read_ = {static_cast<uint32_t>(std::min<size_t>(expected.rows, rows_.size())), 0};
   rows_.begin_read(0, read_.rows, host_rows_, Stage::fields);
 }

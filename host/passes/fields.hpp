@@ -45,6 +45,9 @@ class Fields {
   Paths columns(RowCounts count);
   // Takes paths that are needed no more: the next columns use their memory.
   void give_room(Paths paths) { room_ = std::move(paths); }
+  // The records on the device, in the order of the rows that were computed last.
+  const gpu::Buffer<device::wt_path_row>& rows() const { return rows_; }
+  const gpu::Buffer<device::wt_vertex_row>& vertices() const { return vertices_; }
   // The number of the paths that columns() or carrier() gave last that are closer to an edge than the theory of
   // diffraction holds.
   uint32_t near_edges() const { return near_edges_; }
@@ -79,6 +82,7 @@ class Fields {
   uint32_t frame_ = 0, near_edges_ = 0;
   Paths room_;  // the columns of the next rows, or memory for them
 
+  void make_host_rooms();
   FrameRows rows_of(RowCounts count) const;
 };
 

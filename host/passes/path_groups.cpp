@@ -18,13 +18,13 @@ PathGroups::PathGroups(gpu::Context& context, const std::vector<uint32_t>& plane
       work_(tuning_of(context.info()).exact),
       arguments_{.wavelength_m = wavelength_m, .row_count = 0, .row_capacity = 0, .max_depth = 0, .padding = 0},
       planes_of_(context.buffer(planes_of, "planes of surfaces")) {
-  make_room(context_, shared_count_, host_shared_count_, 1, "number of paths of several waves");
+  make_room(context_, shared_count_, 1, "number of paths of several waves");
   make_rows(1 << 12);
 }
 
 void PathGroups::make_rows(size_t most) {
-  make_room(context_, waves_, host_waves_, most, "waves of paths");
-  make_room(context_, shared_, host_shared_, most, "waves of paths of several");
+  make_room(context_, waves_, most, "waves of paths");
+  make_room(context_, shared_, most, "waves of paths of several");
 }
 
 void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
@@ -53,6 +53,9 @@ void PathGroups::operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds
 }
 
 void PathGroups::begin_read(uint32_t expected) {
+  make_host_room(context_, waves_, host_waves_, "waves of paths");
+  make_host_room(context_, shared_, host_shared_, "waves of paths of several");
+  make_host_room(context_, shared_count_, host_shared_count_, "number of paths of several waves");
   read_ = std::min<size_t>(expected, waves_.size());
   shared_read_ = std::min(last_shared_ + last_shared_ / 16 + 16, shared_.size());
   waves_.begin_read(0, read_, host_waves_, Stage::path_groups);

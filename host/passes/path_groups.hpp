@@ -21,6 +21,9 @@ class PathGroups {
   // diffracts. most: the most rows that there may be.
   void operator()(const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends, const SolvedList& visible,
                   const Distinct& distinct, const RowList& rows, uint32_t most);
+  // The records on the device: a wave of each row, and all waves of those that belong to several.
+  const gpu::Buffer<device::wt_path_wave>& waves() const { return waves_; }
+  const gpu::Buffer<device::wt_path_waves>& shared() const { return shared_; }
   // Begins to read the first `expected` rows.
   void begin_read(uint32_t expected);
   // Numbers the groups of `count` rows, which must have been read: so the device can go on with what was enqueued after

@@ -6,14 +6,17 @@
 
 namespace wavetracer {
 
-// Makes room for `count` records in both, and a quarter more, where the buffer is smaller than that. Their contents are
-// lost then. name: that of the records, for messages. Throws where the device has not enough memory.
+// Makes room for `count` records, and a quarter more, where the buffer is smaller than that. Its contents are lost
+// then. name: that of the records, for messages. Throws where the device has not enough memory.
 template <class T>
-void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, gpu::HostMemory& host, size_t count, const char* name) {
-  if (count <= buffer.size()) return;
-  const size_t larger = count + count / 4;
-  host = context.host_memory(larger * sizeof(T), name);
-  buffer = context.buffer<T>(larger, {name, advice::links});  // last, since its size is the room that there is
+void make_room(gpu::Context& context, gpu::Buffer<T>& buffer, size_t count, const char* name) {
+  if (count > buffer.size()) buffer = context.buffer<T>(count + count / 4, {name, advice::links});
+}
+
+// Makes room for all records of the buffer on the host.
+template <class T>
+void make_host_room(gpu::Context& context, const gpu::Buffer<T>& buffer, gpu::HostMemory& host, const char* name) {
+  if (host.bytes() < buffer.bytes()) host = context.host_memory(buffer.bytes(), name);
 }
 
 }  // namespace wavetracer

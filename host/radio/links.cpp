@@ -46,11 +46,14 @@ double narrowband_power(const Paths& paths, RowRange rows, double frequency_hz) 
 LinkFigures figures(const Paths& paths, RowRange rows, double frequency_hz) {
   LinkFigures link;
   link.paths = static_cast<uint32_t>(rows.end - rows.begin);
-  double power = 0;
+  double power = 0, direct = 0, others = 0;
   for (size_t row = rows.begin; row < rows.end; ++row) {
-    power += power_of(paths, row);
+    const double own = power_of(paths, row);
+    power += own;
+    (paths.depth[row] == 0 ? direct : others) += own;
     link.los |= paths.depth[row] == 0;
   }
+  link.k_factor = direct > 0 ? direct / others : std::numeric_limits<double>::quiet_NaN();
   link.path_gain_db = 10 * std::log10(grouped_power(paths, rows.begin, rows.end, frequency_hz));
   link.sum_of_powers_db = 10 * std::log10(power);
   link.narrowband_gain_db = 10 * std::log10(narrowband_power(paths, rows, frequency_hz));

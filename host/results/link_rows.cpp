@@ -101,6 +101,7 @@ void take_table(const SavedFrame& frame, const LinkTable& table, uint64_t first_
     take_beam(table.tx_beam, at, row.tx_beam);
     take_beam(table.rx_beam, at, row.rx_beam);
     take(table.beam_gain_db, row.beam_gain_db);
+    if (at < table.k_factor_db.size()) row.k_factor = std::pow(10.0, table.k_factor_db[at] / 10);
   }
 }
 
@@ -130,7 +131,7 @@ std::vector<LinkRow> link_rows(const SavedFrame& frame, const LinkTable& table, 
     if (power[k] > 0) rows[k].rms_delay_spread_s = std::sqrt(square_s2[k] / power[k]);
   std::vector<double> left_out(rows.size(), 0);
   take_table(frame, table, first_link, rows, left_out);
-  add_k_factors(paths, row_of, path_power, left_out, rows);
+  if (table.k_factor_db.empty()) add_k_factors(paths, row_of, path_power, left_out, rows);
   return rows;
 }
 

@@ -22,7 +22,7 @@ struct LinkRow {
   double left_out_power_share = 0;  // share of the power of all paths that paths.h5 lacks because of limits of output
   double missed_power_share = std::numeric_limits<double>::quiet_NaN();  // NaN if unknown
   // Power of the direct path divided by that of all other paths, as a ratio of powers: infinite if there is no other
-  // one; NaN if paths.h5 has no direct path.
+  // one; NaN without a direct path.
   double k_factor = std::numeric_limits<double>::quiet_NaN();
   // The best pair of beams, and its gain: NaN where neither end has a codebook, and without links.csv. Without a path
   // the gain is minus infinity, and there is no pair.

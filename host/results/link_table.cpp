@@ -27,6 +27,7 @@ constexpr NamedColumn named_columns[] = {
     {"tx_beam", &LinkTable::tx_beam},
     {"rx_beam", &LinkTable::rx_beam},
     {"beam_gain_db", &LinkTable::beam_gain_db},
+    {"k_factor_db", &LinkTable::k_factor_db},
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace wavetracer {
 // Each column has a value per row of /links of paths.h5; a column is empty if it is unknown.
 struct LinkTable {
   std::vector<double> paths, path_gain_db, narrowband_gain_db, rms_delay_spread_s, los, missed_power_share,
-      left_out_power_share, tx_beam, rx_beam, beam_gain_db;
+      left_out_power_share, tx_beam, rx_beam, beam_gain_db, k_factor_db;
   std::string warning;  // why all are unknown although links.csv exists
 };
 

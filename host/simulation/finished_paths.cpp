@@ -36,14 +36,16 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
   for (const double carrier_hz : carriers_hz_) {
     Config at_carrier = config;
     at_carrier.radio.frequency_hz = carrier_hz;
-    fields_.emplace_back(context, make_field_tables(scene, at_carrier, world.fleet.models, world.fleet.instances),
-                         tracing_depth(config.trace).edges, scene.origin_m);
+    const FieldTables tables = make_field_tables(scene, at_carrier, world.fleet.models, world.fleet.instances);
+    ports_ = tables.ports;
+    fields_.emplace_back(context, tables, tracing_depth(config.trace).edges, scene.origin_m);
   }
 }
 
 void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-                          const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
-                          bool carriers, Counters& counters) {
+                          const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Rows rows,
+                          Counters& counters) {
+  const bool carriers = rows == Rows::all_carriers;
   const uint32_t places =
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
@@ -60,10 +62,17 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     scan_.prefix(distinct_.rows().counts, 2 * places, Stage::distinct);                                    // scan
     const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
-    if (groups_) groups_->begin_read(expected.rows);
-    if (counts_ahead(expected)) begin_count(counters);
+    if (groups_ && rows != Rows::summed) groups_->begin_read(expected.rows);
+    if (rows != Rows::summed && counts_ahead(expected)) begin_count(counters);
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
       fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
+  }
+  if (rows == Rows::summed) {
+    if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_);
+    (*sums_)({fields_[0].rows(), fields_[0].vertices(), groups_ ? &groups_->waves() : nullptr,
+              groups_ ? &groups_->shared() : nullptr, most.rows},
+             own ? *own : world.links, counters);  // link_sums
+    return;
   }
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);
   fields_[0].begin_read(frame, expected);
@@ -105,6 +114,11 @@ Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::ve
   Paths paths = fields_[0].columns(count);
   if (groups_) groups_->set(paths);
   return paths;
+}
+
+std::span<const device::wt_link_sum> FinishedPaths::take_sums(const wt_counters& counted, LeftOut& left_out) {
+  if (counted.near_rows > 0) left_out = distinct_.left_out();
+  return sums_->read();
 }
 
 void upload_visible(gpu::Context& context, const PathGeometry& paths, SolvedList& visible) {

@@ -4,8 +4,12 @@
 // if both ends send and receive: a path in one direction is also a path in the other. A transmitter and a receiver that
 // are one end must be at the same point.
 #pragma once
+#include <span>
+#include <vector>
+
 #include "passes/distinct.hpp"
 #include "passes/fields.hpp"
+#include "passes/link_sums.hpp"
 #include "passes/path_groups.hpp"
 #include "passes/scan.hpp"
 #include "passes/sort.hpp"
@@ -18,16 +22,19 @@
 
 namespace wavetracer {
 
+// The rows of paths: those of the first carrier are read by the host, those of all carriers, or none, and links are
+// summed.
+enum class Rows { first_carrier, all_carriers, summed };
+
 class FinishedPaths {
  public:
   // config: has all ends of the world, and the features that are on. Throws ConfigError.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
   // Starts the passes. visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose
-  // paths are wanted, if they are not all of ends.links. carriers: are fields of radio.frequencies_hz wanted besides
-  // those of the first carrier?
+  // paths are wanted, if they are not all of ends.links.
   void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, bool carriers,
+             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Rows rows,
              Counters& counters);
   // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
@@ -35,6 +42,8 @@ class FinishedPaths {
   // have groups. left_out: gets the paths that are left out (radio/fields.hpp). carriers: gets the fields at the other
   // carriers, if they were started; may be nullptr.
   Paths take(const wt_counters& counted, LeftOut& left_out, std::vector<CarrierFields>* carriers);
+  // Returns the sums of the wanted links, in their order, if they were started. They are there until the next frame.
+  std::span<const device::wt_link_sum> take_sums(const wt_counters& counted, LeftOut& left_out);
   // Takes paths that are needed no more: those that take() gives next use their memory.
   void give_room(Paths paths);
   // Fields::near_edges() for the paths that take() gave, at each carrier.
@@ -53,6 +62,8 @@ class FinishedPaths {
   std::vector<Fields> fields_;            // one for each carrier; they only share the rows
   std::vector<double> carriers_hz_;
   std::optional<PathGroups> groups_;  // set with diffraction
+  Ports ports_;
+  std::optional<LinkSums> sums_;  // made where they are first asked for
   gpu::HostMemory host_counters_;
   gpu::Marker counted_;  // the counters have been read, and the waves of groups
 

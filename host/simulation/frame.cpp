@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "radio/summed_paths.hpp"
 #include "simulation/late_paths.hpp"
 #include "simulation/launch_share.hpp"
 #include "simulation/recall_warning.hpp"
@@ -33,11 +34,19 @@ void FrameLoop::forget() {
   if (s_.cache) s_.cache->clear();
 }
 
+// Do batches of receivers share sequences? They do if only transmitters launch rays, or edges that listeners hear, and
+// if the launch does not depend on what was found.
+bool FrameLoop::batches_share() const {
+  if (s_.exact_paths.from_edges) return true;
+  return plan_.origins.listeners.count() == 0 && !s_.beams && !s_.cache && !s_.trails && plan_.trace.rays;
+}
+
 // A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of a
 // part of their links neither reuse sequences nor leave any, except that what listeners hear of edges serves all
 // batches of receivers.
 FrameResult FrameLoop::run(FrameTask task) {
-  const bool whole = task.links().is_all(), hears = s_.exact_paths.from_edges && task.links().is_batch();
+  const bool whole = task.links().is_all(), hears = task.links().is_batch() && batches_share();
+  if (whole) heard_ = false;
   if (!whole && !(hears && heard_ && task.links().is_later_batch())) forget();
   try {
     FrameResult out = solve(task);
@@ -88,14 +97,8 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   if (s_.trails) out.waypoints = s_.trails->take_waypoints();
 
   LeftOut left_out;
-  out.paths = s_.finish.take(counted, left_out, &out.carriers);
-  if (!task.only_compiles()) account.near_edges(s_.finish.near_edges(), out.carriers, plan_.asked.radio.frequency_hz);
   if (block) out.world.links = block->own;
-  const bool spheres = plan_.trace.by_spheres();
-  if (const auto text = witness_.hear(found, warm_frames_ == 0, plan_.has_surfaces() && !spheres)) account.warn(*text);
-  const bool told = !s_.cache && !spheres && witness_.tells();
-  if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
-  if (found.rays > 0) out.missed = told ? missed_counts(out.paths, 0, out.paths.size()) : MissedCounts{.unknown = 1};
+  take_paths(task, found, counted, account, left_out);
   if (known) out.late = late_counts(*known, out.paths);
   if (const auto text = recall_warning(found, plan_.trace, warm_frames_ == 0, out.missed)) account.warn(*text);
   if (searches) ++warm_frames_;
@@ -109,6 +112,30 @@ FrameResult FrameLoop::solve(FrameTask& task) {
     account.end_stage(Stage::elements);
   }
   return account.close();
+}
+
+// Takes the paths of the frame, or the sums of its links, and what they show of the paths that rays have missed.
+void FrameLoop::take_paths(const FrameTask& task, const DiscoveryCounts& found, const wt_counters& counted,
+                           FrameAccount& account, LeftOut& left_out) {
+  FrameResult& out = account.result;
+  std::span<const device::wt_link_sum> sums;
+  if (summed_)
+    sums = s_.finish.take_sums(counted, left_out);
+  else
+    out.paths = s_.finish.take(counted, left_out, &out.carriers);
+  const SumCounts of_sums = sum_counts(sums);
+  if (!task.only_compiles())
+    account.near_edges(summed_ ? std::vector{of_sums.near_edges} : s_.finish.near_edges(), out.carriers,
+                       plan_.asked.radio.frequency_hz);
+  const bool spheres = plan_.trace.by_spheres();
+  if (const auto text = witness_.hear(found, warm_frames_ == 0, plan_.has_surfaces() && !spheres)) account.warn(*text);
+  const bool told = !s_.cache && !spheres && witness_.tells();
+  if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
+  if (summed_) out.summed = summed_paths(sums, out.frame, out.world.links, told && !s_.beams);
+  if (found.rays > 0 || heard_) {
+    out.missed = MissedCounts{.unknown = 1};
+    if (told) out.missed = summed_ ? of_sums.missed : missed_counts(out.paths, 0, out.paths.size());
+  }
 }
 
 // Goes from rays to fields, without waiting for the device if the frame is like the one before. If it proves not to be,
@@ -126,7 +153,8 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
                   : solve_paths(s_.exact_paths, s_.device_scene, ends, set, search, *s_.frame_watch,
                                 account);  // sequences to visible
     account.end_stage(Stage::paths);
-    finish_paths(task.frame(), world, ends, block ? &block->own : nullptr, true);  // distinct to fields
+    finish_paths(task.frame(), world, ends, block ? &block->own : nullptr,
+                 summed_ ? Rows::summed : Rows::all_carriers);  // distinct to fields, link_sums
   };
   out.counted = set.counters().settled(
       alike, Stage::fields, [&] { return begin_sequences(set, searches); }, passes,
@@ -145,7 +173,7 @@ Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const Radi
   const auto passes = [&] {
     solve_paths(s_.exact_paths, s_.device_scene, ends, set, Search::none, *s_.frame_watch, account);
     account.end_stage(Stage::paths);
-    finish_paths(frame, world, ends, nullptr, false);
+    finish_paths(frame, world, ends, nullptr, Rows::first_carrier);
   };
   const wt_counters counted = set.counters().settled(
       false, Stage::fields, [&] { return set.counters().zero(); }, passes,
@@ -158,9 +186,9 @@ Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const Radi
 
 // distinct to fields (finished_paths.cpp)
 void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
-                             const std::vector<Link>* own, bool carriers) {
+                             const std::vector<Link>* own, Rows rows) {
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
-  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, carriers,
+  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, rows,
                   s_.discovery->sequences().counters());
 }
 

@@ -21,6 +21,8 @@ class FrameLoop {
   FrameResult run(FrameTask task);
   // Makes the next frame cold: it reuses nothing.
   void forget();
+  // The host reads sums of links from now on, and no paths; or paths again.
+  void sum_links(bool on) { summed_ = on; }
 
  private:
   struct Found {
@@ -28,9 +30,12 @@ class FrameLoop {
     wt_counters counted{};
   };
 
+  bool batches_share() const;
   FrameResult solve(FrameTask& task);
   Found find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, const LinkBlock* block,
                    bool searches, bool alike, FrameAccount& account);
+  void take_paths(const FrameTask& task, const DiscoveryCounts& found, const wt_counters& counted,
+                  FrameAccount& account, LeftOut& left_out);
   void next_frame(Sequences& set);
   Counters::Zeroed begin_sequences(Sequences& set, bool searches);
   // The same by beams.
@@ -41,7 +46,7 @@ class FrameLoop {
   void set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block);
   Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
-                    bool carriers);
+                    Rows rows);
   Paths known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
@@ -52,7 +57,8 @@ class FrameLoop {
   // In a world at rest, frames keep what an earlier one has made: places, the links where these are all, and the launch
   // of all ends.
   bool places_rest_ = false, links_rest_ = false;
-  bool heard_ = false;  // all listeners have heard the rays of edges, for the batches that follow
+  bool heard_ = false;  // the sequences of all batches were found with the first one
+  bool summed_ = false;
   std::optional<LaunchPlan> launch_;
   RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one

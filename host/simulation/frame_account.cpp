@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 
 #include "radio/constants.hpp"
 #include "wavetracer/stages.hpp"
@@ -61,7 +62,9 @@ void FrameAccount::near_edges(const std::vector<uint32_t>& paths_at, const std::
 
 FrameResult FrameAccount::close() {
   const double frame_seconds = frame_.lap();
-  result.counts.paths = result.paths.size();
+  result.counts.paths = result.summed
+                            ? std::accumulate(result.summed->kinds.begin(), result.summed->kinds.end(), uint64_t{0})
+                            : result.paths.size();
   result.seconds = context_.profile();
   result.kernels = context_.kernel_times();
   for (const auto& [stage, seconds] : host_stages_) result.seconds[stage] = seconds;

@@ -112,6 +112,22 @@ bool parted(const Surroundings& around, const glm::dvec3& a, const glm::dvec3& b
 
 }  // namespace
 
+std::vector<Link> links_without_path(const FrameResult& frame) {
+  std::vector<Link> out;
+  if (frame.summed) {
+    for (const LinkFigures& link : frame.summed->links)
+      if (link.paths == 0) out.push_back({link.tx, link.rx});
+    return out;
+  }
+  size_t path = 0;  // links and paths are in the same order
+  for (const Link& link : frame.world.links) {
+    const size_t first = path;
+    while (path < frame.paths.size() && Link{frame.paths.tx[path], frame.paths.rx[path]} == link) ++path;
+    if (path == first) out.push_back(link);
+  }
+  return out;
+}
+
 MissingLinks explain_missing(const Config& config, const Features& features, const Surroundings& around,
                              const World& world, const FrameResult& frame) {
   MissingLinks out;
@@ -138,11 +154,7 @@ MissingLinks explain_missing(const Config& config, const Features& features, con
       return grid_cell(grid.name, world.receivers.ends[rx].name).has_value();
     });
   };
-  size_t path = 0;  // links and paths are in the same order
-  for (const Link& link : state.links) {
-    const size_t first = path;
-    while (path < frame.paths.size() && Link{frame.paths.tx[path], frame.paths.rx[path]} == link) ++path;
-    if (path > first) continue;
+  for (const Link& link : links_without_path(frame)) {
     const bool cell = in_grid(link.rx);
     std::vector<std::string>& words = cell ? out.why_in_grids : out.why;
     ++(cell ? out.in_grids : out.links);

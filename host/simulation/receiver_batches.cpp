@@ -14,7 +14,11 @@ namespace {
 constexpr uint32_t least_receivers = 8192;  // a batch has them, unless the user asks for fewer
 // A receiver that launches rays has some 300 to 1500 sequences of about 350 bytes, one that hears edges some 100; they
 // may take a quarter of the memory.
-uint64_t bytes_of_receiver(const TraceConfig& trace) { return uint64_t{4} * 350 * (trace.edge_rays > 0 ? 300 : 1500); }
+uint64_t bytes_of_launching(const TraceConfig& trace) { return uint64_t{4} * 350 * (trace.edge_rays > 0 ? 300 : 1500); }
+
+// The rows of a receiver that launches nothing, some 32 paths of 600 bytes with all lists; they may take a quarter of
+// the memory.
+constexpr uint64_t bytes_of_rows = uint64_t{4} * 32 * 600;
 
 // Rows first to end - 1 of a batch.
 struct Piece {
@@ -134,6 +138,20 @@ std::vector<CarrierFields> joined_carriers(const std::vector<FrameResult>& batch
   return out;
 }
 
+// The sums of all batches, by link.
+std::optional<SummedPaths> joined_sums(const std::vector<FrameResult>& batches) {
+  if (!batches.front().summed) return {};
+  SummedPaths out;
+  for (const FrameResult& batch : batches) {
+    const SummedPaths& more = batch.summed.value();
+    out.links.insert(out.links.end(), more.links.begin(), more.links.end());
+    for (size_t kind = 0; kind < out.kinds.size(); ++kind) out.kinds[kind] += more.kinds[kind];
+    out.power += more.power;
+  }
+  std::ranges::sort(out.links, {}, [](const LinkFigures& link) { return Link{link.tx, link.rx}; });
+  return out;
+}
+
 void add_counts(FrameResult& to, const FrameResult& from) {
   for (auto count : {&FrameCounts::rays, &FrameCounts::segments, &FrameCounts::hits, &FrameCounts::sequences,
                      &FrameCounts::candidates, &FrameCounts::solved, &FrameCounts::paths, &FrameCounts::receptions})
@@ -154,10 +172,10 @@ void add_counts(FrameResult& to, const FrameResult& from) {
 }  // namespace
 
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
-                                            uint32_t most) {
-  const auto fitting =
-      static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes_of_receiver(trace), least_receivers, no_end));
-  const uint32_t asked = trace.diffraction ? trace.batch_receivers.value_or(fitting) : no_end;
+                                            uint32_t most, bool summed) {
+  const uint64_t bytes = trace.diffraction ? bytes_of_launching(trace) : bytes_of_rows;
+  const auto fitting = static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes, least_receivers, no_end));
+  const uint32_t asked = trace.diffraction || summed ? trace.batch_receivers.value_or(fitting) : no_end;
   const uint32_t batch = std::min(asked, most);
   if (receiver_count <= batch) return {{}};
   std::vector<ReceiverRange> out;
@@ -171,6 +189,7 @@ FrameResult joined_batches(std::vector<FrameResult> batches) {
   out.frame = batches.front().frame;
   out.paths = joined_paths(batches);
   out.carriers = joined_carriers(batches);
+  out.summed = joined_sums(batches);
   for (const FrameResult& batch : batches) add_counts(out, batch);
   const auto any = [&](uint64_t MissedCounts::*frames) {
     return std::ranges::any_of(batches, [&](const FrameResult& batch) { return batch.missed.*frames > 0; });
@@ -178,6 +197,8 @@ FrameResult joined_batches(std::vector<FrameResult> batches) {
   if (any(&MissedCounts::unknown)) {
     out.missed.unknown = 1;
     out.paths.quarters.clear();
+  } else if (out.summed) {
+    for (const FrameResult& batch : batches) add_part(out.missed, batch.missed);
   } else if (any(&MissedCounts::frames)) {
     out.missed = missed_counts(out.paths, 0, out.paths.size());
   }

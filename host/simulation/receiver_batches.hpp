@@ -13,9 +13,10 @@ namespace wavetracer {
 
 // Gives one batch if the frame is not cut: receivers launch no rays or are few. Otherwise a batch has
 // trace.batch_receivers receivers, or as many as the memory of the device, in bytes, can surely hold; but at most
-// `most`.
+// `most`. summed: the host reads sums of links, so the rows of a batch are needed for its time alone, and frames
+// without diffraction are cut, too.
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
-                                            uint32_t most = no_end);
+                                            uint32_t most = no_end, bool summed = false);
 
 // Joins the batches, one after the other, to their frame. Counts and seconds are those of all work; the rays of
 // transmitters are launched for every batch. There must be at least two batches, without a cache or waypoints.

@@ -16,7 +16,7 @@
 
 namespace wavetracer {
 
-constexpr uint64_t max_grid_receivers = 1'000'000;  // for all grids together
+constexpr uint64_t max_grid_receivers = 20'000'000;  // for all grids together
 
 // Receiver (0, 0) is at x_m, y_m, in file coordinates. A step of ix goes along `column_direction`, and one of iy along
 // `row_direction`, both step_m long. z_m is that of row 0 of a vertical plane, and 0 for a horizontal grid.

@@ -45,7 +45,7 @@ struct Simulation::State {
     if (whole || receivers < 2) return frames.run(task(links));
     std::deque<ReceiverRange> left;
     for (const ReceiverRange& batch :
-         receiver_batches(plan().trace, receivers, setup.context.info().global_memory, fitting))
+         receiver_batches(plan().trace, receivers, setup.context.info().global_memory, fitting, summed))
       left.push_back({batch.first, std::min(batch.end, receivers)});
     if (left.size() == 1) {
       try {
@@ -74,6 +74,7 @@ struct Simulation::State {
       setup.frame_watch->set_part(parts.size(), parts.size() + left.size());
       try {
         parts.push_back(frames.run(task(links.batch(left.front(), left_out, !parts.empty()))));
+        if (parts.size() > 1) parts.back().world.receivers = {};  // the first part has them for all
         left.pop_front();
       } catch (const gpu::BufferError&) {
         if (left.front().end - left.front().first < 2) throw;
@@ -118,6 +119,7 @@ struct Simulation::State {
 
   Setup setup;
   FrameLoop frames;
+  bool summed = false;  // sum_links()
   uint32_t profile_every = 1;
   uint64_t runs = 0;
   uint32_t fitting = no_end;  // the most receivers of a batch whose lists the device can hold, as far as is known
@@ -134,6 +136,10 @@ void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch->se
 void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
 void Simulation::give_back(FrameResult& result) {
   state_->setup.finish.give_room(std::exchange(result.paths, Paths()));
+}
+void Simulation::sum_links(bool on) {
+  state_->summed = on;
+  state_->frames.sum_links(on);
 }
 void Simulation::forget() { state_->frames.forget(); }
 uint64_t Simulation::frame_count() const { return state_->plan().world.clock.frame_count(); }
@@ -164,11 +170,7 @@ std::vector<std::string> Simulation::warnings() const {
 
 MissingLinks Simulation::explain_missing(const FrameResult& frame) const {
   const RunPlan& plan = state_->plan();
-  const Paths& paths = frame.paths;
-  size_t found = 0;  // links that have a path; rows of a link are neighbours
-  for (size_t i = 0; i < paths.size(); ++i)
-    found += i == 0 || paths.tx[i] != paths.tx[i - 1] || paths.rx[i] != paths.rx[i - 1];
-  if (found == frame.world.links.size()) return {};
+  if (links_without_path(frame).empty()) return {};
   return wavetracer::explain_missing(plan.asked, plan.features, *state_->setup.around, plan.world, frame);
 }
 

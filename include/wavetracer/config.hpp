@@ -252,6 +252,7 @@ struct OutputConfig {
   uint32_t shard_frames = 100;  // frames per file of a drive; the first of each is cold if frames reuse sequences
   uint64_t waypoints = 0;       // samples per transmitter whose waypoints are written, spread evenly; 0: none
   bool cache_entries = false;   // the entries of the ray cache's table, a row each; needs cache.statistics
+  bool paths = true;            // write paths; else the device sums those of each link, and none are read
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
   std::optional<uint32_t> max_paths_per_link = {};

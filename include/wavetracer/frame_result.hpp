@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "wavetracer/certificate.hpp"
 #include "wavetracer/kernel_time.hpp"
 #include "wavetracer/late.hpp"
+#include "wavetracer/link_figures.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
 #include "wavetracer/ray_waypoints.hpp"
@@ -94,6 +96,7 @@ struct FrameResult {
   uint32_t frame = 0;
   WorldState world;
   Paths paths;
+  std::optional<SummedPaths> summed;    // in place of paths, after Simulation::sum_links(true)
   std::vector<CarrierFields> carriers;  // fields at radio.frequencies_hz, without the first
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook

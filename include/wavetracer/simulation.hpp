@@ -81,6 +81,10 @@ class Simulation {
   // Measures the device's stages in every `frames`-th frame only: profiling makes launches slower, which short frames
   // notice (on a GPU by a third). With 1, the default, every frame is measured. Blocks (run_block) are always measured.
   void profile_every(uint32_t frames);
+  // After sum_links(true), frames have FrameResult::summed in place of paths: the device sums the paths of each link,
+  // and the host does not read them. That is for many links, as in maps. There are no elements of arrays then, and no
+  // fields at other carriers.
+  void sum_links(bool on);
   // Sets the observer of all following frames; an empty function removes it.
   void observe(FrameObserver observer);
   // Drops all sequences of earlier frames, and the content of a ray cache: the next frame is cold.

@@ -131,11 +131,11 @@ TEST_CASE("links.csv has a row per link, quoted names, and -inf where no path is
   CHECK(lines[0] ==
         "time_s,tx,rx,paths,path_gain_db,sum_of_powers_db,narrowband_gain_db,mean_delay_s,rms_delay_spread_s,"
         "doppler_spread_hz,los,missed_power_share,received_dbm,snr_db,paths_left_out,left_out_power_share,"
-        "tx_beam,rx_beam,beam_gain_db");
+        "tx_beam,rx_beam,beam_gain_db,k_factor_db");
   CHECK(lines[1].starts_with("0,\"rsu, north\",car,1,"));
-  CHECK(lines[1].ends_with(",1,nan,nan,nan,0,0,nan,nan,nan"));
+  CHECK(lines[1].ends_with(",1,nan,nan,nan,0,0,nan,nan,nan,inf"));
   CHECK(lines[2].starts_with("0,\"rsu, north\",1,1,"));
-  CHECK(lines[2].ends_with(",0,nan,nan,nan,0,0,nan,nan,nan"));
+  CHECK(lines[2].ends_with(",0,nan,nan,nan,0,0,nan,nan,nan,nan"));
   CHECK(lines[4].starts_with("0,rsu,1,0,-inf,-inf,"));
   CHECK(lines[5].starts_with("0.1,\"rsu, north\",car,1,"));
 }

@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include "output/path_kinds.hpp"
+#include "radio/links.hpp"
+#include "radio/path_power.hpp"
 #include "reader.hpp"
 #include "sample_run.hpp"
 #include "temporary_folder.hpp"
@@ -60,6 +63,13 @@ std::vector<uint32_t> kept(const OutputConfig& output) {
   for (uint32_t i = 0; i < written.size(); ++i)
     if (written[i]) out.push_back(i);
   return out;
+}
+
+// The comma before paths_left_out, the sixth column from the end.
+size_t at_left_out(const std::string& line) {
+  size_t comma = line.size();
+  for (int i = 0; i < 6; ++i) comma = line.rfind(',', comma - 1);
+  return comma;
 }
 
 }  // namespace
@@ -124,15 +134,46 @@ TEST_CASE("a run with limits: fewer rows in paths.h5, the same figures in links.
   std::getline(b, line_b);
   uint64_t counted = 0;
   while (std::getline(a, line_a) && std::getline(b, line_b)) {
-    const auto fields = [](const std::string& line) {  // from paths_left_out on, the fifth from the end
-      size_t comma = line.size();
-      for (int i = 0; i < 5; ++i) comma = line.rfind(',', comma - 1);
-      return comma;
-    };
-    CHECK(line_a.substr(0, fields(line_a)) == line_b.substr(0, fields(line_b)));
-    counted += std::stoull(line_b.substr(fields(line_b) + 1));
+    CHECK(line_a.substr(0, at_left_out(line_a)) == line_b.substr(0, at_left_out(line_b)));
+    counted += std::stoull(line_b.substr(at_left_out(line_b) + 1));
   }
   CHECK(counted == gone);
+}
+
+TEST_CASE("where the device has summed paths, links.csv is the same, and paths.h5 has none") {
+  const TemporaryFolder all, sums;
+  SampleRun sample;
+  write_outputs(all.path(), sample.run(), sample.drive(0, 12));
+  std::vector<FrameResult> frames = sample.drive(0, 12);
+  uint64_t paths = 0;
+  for (FrameResult& frame : frames) {
+    SummedPaths& sum = frame.summed.emplace();
+    sum.links = link_figures(frame.paths, frame.frame, frame.world.links, sample.config.radio.frequency_hz);
+    sum.kinds = count_path_kinds(frame.paths);
+    for (size_t row = 0; row < frame.paths.size(); ++row) sum.power += power_of(frame.paths, row);
+    paths += frame.paths.size();
+    frame.counts.paths = frame.paths.size();
+    Paths none;
+    none.rx_ports = frame.paths.rx_ports;
+    none.tx_ports = frame.paths.tx_ports;
+    frame.paths = std::move(none);
+  }
+  sample.config.output.paths = false;
+  write_outputs(sums.path(), sample.run(), frames);
+  CHECK(Reader(sums.path() / "paths.h5").shape("/paths/delay_s")[0] == 0);
+  const auto summary = nlohmann::json::parse(slurp(sums.path() / "summary.json"));
+  CHECK(summary["counts"]["paths"] == paths);
+  CHECK(summary["left_out"]["paths"] == paths);
+  CHECK(summary["left_out"]["power_share"] == 1);
+  CHECK(summary["paths_by_kind"] == nlohmann::json::parse(slurp(all.path() / "summary.json"))["paths_by_kind"]);
+  std::istringstream a(slurp(all.path() / "links.csv")), b(slurp(sums.path() / "links.csv"));
+  size_t lines = 0;
+  for (std::string line_a, line_b; std::getline(a, line_a); ++lines) {
+    REQUIRE(std::getline(b, line_b));
+    CHECK(line_a.substr(0, at_left_out(line_a)) == line_b.substr(0, at_left_out(line_b)));
+    CHECK(line_a.substr(line_a.rfind(',')) == line_b.substr(line_b.rfind(',')));  // k_factor_db
+  }
+  CHECK(lines > 10);
 }
 
 TEST_CASE("shards count what they leave out, and merge to the file of one run") {

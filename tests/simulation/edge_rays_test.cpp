@@ -60,6 +60,16 @@ TEST_CASE("batches of receivers share the rays of edges: the frame is that in on
   }
 }
 
+TEST_CASE("what listeners have heard is joined in parts where it makes too many candidates") {
+  const SceneFile file(two_boxes());
+  const Config config = by_edges(town(file), 500);
+  const FrameResult whole = run(config);
+  const MostCandidates limit("3000");
+  const FrameResult parts = run(config);
+  CHECK(identical(parts.paths, whole.paths));
+  CHECK(parts.counts.candidates == whole.counts.candidates);
+}
+
 TEST_CASE("without reflections, and over heights of all kinds, edges are still heard") {
   const SceneFile file(two_boxes());
   Config config = town(file);

@@ -159,7 +159,7 @@ TEST_CASE("what cannot be a vertical plane says which and why") {
   CHECK(said("\"g\": z_max_m = 60 is below z_min_m = 70 (not given, they are those of the scene): exchange"));
   grid.z_min_m = 0;
   grid.step_m = 0.01;
-  CHECK(said("30000000 receivers in all grids, and 1000000 are the limit"));
+  CHECK(said("30000000 receivers in all grids, and 20000000 are the limit"));
   grid = {};
   grid.heights_m = {1, 2};
   CHECK(said("heights_m is a key of configuration files"));
@@ -179,14 +179,14 @@ TEST_CASE("what cannot be a grid says which and why") {
   Config config;
   config.receiver_grids = {grid_of(10, 0, 0, 1, 1)};
   CHECK(error_of(config, box_scene()).find("\"g\": x_max_m = 0 is below x_min_m = 10") != std::string::npos);
-  config.receiver_grids = {grid_of(0, 1001, 0, 1001, 1)};
-  CHECK(error_of(config, box_scene()).find("1002001 receivers in all grids, and 1000000 are the limit") !=
+  config.receiver_grids = {grid_of(0, 5000, 0, 4001, 1)};
+  CHECK(error_of(config, box_scene()).find("20005000 receivers in all grids, and 20000000 are the limit") !=
         std::string::npos);
   config.receiver_grids = {grid_of(0, 1000, 0, 1000, 1e-300)};
   CHECK(error_of(config, box_scene()).find("are the limit") != std::string::npos);
-  config.receiver_grids = {grid_of(0, 1000, 0, 1000, 1), grid_of(0, 1, 0, 1, 1)};
+  config.receiver_grids = {grid_of(0, 1, 0, 1, 1), grid_of(0, 5000, 0, 4000, 1)};
   config.receiver_grids[1].name = "h";
-  CHECK(error_of(config, box_scene()).find("\"h\": its cells of 1 m make 1000001 receivers") != std::string::npos);
+  CHECK(error_of(config, box_scene()).find("\"h\": its cells of 1 m make 20000001 receivers") != std::string::npos);
   config.receiver_grids = {grid_of(0, 1, 0, 1, 1), grid_of(5, 6, 0, 1, 1)};
   CHECK(error_of(config, box_scene()).find("a radio end of the name \"g/0,0\" exists already") != std::string::npos);
   config.receiver_grids.pop_back();

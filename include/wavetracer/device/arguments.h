@@ -257,6 +257,14 @@ typedef struct {
 } wt_path_groups_arguments;
 
 typedef struct {
+  double frequency_hz;
+  wt_uint link_count;
+  wt_uint row_capacity;
+  wt_uint values;   // fields of a row: 1, or 4 with antennas of two ports
+  wt_uint grouped;  // not 0: rows have waves (path_groups)
+} wt_link_sums_arguments;
+
+typedef struct {
   wt_uint visible_count;
   wt_uint visible_counter;  // its word in wt_counters, or WT_NONE
   wt_uint max_depth;

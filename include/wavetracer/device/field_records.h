@@ -115,6 +115,21 @@ typedef struct {
   wt_uint tx, rx;  // its link
 } wt_path_wave;
 
+// Sums over the paths of a link (link_sums.cl). Powers are |a|^2 of all pairs of ports.
+typedef struct {
+  double power;                                      // the sum over all paths, without phases
+  double grouped;                                    // the sum over waves; the fields of a wave are added first
+  double narrowband;                                 // the power of the sum of all fields
+  double mean_delay_s, rms_delay_s, rms_doppler_hz;  // weighted by power, rms about the mean; 0 without power
+  double direct;                                     // the power of the path without interactions
+  double found_powers[4], amplitude;                 // see powers and amplitude of MissedCounts (wavetracer/missed.hpp)
+  wt_uint kinds[5];                                  // numbers of paths by their kind
+  wt_uint found[4];                                  // see paths of MissedCounts
+  wt_uint near_edges;                                // the number of paths with WT_ROW_NEAR_EDGE
+  wt_uint paths;
+  wt_uint padding;
+} wt_link_sum;
+
 typedef struct {
   double position[3];  // in the coordinates of the file
   wt_uint surface, instance, interaction;
