@@ -166,8 +166,8 @@ void choose_areas(const SavedFrame& frame, double frequency_hz, const std::vecto
   add_areas(frame.paths, frequency_hz, cell_of, servers, map);
   if (left_out > least)
     map.notes.push_back(fmt::format(
-        "cell_mean_db and fading_db are those of the paths in paths.h5, where limits of output ([output] min_gain_db, "
-        "dynamic_range_db, max_paths_per_link) have left out up to {:.2g}% of the power of a cell",
+        "cell_mean_db and fading_db are those of the paths in paths.h5, where limits of output ([output] paths, min_gain_db, "
+        "dynamic_range_db, max_paths_per_link) have left out up to {:.3g}% of the power of a cell",
         100 * left_out));
 }
 

@@ -11,6 +11,7 @@
 #include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/solve_frame.hpp"
+#include "output/path_limits.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -70,6 +71,8 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   progress.line("writing to " + run.config.output.directory);
   Results results;
   results.totals = totals_of({&frame, 1});
+  if (const OutputConfig& output = run.config.output; limits_paths(output))
+    results.totals.left_out = left_out(frame, written_rows(frame.paths, output));
   results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
   results.links = statistics_of(run);
   return results;

@@ -16,8 +16,7 @@ FrameFiles::FrameFiles(const Run& run, const std::vector<std::filesystem::path>&
 
 void FrameFiles::add(const FrameResult& frame) {
   const std::vector<uint8_t> written = written_rows(frame.paths, run_.config.output);
-  const LeftOutPaths gone = frame.summed ? LeftOutPaths{frame.counts.paths, frame.summed->power, frame.summed->power}
-                                         : left_out(frame.paths, written, 0, frame.paths.size());
+  const LeftOutPaths gone = left_out(frame, written);
   if (gone.paths == 0 || frame.summed) {
     append(frame);
   } else {

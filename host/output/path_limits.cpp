@@ -99,6 +99,11 @@ std::vector<CarrierFields> select_rows(const std::vector<CarrierFields>& carrier
   return out;
 }
 
+LeftOutPaths left_out(const FrameResult& frame, std::span<const uint8_t> written) {
+  if (frame.summed) return {frame.counts.paths, frame.summed->power, frame.summed->power};
+  return left_out(frame.paths, written, 0, frame.paths.size());
+}
+
 LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end) {
   LeftOutPaths out;
   for (size_t row = first; row < end; ++row) {

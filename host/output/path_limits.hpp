@@ -29,5 +29,7 @@ std::vector<CarrierFields> select_rows(const std::vector<CarrierFields>& carrier
 
 // Returns the paths among rows first to end - 1 that are not written.
 LeftOutPaths left_out(const Paths& paths, std::span<const uint8_t> written, size_t first, size_t end);
+// Does the same for all paths of a frame; if the device has summed them, none is written.
+LeftOutPaths left_out(const FrameResult& frame, std::span<const uint8_t> written);
 
 }  // namespace wavetracer

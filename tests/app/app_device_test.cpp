@@ -99,6 +99,19 @@ TEST_CASE("a run writes three files and says what it found") {
   CHECK(lines_of(folder.path("out/links.csv")) == 2);
 }
 
+TEST_CASE("a run says which paths it leaves out of paths.h5, or that the device has summed all of them") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", street);
+  const auto out_of = [&](const char* limit) {
+    return run_program({"run", "-c", file, "-o", folder.path("out"), "--set", limit}).out;
+  };
+  CHECK(contains(out_of("output.paths=false"), "left out   all paths are summed in links.csv, and paths.h5 has none"));
+  CHECK(lines_of(folder.path("out/links.csv")) == 2);
+  CHECK(contains(out_of("output.max_paths_per_link=1"), "are not in paths.h5, as output.min_gain_db"));
+  CHECK_FALSE(contains(out_of("output.paths=true"), "left out "));
+}
+
 TEST_CASE("a run warns before it traces, and explains links without a path, on the terminal and in summary.json") {
   if (!device_present()) return;
   const Folder folder;
