@@ -64,7 +64,7 @@ std::array<Field, 3> height_fields() {
         .unit = "m",
         .range = places,
         .doc = "Instead of height_m: several heights, such as those of floors. Each makes a grid of its own, called "
-               "NAME@HEIGHT, such as rooms@4.5, and all count for the limit of a million receivers.",
+               "NAME@HEIGHT, such as rooms@4.5, and all count for the limit of receivers.",
         .example = "[1.5, 4.5, 7.5]"},
        {.name = "above",
         .slot = of_grid(&ReceiverGridConfig::above),
