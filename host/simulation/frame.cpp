@@ -72,6 +72,7 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   const LinkPart part = task.links();
   if (!part.is_all())
     block = make_link_block(out.world.links, part.transmitters(), part.receivers(),
+                            part.is_batch() && batches_share() ? Launching::all_receivers : Launching::own,
                             plan_.world.twins.receiver_of_transmitter, plan_.world.twins.transmitter_of_receiver,
                             plan_.origins);
   account.end_stage(Stage::poses);

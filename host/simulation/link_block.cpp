@@ -7,7 +7,7 @@
 
 namespace wavetracer {
 
-LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to,
+LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to, Launching launching,
                           std::span<const uint32_t> receiver_of_transmitter,
                           std::span<const uint32_t> transmitter_of_receiver, const Origins& origins) {
   LinkBlock block{{}, {}, std::vector<char>(origins.count(), 0), {}};
@@ -16,15 +16,18 @@ LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from,
     if (origin != no_end) block.launches[origin] = 1;
   };
   for (const Link& link : links) {
-    if (link.tx < from.first || link.tx >= from.end || link.rx < to.first || link.rx >= to.end) continue;
-    block.own.push_back(link);
-    own[link.rx] = 1;
-    block.solved.push_back(link);
+    const bool is_own = link.rx >= to.first && link.rx < to.end;
+    if (link.tx < from.first || link.tx >= from.end || (!is_own && launching == Launching::own)) continue;
+    if (is_own) {
+      block.own.push_back(link);
+      own[link.rx] = 1;
+      block.solved.push_back(link);
+    }
     launch(link.tx);
     launch(origins.origin_of_receiver[link.rx]);  // in paths that are met from both ends
     const Link twin{transmitter_of_receiver[link.rx], receiver_of_transmitter[link.tx]};
     if (twin.tx == no_end || twin.rx == no_end || !std::ranges::binary_search(links, twin)) continue;
-    block.solved.push_back(twin);
+    if (is_own) block.solved.push_back(twin);
     launch(twin.tx);
   }
   std::ranges::sort(block.solved);

@@ -24,8 +24,12 @@ struct LinkBlock {
   Listeners listeners;         // those of all origins, with the receivers of own links only
 };
 
+// The ends that launch in a block: those of its links, or those of all links of its transmitters, where other batches
+// of receivers use what they find.
+enum class Launching { own, all_receivers };
+
 // links: all links of the frame, sorted.
-LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to,
+LinkBlock make_link_block(const std::vector<Link>& links, TransmitterRange from, ReceiverRange to, Launching launching,
                           std::span<const uint32_t> receiver_of_transmitter,
                           std::span<const uint32_t> transmitter_of_receiver, const Origins& origins);
 

@@ -122,6 +122,33 @@ TEST_CASE("sums in batches of receivers are those of the whole frame, and rays a
   }
 }
 
+TEST_CASE("batches share rays where stations have links both ways, in blocks of transmitters, too") {
+  const SceneFile file(two_boxes());
+  Config config = map_over_boxes(file, 20000, 3, 3);
+  config.receiver_grids.clear();
+  config.receivers.clear();
+  for (int i = 0; i < 3; ++i) {
+    RadioEnd& station = config.stations.emplace_back(config.stations[0]);
+    station.name = "station " + std::to_string(i);
+    station.position_m[0] += 2.5 * (i + 1);
+    station.position_m[1] += 3.5 * i;
+  }
+  for (const bool diffraction : {false, true}) {
+    CAPTURE(diffraction);
+    config.trace.diffraction = diffraction;
+    config.trace.batch_receivers = {};
+    const Both whole = both(config);
+    CHECK(whole.paths.paths.size() > 30);
+    config.trace.batch_receivers = 1;
+    Simulation simulation(config, "");
+    simulation.sum_links(true);
+    check_figures(whole.paths, simulation.run_frame(0), config.radio.frequency_hz);
+    const uint64_t first = simulation.run_block(0, {0, 2}).counts.paths;
+    CHECK(first > 0);
+    CHECK(first + simulation.run_block(0, {2, no_end}).counts.paths == whole.paths.paths.size());
+  }
+}
+
 TEST_CASE("paths come again when sums are no longer asked for, and links without a path are explained alike") {
   const SceneFile file(two_boxes());
   Config config = map_over_boxes(file, 5000, 2, 2);
