@@ -12,14 +12,31 @@
 #include "passes/upload.hpp"
 
 namespace wavetracer {
+namespace {
+
+// The rows that a build of the kernel takes.
+enum class FieldRows { all, without_corners, listed };
+
+gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows rows) {
+  return {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
+          {"WT_CORNER_EDGES", tables.corners && rows != FieldRows::without_corners ? "1" : "0"},
+          {"WT_LISTED", rows == FieldRows::listed ? "1" : "0"},
+          {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
+          {"WT_SCATTERS", tables.scatters ? "1" : "0"},
+          {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
+          {"WT_LOSSES", tables.loses() ? "1" : "0"}};
+}
+
+}  // namespace
 
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
+    : Fields(context, tables, edges, origin_m, tuning_of(context.info()).corners_apart) {}
+
+Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m,
+               bool corners_apart)
     : context_(context),
-      kernel_(context, {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
-                        {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
-                        {"WT_SCATTERS", tables.scatters ? "1" : "0"},
-                        {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
-                        {"WT_LOSSES", tables.loses() ? "1" : "0"}}),
+      apart_(edges > 0 && tables.corners && corners_apart),
+      kernel_(context, build_of(tables, edges, apart_ ? FieldRows::without_corners : FieldRows::all)),
       work_(tuning_of(context.info()).exact),
       transmitters_(tables.transmitters),
       ports_(tables.ports),
@@ -42,6 +59,7 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
       samples_(context.buffer(tables.samples, "antenna patterns")),
       antennas_(context.buffer(tables.antennas, "antennas")),
       foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {
+  if (apart_) listed_kernel_ = {context, build_of(tables, edges, FieldRows::listed)};
   make_room(context_, rows_, 1 << 12, "path rows");
   make_room(context_, vertices_, 1 << 14, "path vertex rows");
 }
@@ -61,34 +79,41 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
   arguments_.max_depth = visible.max_depth;
-  kernel_(work_.range(rows.places), Stage::fields,
-          calls::fields::fields{.solved = visible.headers,
-                                .vertices = visible.vertices,
-                                .steps = visible.sequences,
-                                .transmitter_places = ends.transmitters,
-                                .receiver_places = ends.receivers,
-                                .receiver_of = distinct.receiver_of(),
-                                .transmitter_of = distinct.transmitter_of(),
-                                .rows = rows.rows,
-                                .delays = rows.delays,
-                                .quarters = rows.quarters,
-                                .before = rows.counts,
-                                .surfaces = scene.exact_surfaces,
-                                .materials_of = materials_of_,
-                                .materials = materials_,
-                                .wedges = wedges,
-                                .surface_of_tile = surface_of_tile_,
-                                .area_of_tile = area_of_tile_,
-                                .instances = scene.exact_instances,
-                                .transmitters = ends_[0],
-                                .receivers = ends_[1],
-                                .antennas = antennas_,
-                                .samples = samples_,
-                                .foliages = foliages_,
-                                .lengths_inside = lengths_inside,
-                                .out = rows_,
-                                .out_vertices = vertices_,
-                                .args = arguments_});
+  if (apart_) {
+    make_room(context_, listed_, rows.places + size_t{1}, "rows past corners");
+    const uint32_t none = 0;
+    context_.fill(listed_, &none, sizeof none, 0, sizeof none, Stage::fields);
+  }
+  const calls::fields::fields call{.solved = visible.headers,
+                                   .vertices = visible.vertices,
+                                   .steps = visible.sequences,
+                                   .transmitter_places = ends.transmitters,
+                                   .receiver_places = ends.receivers,
+                                   .receiver_of = distinct.receiver_of(),
+                                   .transmitter_of = distinct.transmitter_of(),
+                                   .rows = rows.rows,
+                                   .delays = rows.delays,
+                                   .quarters = rows.quarters,
+                                   .before = rows.counts,
+                                   .surfaces = scene.exact_surfaces,
+                                   .materials_of = materials_of_,
+                                   .materials = materials_,
+                                   .wedges = wedges,
+                                   .surface_of_tile = surface_of_tile_,
+                                   .area_of_tile = area_of_tile_,
+                                   .instances = scene.exact_instances,
+                                   .transmitters = ends_[0],
+                                   .receivers = ends_[1],
+                                   .antennas = antennas_,
+                                   .samples = samples_,
+                                   .foliages = foliages_,
+                                   .lengths_inside = lengths_inside,
+                                   .listed = apart_ ? &listed_ : nullptr,
+                                   .out = rows_,
+                                   .out_vertices = vertices_,
+                                   .args = arguments_};
+  kernel_(work_.range(rows.places), Stage::fields, call);
+  if (apart_) listed_kernel_(work_.range(rows.places), Stage::fields, call);
 }
 
 void Fields::make_host_rooms() {

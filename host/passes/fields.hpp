@@ -20,8 +20,10 @@ namespace wavetracer {
 class Fields {
  public:
   // edges: the most of a path; one, two and more edges each need a larger kernel. origin_m: that of recentred
-  // coordinates.
+  // coordinates. corners_apart: paths past corners have a launch of their own; the fields are the same.
   Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m);
+  Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m,
+         bool corners_apart);
 
   // Computes the rows, whose counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
   // lengths_inside: those of the visible paths, nullptr where there is no vegetation. most: the most rows and vertices
@@ -57,7 +59,8 @@ class Fields {
 
  private:
   gpu::Context& context_;
-  gpu::KernelOf<calls::fields::fields> kernel_;
+  bool apart_;  // paths past corners have a launch of their own, which takes them from a list
+  gpu::KernelOf<calls::fields::fields> kernel_, listed_kernel_;
   Work work_;
   uint32_t transmitters_;
   Ports ports_;
@@ -65,6 +68,7 @@ class Fields {
   gpu::Buffer<device::wt_material> materials_;
   gpu::Buffer<uint32_t> materials_of_, surface_of_tile_;
   gpu::Buffer<double> area_of_tile_, samples_;
+  gpu::Buffer<uint32_t> listed_;  // the number of listed rows, then their places
   gpu::Buffer<device::wt_antenna> antennas_;
   gpu::Buffer<device::wt_foliage> foliages_;
   gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers

@@ -27,7 +27,9 @@ struct SummedRows {
 
 class LinkSums {
  public:
-  LinkSums(gpu::Context& context, double frequency_hz, Ports ports);
+  // waves: rows have waves, as with diffraction. lanes: work-items of a link, 1 or 32; the sums are the same.
+  LinkSums(gpu::Context& context, double frequency_hz, Ports ports, bool waves);
+  LinkSums(gpu::Context& context, double frequency_hz, Ports ports, bool waves, uint32_t lanes);
   // links: the links that are summed, in any order. counters: has the numbers of rows and of their vertices.
   void operator()(const SummedRows& of, std::span<const Link> links, Counters& counters);
   // Returns a record for each link, which are there until the next call; waits for the device.
@@ -35,13 +37,15 @@ class LinkSums {
 
  private:
   gpu::Context& context_;
+  uint32_t lanes_;
   gpu::KernelOf<calls::link_sums::link_sums> kernel_;
-  Work work_;
+  uint32_t group_;
   wt_link_sums_arguments arguments_{};
   std::vector<uint32_t> link_words_;  // the words of links_
   gpu::Buffer<uint32_t> links_;
-  gpu::Buffer<uint64_t> keys_;
-  gpu::Buffer<double> sums_;
+  // With waves: keys and fields of rows, then those of the tables of links.
+  gpu::Buffer<uint64_t> entries_, keys_;
+  gpu::Buffer<double> fields_, sums_;
   gpu::Buffer<device::wt_link_sum> out_;
   gpu::HostMemory host_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "radio/air.hpp"
 #include "radio/antenna.hpp"
@@ -47,6 +48,10 @@ void add_cells(FieldTables& tables, const Scene& scene, double cell_m) {
   tables.cells = static_cast<uint32_t>(cells.size());
 }
 
+bool has_corners(const Scene& scene) {
+  return std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.exterior_rad < std::numbers::pi; });
+}
+
 }  // namespace
 
 FieldTables make_field_tables(const Scene& scene, const Config& config, std::span<const Scene> models,
@@ -65,6 +70,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   tables.volumes = volume_table(scene);
   tables.foliages = foliages_at(tables.volumes, scene, config.radio.frequency_hz);
   tables.edge_ends = std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.free_ends != 0; });
+  tables.corners = has_corners(scene) || std::ranges::any_of(models, has_corners);
   tables.scatters = config.trace.scattering;
   if (!tables.scatters) return tables;
   const TileTable tiles(scene, models, instances, config.trace.tile_m);

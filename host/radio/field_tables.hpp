@@ -31,6 +31,7 @@ struct FieldTables {
   uint32_t reflections = 0;    // the most of a path
   bool scatters = false;
   bool edge_ends = false;                    // edges with free ends diffract
+  bool corners = false;                      // edges with less than a half space around them diffract
   VolumeTable volumes;                       // volumes of vegetation
   std::vector<device::wt_foliage> foliages;  // kinds of vegetation
   device::wt_air air{};

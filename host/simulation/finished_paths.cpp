@@ -68,7 +68,7 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
       fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
   }
   if (rows == Rows::summed) {
-    if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_);
+    if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_, groups_.has_value());
     (*sums_)({fields_[0].rows(), fields_[0].vertices(), groups_ ? &groups_->waves() : nullptr,
               groups_ ? &groups_->shared() : nullptr, most.rows},
              own ? *own : world.links, counters);  // link_sums

@@ -1,78 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // link_sums: powers, delays and counts of the paths of each link, from the rows of a frame in their order (fields.cl)
 // and the waves that they belong to (path_groups.cl), so that the host need not read the rows of a map.
+// A link's rows are dealt out to PARTS parts, which are added in their order, so that one work-item or PARTS of them
+// may take a link and the sums have the same bits.
+#include "lib/link_waves.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/elementary.h"
-#include "wavetracer/device/field_records.h"
-#include "wavetracer/device/path_groups.h"
 #pragma OPENCL FP_CONTRACT OFF
-
-// Slots of the waves of one link, a hash table with room for the four waves of each of its rows. A key of 0 is an empty
-// slot; its lowest two bits say that there is a wave, and that a path without an edge belongs to it.
-#define SLOTS_OF_ROW 4u
-#define IS_WAVE 1ul
-#define IS_STRAIGHT 2ul
-
-typedef struct {
-  global ulong* keys;
-  global double2* sums;  // args.values fields of each slot
-  uint count, values;
-} wave_table;
-
-// Returns the slot of a wave, which is entered if it is new.
-inline uint slot_of(const wave_table* table, ulong key) {
-  const ulong wanted = (key & ~3ul) | IS_WAVE;
-  uint at = (uint)(key % table->count);
-  while (table->keys[at] != 0 && (table->keys[at] & ~IS_STRAIGHT) != wanted) at = at + 1 == table->count ? 0 : at + 1;
-  if (table->keys[at] == 0) table->keys[at] = wanted;
-  return at;
-}
-
-// Adds the fields of a path, with their phases, to its waves. A second straight path of the same steps is a wave of its
-// own (host/radio/group_numbers.cpp has the same rule).
-inline void add_to_waves(const wave_table* table, const global wt_path_wave* own, const global wt_path_waves* shared,
-                         uint row, const double2* fields) {
-  int is_twin = 0;
-  if (!own->bends) {
-    const uint at = slot_of(table, own->key);
-    is_twin = (table->keys[at] & IS_STRAIGHT) != 0;
-    table->keys[at] |= IS_STRAIGHT;
-  }
-  const int alone = own->shared == WT_ONE_WAVE;
-  const uint count = alone ? 1 : shared[own->shared].count;
-  for (uint i = 0; i < count; ++i) {
-    const ulong key = alone ? own->key : shared[own->shared].keys[i];
-    const double weight = alone ? 1.0 : shared[own->shared].weights[i];
-    global double2* to = table->sums + (size_t)table->values * slot_of(table, is_twin ? wt_mixed(key, row) : key);
-    for (uint k = 0; k < table->values; ++k) to[k] += weight * fields[k];
-  }
-}
-
-inline double power_of_waves(const wave_table* table) {
-  double power = 0.0;
-  for (uint at = 0; at < table->count; ++at) {
-    if (table->keys[at] == 0) continue;
-    for (uint k = 0; k < table->values; ++k) {
-      const double2 a = table->sums[(size_t)table->values * at + k];
-      power += a.x * a.x + a.y * a.y;
-    }
-  }
-  return power;
-}
 
 inline int is_of(const global wt_path_row* row, uint2 link) { return row->tx == link.x && row->rx == link.y; }
 
-// The first of the rows whose link is not before this one.
-inline uint first_row(const global wt_path_row* rows, uint count, uint2 link) {
-  uint low = 0, high = count;
+// The first of rows low to high - 1 whose link is not before this one; high if there is none.
+inline uint first_row(const global wt_path_row* rows, uint low, uint high, uint2 link) {
   while (low < high) {
-    const uint middle = (low + high) / 2;
+    const uint middle = low + (high - low) / 2;
     if (rows[middle].tx < link.x || (rows[middle].tx == link.x && rows[middle].rx < link.y))
       low = middle + 1;
     else
       high = middle;
   }
   return low;
+}
+
+// The row after the last one of a link. Looks in larger and larger steps: most links have few rows, some thousands.
+inline uint end_row(const global wt_path_row* rows, uint first, uint count, uint2 link) {
+  uint low = first, step = 1;
+  for (; step <= count - low && is_of(rows + low + step - 1, link); step *= 2) low += step;
+  return first_row(rows, low, min(step, count - low) + low, link + (uint2)(0, 1));
 }
 
 inline double power_of_row(const global wt_path_row* row) {
@@ -107,60 +61,140 @@ inline void carrier_fields(const global wt_path_row* row, double frequency_hz, u
   }
 }
 
-// Deviations from the means, and the powers of all fields together and of waves.
-inline void finish(wt_link_sum* sum, const global wt_path_row* rows, uint first, uint end, const double2* response,
-                   uint values) {
-  for (uint k = 0; k < values; ++k) sum->narrowband += response[k].x * response[k].x + response[k].y * response[k].y;
-  if (!(sum->power > 0.0)) return;
-  sum->mean_delay_s /= sum->power;
-  const double mean_hz = sum->rms_doppler_hz / sum->power;
-  double delays = 0.0, shifts = 0.0;
-  for (uint i = first; i < end; ++i) {
-    const double share = power_of_row(rows + i) / sum->power;
-    const double late = rows[i].delay_s - sum->mean_delay_s, shift = rows[i].doppler_hz - mean_hz;
-    delays += share * late * late;
-    shifts += share * shift * shift;
-  }
-  sum->rms_delay_s = sqrt(delays);
-  sum->rms_doppler_hz = sqrt(shifts);
+// The sums over some rows of a link; response: the sums of their fields at the carrier.
+typedef struct {
+  wt_link_sum sum;
+  double2 response[4];
+} link_part;
+
+inline link_part no_rows(void) {
+  link_part part = {
+      {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}, 0.0, {0, 0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0, 0},
+      {(double2)(0.0), (double2)(0.0), (double2)(0.0), (double2)(0.0)}};
+  return part;
 }
 
-// One link per work-item. keys, sums: SLOTS_OF_ROW slots for each row, all 0; waves, shared: null where all paths are
-// waves of their own (args.grouped is 0).
+// The rows of a frame, and of them those of a link.
+typedef struct {
+  const global wt_path_row* rows;
+  const global wt_vertex_row* vertices;
+  uint count, vertex_count, first, end;
+} link_rows;
+
+inline void add_row(link_part* part, const link_rows* of, uint at, double2* fields, uint values) {
+  const global wt_path_row* row = of->rows + at;
+  wt_link_sum* sum = &part->sum;
+  const double power = power_of_row(row);
+  const uint last = at + 1 < of->count ? row[1].first_vertex : of->vertex_count;
+  sum->power += power;
+  sum->mean_delay_s += power * row->delay_s;
+  sum->rms_doppler_hz += power * row->doppler_hz;
+  ++sum->kinds[kind_of(of->vertices, row->first_vertex, last)];
+  if (row->first_vertex == last)
+    sum->direct += power;
+  else
+    count_found(sum, row->quarters, power);
+  sum->near_edges += (row->quarters & WT_ROW_NEAR_EDGE) != 0;
+  for (uint k = 0; k < values; ++k) part->response[k] += fields[k];
+}
+
+// The sums of a part; its rows' fields and entries are written if waves count.
+inline link_part sums_of_part(const link_rows* of, uint part, const link_waves* waves, wt_link_sums_arguments args) {
+  link_part out = no_rows();
+  double2 fields[4];
+  for (uint row = of->first + part; row < of->end; row += PARTS) {
+    carrier_fields(of->rows + row, args.frequency_hz, args.values, fields);
+    add_row(&out, of, row, fields, args.values);
+    if (!args.grouped) continue;
+    for (uint k = 0; k < args.values; ++k) waves->fields[args.values * (size_t)row + k] = fields[k];
+    write_entries(waves, of->first, row);
+  }
+  return out;
+}
+
+inline void add_part(LINK_SPACE link_part* to, LINK_SPACE const link_part* part) {
+  to->sum.power += part->sum.power;
+  to->sum.mean_delay_s += part->sum.mean_delay_s;
+  to->sum.rms_doppler_hz += part->sum.rms_doppler_hz;
+  to->sum.direct += part->sum.direct;
+  to->sum.amplitude += part->sum.amplitude;
+  for (uint k = 0; k < 4; ++k) to->sum.found[k] += part->sum.found[k];
+  for (uint k = 0; k < 4; ++k) to->sum.found_powers[k] += part->sum.found_powers[k];
+  for (uint k = 0; k < 5; ++k) to->sum.kinds[k] += part->sum.kinds[k];
+  to->sum.near_edges += part->sum.near_edges;
+  for (uint k = 0; k < 4; ++k) to->response[k] += part->response[k];
+}
+
+// The squares of the deviations of delays (x) and Doppler shifts (y) from their means, weighted by power. mean: the
+// mean delay and the mean shift.
+inline double2 deviations_of_part(const link_rows* of, uint part, double2 mean, double power) {
+  double2 out = (double2)(0.0);
+  for (uint row = of->first + part; row < of->end; row += PARTS) {
+    const double2 off = (double2)(of->rows[row].delay_s, of->rows[row].doppler_hz) - mean;
+    out += off * off * (power_of_row(of->rows + row) / power);
+  }
+  return out;
+}
+
+// Sets means and the power of all fields together.
+inline void finish(LINK_SPACE link_part* all, const link_rows* of, uint values) {
+  LINK_SPACE wt_link_sum* sum = &all->sum;
+  sum->paths = of->end - of->first;
+  for (uint k = 0; k < values; ++k) {
+    const double2 a = all->response[k];
+    sum->narrowband += a.x * a.x + a.y * a.y;
+  }
+  if (sum->power > 0.0) {
+    sum->mean_delay_s /= sum->power;
+    sum->rms_doppler_hz /= sum->power;
+  }
+}
+
+// WT_LANES work-items take a link. waves, shared and what follows up to `sums`: null where all paths are waves of their
+// own (args.grouped is 0), else as link_waves has them.
 kernel void link_sums(const global uint2* links, const global wt_path_row* rows, const global wt_vertex_row* vertices,
-                      const global wt_path_wave* waves, const global wt_path_waves* shared, global ulong* keys,
-                      global double2* sums, global wt_link_sum* out, const global wt_counters* counters,
-                      wt_link_sums_arguments args) {
-  const uint i = get_global_id(0);
+                      const global wt_path_wave* waves, const global wt_path_waves* shared, global ulong* entries,
+                      global double2* fields, global ulong* keys, global double2* sums, global wt_link_sum* out,
+                      const global wt_counters* counters, wt_link_sums_arguments args) {
+  const uint i = get_global_id(0) / WT_LANES, lane = wt_lane();
   if (i >= args.link_count) return;
   const uint2 link = links[i];
-  const uint count = min(counters->rows, args.row_capacity), first = first_row(rows, count, link);
-  uint end = first;
-  while (end < count && is_of(rows + end, link)) ++end;
-  const size_t slots = (size_t)first * SLOTS_OF_ROW;
-  const wave_table table = {keys + slots, sums + slots * args.values, (end - first) * SLOTS_OF_ROW, args.values};
-  wt_link_sum sum = {0.0,          0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}, 0.0, {0, 0, 0, 0, 0},
-                     {0, 0, 0, 0}, 0,   0,   0};
-  double2 response[4] = {(double2)(0.0), (double2)(0.0), (double2)(0.0), (double2)(0.0)}, fields[4];
-  for (uint row = first; row < end; ++row) {
-    const double power = power_of_row(rows + row);
-    const uint last = row + 1 < count ? rows[row + 1].first_vertex : counters->row_vertices;
-    const uint kind = kind_of(vertices, rows[row].first_vertex, last);
-    sum.power += power;
-    sum.mean_delay_s += power * rows[row].delay_s;
-    sum.rms_doppler_hz += power * rows[row].doppler_hz;
-    ++sum.kinds[kind];
-    if (rows[row].first_vertex == last)
-      sum.direct += power;
-    else
-      count_found(&sum, rows[row].quarters, power);
-    sum.near_edges += (rows[row].quarters & WT_ROW_NEAR_EDGE) != 0;
-    carrier_fields(rows + row, args.frequency_hz, args.values, fields);
-    for (uint k = 0; k < args.values; ++k) response[k] += fields[k];
-    if (args.grouped) add_to_waves(&table, waves + row, shared, row, fields);
+  link_rows of = {rows, vertices, min(counters->rows, args.row_capacity), counters->row_vertices, 0, 0};
+  of.first = first_row(rows, 0, of.count, link);
+  of.end = end_row(rows, of.first, of.count, link);
+  const link_waves grouped = {waves, shared, entries, fields, keys, sums, args.values};
+  const uint parts = min(PARTS, of.end - of.first);
+  LINK_SPACE link_part part[PARTS], all[1];
+  LINK_SPACE double2 deviations[PARTS];
+  LINK_SPACE double powers[PARTS];
+  LINK_SPACE uint starts[PARTS + 1];
+
+  for (uint p = lane; p < parts; p += WT_LANES) part[p] = sums_of_part(&of, p, &grouped, args);
+  for (uint p = lane; args.grouped && p <= PARTS; p += WT_LANES) starts[p] = 0;
+  WT_SYNC();
+  if (lane == 0) {
+    all[0] = no_rows();
+    for (uint p = 0; p < parts; ++p) add_part(all, part + p);
+    finish(all, &of, args.values);
   }
-  sum.paths = end - first;
-  finish(&sum, rows, first, end, response, args.values);
-  sum.grouped = args.grouped ? power_of_waves(&table) : sum.power;
+  if (args.grouped) count_entries(&grouped, of.first, of.end, starts);
+  WT_SYNC();
+  const double2 mean = (double2)(all->sum.mean_delay_s, all->sum.rms_doppler_hz);
+  for (uint p = lane; p < parts; p += WT_LANES) deviations[p] = deviations_of_part(&of, p, mean, all->sum.power);
+  if (args.grouped && lane == 0) place_tables(of.end - of.first, starts);
+  WT_SYNC();
+  if (args.grouped) {
+    add_entries(&grouped, of.first, of.end, starts);
+    for (uint p = lane; p < PARTS; p += WT_LANES) powers[p] = power_of_owner(&grouped, of.first, p, starts);
+  }
+  WT_SYNC();
+  if (lane != 0) return;
+  wt_link_sum sum = all->sum;
+  double2 squares = (double2)(0.0);
+  for (uint p = 0; p < parts; ++p) squares += deviations[p];
+  sum.rms_delay_s = sum.power > 0.0 ? sqrt(squares.x) : 0.0;
+  sum.rms_doppler_hz = sum.power > 0.0 ? sqrt(squares.y) : 0.0;
+  sum.grouped = args.grouped ? 0.0 : sum.power;
+  for (uint p = 0; args.grouped && p < PARTS; ++p) sum.grouped += powers[p];
   out[i] = sum;
 }

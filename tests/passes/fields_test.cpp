@@ -23,9 +23,10 @@ namespace {
 constexpr double light_m_s = 299792458.0, frequency_hz = 5.9e9, carrier_wave_m = light_m_s / frequency_hz;
 constexpr uint32_t most_steps = 3;
 enum FieldSurface : uint32_t { ground, conducting_wall, screen };
+constexpr uint32_t corner = 4;  // a wedge
 
 // A ground of concrete without end below, a perfect conductor at y = 8, and a screen of concrete at x = 10, 3 m high,
-// whose upper edge is wedge 2.
+// whose upper edge is wedge 2. Ground and conductor meet in a corner, the last wedge.
 Scene ground_wall_and_screen() {
   const std::vector<reference::Quad> quads{{{-100, -100, 0}, {200, 0, 0}, {0, 200, 0}},
                                            {{-100, 8, 0}, {200, 0, 0}, {0, 0, 50}},
@@ -37,6 +38,14 @@ Scene ground_wall_and_screen() {
   scene.materials[conducting_wall] = {.name = "conductor", .a = 1, .c = 1e35};
   for (uint32_t surface = 0; surface < 3; ++surface) scene.surfaces[surface].material = surface;
   scene.wedges = reference::free_wedges(quads[screen], screen);
+  scene.wedges.push_back({.start = {100, 8, 0},
+                          .along = {-1, 0, 0},
+                          .length_m = 200,
+                          .face = {0, -1, 0},
+                          .normal = {0, 0, 1},
+                          .exterior_rad = std::numbers::pi / 2,
+                          .surface = {ground, conducting_wall},
+                          .plane = {ground, conducting_wall}});
   scene.origin_m = {1000, 2000, 300};
   return scene;
 }
@@ -118,12 +127,24 @@ Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, c
   const Distinct distinct(context(), receiver_of, transmitter_of);
   const RadioEnds ends = make_radio_ends(context(), world.state.transmitters, world.state.receivers, {});
   const SolvedList visible = upload_rows(world.rows, most_steps);
-  Fields fields(context(), make_field_tables(world.scene, world.config), 1, world.scene.origin_m);
-  fields(scene, &wedges.list().wedges, ends, world.state, visible, nullptr, distinct, list, count);
+  const FieldTables tables = make_field_tables(world.scene, world.config);
+  CHECK(tables.corners);
+  const auto computed = [&](bool apart) {
+    Fields fields(context(), tables, 1, world.scene.origin_m, apart);
+    fields(scene, &wedges.list().wedges, ends, world.state, visible, nullptr, distinct, list, count);
+    return fields;
+  };
+  Fields together = computed(false);
+  together.begin_read(5, count);
+  together.size_room();
+  context().finish();
+  const Paths all_together = together.columns(count);
+  Fields fields = computed(true);
   fields.begin_read(5, {count.rows / 2, count.vertices / 2});  // the rest is read once their number is known
   fields.size_room();
   context().finish();
   Paths paths = fields.columns(count);
+  CHECK(same_columns(paths, all_together));
   for (const uint32_t expected : {count.rows, count.rows + count.rows / 8}) {  // in parts, if there are many
     fields.begin_read(5, {expected, count.vertices + 7});
     fields.size_room();
@@ -154,15 +175,19 @@ std::array<std::complex<double>, 2> fresnel(double cosine) {
   return {(cosine - root) / (cosine + root), (e * cosine - root) / (e * cosine + root)};
 }
 
-// One path of each kind: in sight, reflected by the ground, by the wall and by both, through the screen, and over it.
+// One path of each kind: in sight, reflected by the ground, by the wall and by both, through the screen, over it, and
+// past the corner, at whose edge both legs make one angle.
 std::vector<PathRow> path_of_each_kind() {
+  const double from_corner_m = std::hypot(4, 2), to_corner_m = std::hypot(6, 4);
+  const double corner_x = -30 + 24 * from_corner_m / (from_corner_m + to_corner_m);
   return {field_row({-30, 0, 2}, {6, 0, 5}, {}, {}),
           field_row({-30, 0, 2}, {-6, 0, 4}, {WT_STEP_REFLECTION | ground}, {{-22, 0, 0}}),
           field_row({-30, 4, 2}, {-6, 2, 2}, {WT_STEP_REFLECTION | conducting_wall}, {{-20.4, 8, 2}}),
           field_row({-30, 4, 2}, {-6, 2, 4}, {WT_STEP_REFLECTION | ground, WT_STEP_REFLECTION | conducting_wall},
                     {{-22, 22.0 / 3, 0}, {-20.4, 8, 0.4}}),
           field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_TRANSMISSION | screen}, {{10, 0, 2}}),
-          field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_DIFFRACTION | 2}, {{10, 0, 3}})};
+          field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_DIFFRACTION | 2}, {{10, 0, 3}}),
+          field_row({-30, 4, 2}, {-6, 2, 4}, {WT_STEP_DIFFRACTION | corner}, {{corner_x, 8, 0}})};
 }
 
 }  // namespace
@@ -203,11 +228,12 @@ TEST_CASE("fields: the ground reflects by Fresnel's coefficients, and a conducto
   CHECK(std::abs(paths.a[1][1]) + std::abs(paths.a[1][2]) < 1e-15);
   const double off_wall = carrier_wave_m / (4 * std::numbers::pi * world.length_m(2));
   CHECK(paths.gain_db[2] == within(20 * std::log10(off_wall) + 10 * std::log10(2.0), 1e-12));
-  CHECK(paths.vertex_offset == std::vector<uint64_t>{0, 0, 1, 2, 4, 5, 6});
-  CHECK(paths.vertex_surface == std::vector<uint32_t>{ground, conducting_wall, ground, conducting_wall, screen, 2});
+  CHECK(paths.vertex_offset == std::vector<uint64_t>{0, 0, 1, 2, 4, 5, 6, 7});
+  CHECK(paths.vertex_surface ==
+        std::vector<uint32_t>{ground, conducting_wall, ground, conducting_wall, screen, 2, corner});
   CHECK(paths.vertex_position_m[0] == world.rows[1].points[0] + world.scene.origin_m);
   CHECK(paths.vertex_interaction ==
-        std::vector<uint8_t>{reflection, reflection, reflection, reflection, transmission, diffraction});
+        std::vector<uint8_t>{reflection, reflection, reflection, reflection, transmission, diffraction, diffraction});
 }
 
 TEST_CASE("fields: every column is the host's to the last bit, for each kind of interaction and antenna") {

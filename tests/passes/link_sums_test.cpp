@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "passes/on_device.hpp"
@@ -88,7 +89,8 @@ Rows random_rows(const std::vector<Link>& links, Ports ports, uint32_t most, Ran
   return out;
 }
 
-std::vector<device::wt_link_sum> on_device(const Rows& of, const std::vector<Link>& links, Ports ports, bool grouped) {
+std::vector<device::wt_link_sum> on_device(const Rows& of, const std::vector<Link>& links, Ports ports, bool grouped,
+                                           uint32_t lanes) {
   const auto count = static_cast<uint32_t>(of.rows.size());
   const auto buffer = [](const auto& records, const char* name) {
     auto filled = records;
@@ -103,7 +105,7 @@ std::vector<device::wt_link_sum> on_device(const Rows& of, const std::vector<Lin
   counters.zero();
   counters.restart(&wt_counters::rows, count, Stage::fields);
   counters.restart(&wt_counters::row_vertices, static_cast<uint32_t>(of.vertices.size()), Stage::fields);
-  LinkSums pass(context(), carrier_hz, ports);
+  LinkSums pass(context(), carrier_hz, ports, grouped, lanes);
   pass({rows, vertices, grouped ? &waves : nullptr, grouped ? &shared : nullptr, count}, links, counters);
   const auto sums = pass.read();
   return {sums.begin(), sums.end()};
@@ -127,8 +129,10 @@ void check_near(double found, double wanted, double tolerance) {
 }
 
 void check(const Rows& rows, const std::vector<Link>& links, Ports ports, bool grouped) {
-  const std::vector<device::wt_link_sum> sums = on_device(rows, links, ports, grouped);
+  const std::vector<device::wt_link_sum> sums = on_device(rows, links, ports, grouped, 1);
   REQUIRE(sums.size() == links.size());
+  const std::vector<device::wt_link_sum> shared = on_device(rows, links, ports, grouped, 32);
+  CHECK(std::memcmp(sums.data(), shared.data(), sums.size() * sizeof sums[0]) == 0);
   const SummedPaths found = summed_paths(sums, 0, links, true);
   const Paths paths = paths_of(rows, ports, grouped);
   const std::vector<LinkFigures> wanted = link_figures(paths, 0, links, carrier_hz);
@@ -193,5 +197,5 @@ TEST_CASE("links without any path, a frame without any, and a link of a thousand
   check(random_rows({{0, 3}}, {1, 1}, 1, random), all_links(1, 9), {1, 1}, true);
   for (int tries = 0; tries < 4; ++tries)
     check(random_rows({{1, 2}}, {2, 2}, 1000, random), all_links(3, 4), {2, 2}, true);
-  CHECK(on_device({}, {}, {1, 1}, true).empty());
+  CHECK(on_device({}, {}, {1, 1}, true, 1).empty());
 }

@@ -13,6 +13,14 @@
 namespace wavetracer::device {
 #endif
 
+// A device need not compile code for more diffractions of a path than there are.
+#ifndef WT_DIFFRACTS
+#define WT_DIFFRACTS 8
+#endif
+
+// The room for the edges of a path. One edge can stay in registers.
+#define WT_EDGE_ROOM (WT_DIFFRACTS == 1 ? 1u : WT_MOST_EDGES)
+
 // A diffraction of the path.
 typedef struct {
   wt_uint at;  // the number of its vertex
@@ -43,14 +51,14 @@ inline wt_double3 wt_face_normal(const wt_wedge_frame* frame, int face) {
   return frame->face * turn.y - frame->normal * turn.x;
 }
 
-// Finds the edges of the path, at most WT_MOST_EDGES. Returns their number.
+// Finds the edges of the path, at most WT_EDGE_ROOM. Returns their number.
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
   wt_uint count = 0;
   wt_walk_leg leg = wt_first_leg(path);
   double since_m = leg.length_m, path_m = 0.0;
   for (wt_uint k = 0; k < path->depth; ++k) {
     const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
-    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < WT_MOST_EDGES) {
+    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < WT_EDGE_ROOM) {
       if (count > 0) edges[count - 1].after_m = since_m;
       const WT_GLOBAL wt_wedge* wedge = world->wedges + wt_number(path, k);
       wt_edge* edge = edges + count++;
@@ -73,6 +81,13 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
   for (wt_uint i = 0; i < count; ++i) path_m += edges[i].before_m;
   for (wt_uint i = 0; i < count; ++i) edges[i].path_m = path_m + since_m;
   return count;
+}
+
+// Is one of the edges of the path a corner, with less than a half space around it?
+inline int wt_passes_corner(const wt_field_world* world, const wt_path* path) {
+  for (wt_uint k = 0; k < path->depth; ++k)
+    if (wt_kind(path, k) == WT_STEP_DIFFRACTION && world->wedges[wt_number(path, k)].exterior < WT_PI) return 1;
+  return 0;
 }
 
 // Is the path outside of the theory, which holds for short waves? It holds if edges are about a wavelength long and

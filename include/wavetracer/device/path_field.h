@@ -10,9 +10,6 @@
 #include "wavetracer/device/path_vertex.h"
 
 // A device need not compile code for things that the scene does not have.
-#ifndef WT_DIFFRACTS  // the most diffractions of a path
-#define WT_DIFFRACTS 8
-#endif
 #ifndef WT_LOSSES
 #define WT_LOSSES 1
 #endif
@@ -129,7 +126,7 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 // Goes over all vertices. A wave along an edge is lost: no single point diffracts it. Returns wt_is_near_edge.
 inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                        double length_m, wt_wave* wave) {
-  wt_edge edges[WT_MOST_EDGES];
+  wt_edge edges[WT_EDGE_ROOM];
   const wt_uint count = wt_edges_of(world, path, edges);
   const wt_edge_ends ends = wt_ends_of(world, path, edges, count);
   const int turns = wt_turns_at_all(edges, count);

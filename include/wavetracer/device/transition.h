@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
+// The transition function of the uniform theory of diffraction, with a relative error below 1e-14.
 // g(s) = sqrt(pi) exp(j pi / 4) erfcx(u) at u = exp(j pi / 4) s, where erfcx(u) = exp(u^2) erfc(u) is the scaled
-// complement.
-// Three expansions of it meet at s = 3 and s = 8, where both neighbours have all digits. Most edges are far from their
-// shadow boundaries, beyond 8, and there a few multiplications suffice. Numbers of formulas are those of M. Abramowitz
-// and I. Stegun.
+// complement (M. Abramowitz and I. Stegun, 7.1). One polynomial serves all arguments, without branches: neighbours on a
+// GPU are at different distances from their shadow boundaries, and would wait for each other.
 #ifndef WAVETRACER_DEVICE_TRANSITION_H
 #define WAVETRACER_DEVICE_TRANSITION_H
 #include "wavetracer/device/complex.h"
@@ -16,59 +14,44 @@ namespace wavetracer::device {
 #define WT_INV_SQRT_PI 0.56418958354775628695
 #define WT_EIGHTH_TURN WT_DOUBLE2(0.70710678118654752440, 0.70710678118654752440)
 
-// The quotient of a real number and a complex one.
-inline wt_double2 wt_real_over(double a, wt_double2 b) { return WT_DOUBLE2(b.x, -b.y) * (a / wt_norm(b)); }
-
-// Formula 7.1.6: exp(u^2) erf(u) = 2 / sqrt(pi) times the sum of 2^k u^(2k+1) / (2k+1)!!. Since u^2 = j s^2, each term
-// is real or imaginary, apart from the factor u.
-inline wt_double2 wt_erfcx_by_series(wt_double2 u, double s) {
-  const double step = 2.0 * s * s;
-  double real = 1.0, imag = 0.0, term = 1.0;
-  for (double odd = 3.0; term > 1e-18; odd += 8.0) {
-    imag += term *= step / odd;
-    real -= term *= step / (odd + 2.0);
-    imag -= term *= step / (odd + 4.0);
-    real += term *= step / (odd + 6.0);
-  }
-  return wt_cos_sin(s * s) - wt_times(u, WT_DOUBLE2(real, imag)) * (2.0 * WT_INV_SQRT_PI);
-}
-
-// Formula 7.1.14: sqrt(pi) erfcx(u) = 1 / (u + (1/2) / (u + 1 / (u + (3/2) / (u + ...)))). Numerator and denominator
-// are computed from the head, x(k+1) = u x(k) + k / 2 x(k-1), so there is one division.
-inline wt_double2 wt_erfcx_by_fraction(wt_double2 u) {
-  wt_double2 above = wt_real(1.0), above_before = wt_real(0.0), below = u, below_before = wt_real(1.0);
-  for (int k = 1; k <= 60; ++k) {
-    const wt_double2 next_above = wt_times(u, above) + above_before * (0.5 * k);
-    const wt_double2 next_below = wt_times(u, below) + below_before * (0.5 * k);
-    above_before = above;
-    below_before = below;
-    above = next_above;
-    below = next_below;
-  }
-  return wt_over(above, below) * WT_INV_SQRT_PI;
-}
-
-// Formula 7.1.23: sqrt(pi) u erfcx(u) ~ 1 - 1 / (2 u^2) + 1 * 3 / (2 u^2)^2 - ...; u^2 = j s^2, so the terms shrink
-// until the s^2-th, which is of the size exp(-s^2).
-inline wt_double2 wt_erfcx_far(wt_double2 u, double s) {
-  const double step = 1.0 / (2.0 * s * s);
-  double real = 1.0, imag = 0.0, term = 1.0;  // each term is j / (2 s^2) times its odd number times the one before
-  for (int k = 1; term > 1e-17; k += 8) {
-    imag += term *= k * step;
-    real -= term *= (k + 2) * step;
-    imag -= term *= (k + 4) * step;
-    real += term *= (k + 6) * step;
-  }
-  return wt_times(WT_DOUBLE2(real, imag), wt_real_over(WT_INV_SQRT_PI, u));
-}
+// (3 + s) g(s) is smooth in t = (3 - s) / (3 + s), from t = 1 where s is 0 down to -1 where s is infinite. This is its
+// Chebyshev interpolation at 39 nodes, computed with 40 digits and written in powers of t. Row i has the real and the
+// imaginary coefficient of t^(2 i), then those of t^(2 i + 1).
+#define WT_TRANSITION_ROWS 20
+WT_NUMBERS double wt_transition_rows[WT_TRANSITION_ROWS][4] = {
+    {1.9830733377243746, 0.10669900108777697, 1.8580907014355121, 0.5026608408346738},
+    {1.4280583748498394, 1.1376667704406853, 0.5300926656766637, 1.6324977195978718},
+    {-0.6569152223134492, 1.4737831225159412, -1.457804412013925, 0.440525628100681},
+    {-1.1326594544229034, -0.8965589833221561, 0.20753359332475382, -1.361206954709343},
+    {1.2633685790377727, -0.3765459248199958, 0.7798794505175265, 0.9985834008729174},
+    {-0.6839805658891505, 1.0125045878978367, -1.1165527532154866, -0.38713714733794563},
+    {0.13867673518559584, -1.1374677369171446, 1.1121717255694414, -0.05320149093000073},
+    {0.19118924154809802, 1.067205404831841, -1.0182261468867857, 0.283205003507769},
+    {-0.3357903663773856, -0.9766095995857886, 0.941536994050512, -0.359293353669325},
+    {0.3530484470232748, 0.9230753444660607, -0.8999675753881587, 0.33448733769753675},
+    {-0.2855489074560882, -0.9020628897956902, 0.8663666628221497, -0.24834402069526373},
+    {0.16815875593109292, 0.8785109872401857, -0.7967265261071209, 0.13821712698601532},
+    {-0.04109334242352814, -0.8084347952087262, 0.6601703936557377, -0.04200549049741505},
+    {-0.05290143859861594, 0.6657481342627571, -0.46675040407211105, -0.01402198382747056},
+    {0.08859768507760182, -0.466434165975329, 0.2674712427827904, 0.02823927971204654},
+    {-0.07410694755525583, 0.26473597899564394, -0.11753030266164342, -0.019424895057357772},
+    {0.040593906430291656, -0.11528973143906772, 0.03680688445848235, 0.007815540261653535},
+    {-0.014682259402051133, 0.035820136407267014, -0.007268299992269085, -0.001814707415840318},
+    {0.0032062543893291396, -0.007025302257269184, 0.0006773120171826653, 0.00018937254204749854},
+    {-0.0003216067855933954, 0.0006508671484235586, 0.0, 0.0}};
 
 // g(s) = 2j exp(j s^2) times the integral of exp(-j t^2) from s to infinity, s >= 0. It is finite at 0, and 1 / s for
 // large s.
-WT_CALLED wt_double2 wt_transition_over_root(double s) {
-  const wt_double2 front = WT_EIGHTH_TURN * (1.0 / WT_INV_SQRT_PI), u = WT_EIGHTH_TURN * s;
-  if (s == 0.0) return front;
-  if (s < 3.0) return wt_times(front, wt_erfcx_by_series(u, s));
-  return wt_times(front, s < 8.0 ? wt_erfcx_by_fraction(u) : wt_erfcx_far(u, s));
+inline wt_double2 wt_transition_over_root(double s) {
+  const double t = (3.0 - s) / (3.0 + s), w = t * t;
+  double even_real = 0.0, even_imag = 0.0, odd_real = 0.0, odd_imag = 0.0;
+  for (int i = WT_TRANSITION_ROWS - 1; i >= 0; --i) {
+    even_real = fma(even_real, w, wt_transition_rows[i][0]);
+    even_imag = fma(even_imag, w, wt_transition_rows[i][1]);
+    odd_real = fma(odd_real, w, wt_transition_rows[i][2]);
+    odd_imag = fma(odd_imag, w, wt_transition_rows[i][3]);
+  }
+  return WT_DOUBLE2(fma(t, odd_real, even_real), fma(t, odd_imag, even_imag)) / (3.0 + s);
 }
 
 // g of any argument: the integral over the whole line less that beyond -s.

@@ -12,6 +12,11 @@
 namespace wavetracer::device {
 #endif
 
+// A device need not compile code for corners, edges with less than a half space around them, where there are none.
+#ifndef WT_CORNER_EDGES
+#define WT_CORNER_EDGES 1
+#endif
+
 #define WT_UNDECIDED_RAD 1e-6  // geometry in double from the same points has smaller errors than this
 #define WT_BOUNDARIES 4
 
@@ -244,9 +249,13 @@ inline wt_matrix wt_corner_jump(const wt_bend* bend, wt_boundary boundary, int o
 inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int along, wt_double2 spread) {
   const wt_boundary boundary = bend->turn.boundaries[term];
   const int odd = term / 2;
-  if (bend->corner.exterior >= WT_PI) return wt_convex_jump(bend, boundary, odd, along, spread);
-  const double away_from = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
-  return wt_corner_jump(bend, boundary, odd, 1.0 / (1.0 + away_from * away_from));
+#if WT_CORNER_EDGES
+  if (bend->corner.exterior < WT_PI) {
+    const double away_from = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
+    return wt_corner_jump(bend, boundary, odd, 1.0 / (1.0 + away_from * away_from));
+  }
+#endif
+  return wt_convex_jump(bend, boundary, odd, along, spread);
 }
 
 // Does a wave run along a face, so that it and its reflection are one wave?

@@ -9,6 +9,7 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 #define WT_GLOBAL global
+#define WT_NUMBERS constant  // a table of numbers at the top of a file
 typedef double2 wt_double2;
 typedef double3 wt_double3;
 #define WT_DOUBLE2(x, y) ((double2)((x), (y)))
@@ -20,6 +21,7 @@ typedef double3 wt_double3;
 #include <glm/vec3.hpp>
 #include <limits>
 #define WT_GLOBAL
+#define WT_NUMBERS inline constexpr
 #define WT_DOUBLE2(x, y) (glm::dvec2((x), (y)))
 #define WT_DOUBLE3(x, y, z) (glm::dvec3((x), (y), (z)))
 #define WT_INFINITY (std::numeric_limits<double>::infinity())
