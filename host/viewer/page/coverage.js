@@ -165,6 +165,11 @@ class PointerValue {
     });
   }
 
+  // Shows the present value, after the frame or the layer has changed.
+  again() {
+    if (!this.box.hidden && this.place) this.show();
+  }
+
   show() {
     this.waiting = false;
     const start = performance.now(), rx = this.place ? this.cell_at(...this.place) : -1;
