@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps of samples of the inputs in free space, where a gain is that of a distance, and over ground, where a sample is a
-// run of its own; then the program. Cases that need a device are skipped with a message if there is none.
+// run of its own. Cases that need a device are skipped with a message if there is none.
 #include "accuracy/chances.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "accuracy/free_space.hpp"
 #include "accuracy/latin_hypercube.hpp"
-#include "app/program.hpp"
-#include "radio/constants.hpp"
 #include "simulation/run.hpp"
 #include "wavetracer/config_file.hpp"
 
@@ -16,77 +13,8 @@ using namespace wavetracer::test;
 
 namespace {
 
-constexpr double carrier_hz = 5.9e9, cell_height_m = 1.5;
-
-std::string antenna(const std::string& name, const glm::dvec3& at) {
-  return fmt::format("[[transmitter]]\nname = \"{}\"\nposition_m = [{}, {}, {}]\n", name, at.x, at.y, at.z);
-}
-
-std::string grid(const std::string& name, double x_min_m, double x_max_m, double step_m) {
-  return fmt::format(
-      "[[receiver_grid]]\nname = \"{}\"\nx_min_m = {}\nx_max_m = {}\ny_min_m = -1.0\ny_max_m = 1.0\nstep_m = {}\n"
-      "height_m = {}\nabove = \"zero\"\n",
-      name, x_min_m, x_max_m, step_m, cell_height_m);
-}
-
-std::string head(const SceneFile& scene, const std::string& trace) {
-  return fmt::format(
-      "scene.file = \"{}\"\n[radio]\nfrequency_hz = {}\ntransmit_power_dbm = 20.0\nbandwidth_hz = 1e7\n{}",
-      scene.path().string(), carrier_hz, "[trace]\n" + trace);
-}
-
-// A small surface that is far away, so that all is free space.
-SceneFile free_space() { return SceneFile({Quad{{-900, -900, -400}, {2, 0, 0}, {0, 2, 0}}}); }
-
-accuracy::ChanceStudy studied(const std::string& file, std::vector<std::string> thresholds, uint32_t samples,
-                              const accuracy::InputErrors& errors, std::vector<std::string> sets = {}) {
-  const accuracy::ChanceRequest request{
-      .inputs = {.file = file, .sets = std::move(sets), .device = "", .samples = samples, .seed = 7, .errors = errors},
-      .thresholds = std::move(thresholds),
-      .grid = "",
-      .tx = ""};
-  return accuracy::study_chances(request, {[](const std::string&) {}, [] { return false; }});
-}
-
-double gain_db(double distance_m) {
-  return 20 * std::log10(speed_of_light_m_s / carrier_hz / (4 * std::acos(-1.0) * distance_m));
-}
-
 // Returns the probability of a standard normal number to be below x.
 double below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double deviation_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += std::pow(value - mean_of(values), 2);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
-double share_from(const std::vector<double>& values, double least) {
-  return static_cast<double>(std::ranges::count_if(values, [&](double value) { return value >= least; })) /
-         static_cast<double>(values.size());
-}
-
-std::string drive_file(const Folder& folder, const SceneFile& scene) {
-  return folder.file(
-      "drive.toml",
-      head(scene, "max_depth = 0\nrays = 10\n") + grid("g", 0, 10, 2) +
-          "[[track]]\nid = \"car\"\nwaypoints = [[0, 2, 6, 0], [1, 22, 6, 0]]\n[[mount]]\nname = \"roof\"\n"
-          "role = \"transmitter\"\noffset_m = [0, 0, 1.6]\n");
-}
-
-// Runs the program for maps of six samples in each of two frames, with more options.
-Outcome chances_of(const std::string& file, const std::string& out, std::vector<std::string> more) {
-  const std::vector<std::string> command = {"accuracy", "--inputs",  "-c", file,       "-o",
-                                            out,        "--samples", "6",  "--frames", "2"};
-  more.insert(more.begin(), command.begin(), command.end());
-  return run_program(more);
-}
 
 }  // namespace
 
@@ -220,63 +148,4 @@ TEST_CASE("chances: over ground a sample is a run with the antenna and the permi
     CHECK(map.chances[k].path_gain_deviation_db == doctest::Approx(deviation_of(gains[k])).epsilon(1e-6));
     CHECK(map.chances[k].path_gain == share_from(gains[k], -75));
   }
-}
-
-TEST_CASE("the program writes maps of chances for the frames of a drive") {
-  if (!device_present()) return;
-  const Folder folder;
-  const SceneFile scene = free_space();
-  const std::string file = drive_file(folder, scene), out = folder.path("out/new");
-  const Outcome done =
-      chances_of(file, out, {"--threshold", "received_dbm=-35", "--vehicles", "3", "--format", "csv,npy,png"});
-  CAPTURE(done.err);
-  REQUIRE(done.code == 0);
-  CHECK(contains(done.out, "received power of -35 dBm or more: "));
-  const std::string csv = contents(out + "/coverage/coverage.csv");
-  CHECK(
-      csv.starts_with("frame,time_s,ix,iy,x_m,y_m,z_m,path_gain_db,path_gain_mean_db,path_gain_deviation_db,samples,"
-                      "received_probability,tx\n"));
-  CHECK(std::ranges::count(csv, '\n') == 1 + 2 * 5);
-  const nlohmann::json about = nlohmann::json::parse(contents(out + "/coverage/coverage.json"));
-  CHECK(about["samples"] == 6);
-  CHECK(about["layers"]["received_probability"]["at_least"] == nlohmann::json{{"received_dbm", -35}});
-  CHECK(about["layers"]["received_probability"]["dark_to_bright"] == nlohmann::json{0, 1});
-  CHECK(contains(about["notes"][0].get<std::string>(), "6 samples of the inputs with seed 1; standard deviations: "));
-  CHECK(contains(about["notes"][0].get<std::string>(), "vehicles 3 m"));
-}
-
-TEST_CASE("the program says what maps of chances need") {
-  if (!device_present()) return;
-  const Folder folder;
-  const SceneFile scene = free_space();
-  const std::string file = drive_file(folder, scene), out = folder.path("out");
-  const auto refused = [&](std::vector<std::string> more, const std::string& words) {
-    const Outcome outcome = chances_of(file, out, std::move(more));
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(contains(outcome.err, words));
-  };
-  refused({"--threshold", "received=-35"},
-          "\"received\" has no threshold, it can be that of path_gain_db, received_dbm");
-  refused({"--threshold", "snr_db=many"}, "\"many\" is no number: give one in dB");
-  refused({"--threshold", "snr_db=1", "--threshold", "snr_db=2"}, "snr_db has a threshold already");
-  refused({"--threshold", "snr_db=1", "--tx", "nobody"}, "--tx \"nobody\" is not the name of a transmitter");
-  refused({"--threshold", "snr_db=1", "--discover-every", "2"}, "--discover-every excludes --threshold");
-  refused({"--grid", "g"}, "--grid requires --threshold");
-  refused({"--threshold", "snr_db=1", "--set", "trace.reception=\"sphere\""}, "cannot be summed on the device");
-  refused({"--threshold", "snr_db=1", "--format", "gif"}, "--format \"gif\" is no format of a map");
-  const auto other = [&](const std::string& text, const std::string& threshold, const std::string& words) {
-    const std::string name = folder.file("other.toml", text);
-    const Outcome outcome = run_program({"accuracy", "--inputs", "-c", name, "-o", out, "--threshold", threshold});
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(contains(outcome.err, words));
-  };
-  const std::string bare = fmt::format("scene.file = \"{}\"\n", scene.path().string());
-  other(bare + antenna("a", {0, 0, 9}) + grid("g", 0, 4, 1), "received_dbm=-35",
-        "--threshold received_dbm needs radio.transmit_power_dbm");
-  other(bare + antenna("a", {0, 0, 9}) + "[[receiver]]\nname = \"b\"\nposition_m = [5, 0, 1]\n", "path_gain_db=-35",
-        "has no [[receiver_grid]], whose cells --threshold needs: add one");
-  other(bare + antenna("a", {0, 0, 9}) + grid("g", 0, 4, 1) + grid("h", 0, 4, 1), "path_gain_db=-35",
-        "has 2 grids: name one with --grid, of g, h");
 }
