@@ -96,15 +96,11 @@ void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {
 struct Survey {
   Strongest paths, links;
   uint64_t fixed_bytes = 0;  // bytes of frames without paths and links
-  uint64_t link_bytes = LinkColumns::bytes;
-  uint64_t cell_paths = 0;  // paths to cells of grids
-  double left_out = 0;      // largest share of the power of a cell that paths.h5 lacks
+  uint64_t cell_paths = 0;   // paths to cells of grids
+  bool areas = false;        // links get values of areas
+  double left_out = 0;       // largest share of the power of a cell that paths.h5 lacks
 
   Survey(const SavedRun& run, const FrameSelection& selection, FrameBlocks& out) {
-    const std::vector<double>& beams = selection.links.beam_gain_db;
-    if (std::ranges::any_of(beams, [](double gain_db) { return !std::isnan(gain_db); }))
-      link_bytes += LinkColumns::more_bytes;
-    if (!selection.grids.empty() && selection.area_paths > 0) link_bytes += LinkColumns::more_bytes;
     const auto own = static_cast<uint64_t>(std::ranges::count(selection.own_receivers, true));
     for (const size_t row : selection.rows) {
       const SavedFrame frame = run.frame(row);
@@ -113,7 +109,7 @@ struct Survey {
         cell_paths += !selection.own_receivers[frame.paths.rx[i]];
       }
       for (const LinkRow& link : link_rows(frame, selection.links, run.first_link(row), run.frequency_hz())) {
-        links.count(link.path_gain_db, link_bytes);
+        links.count(link.path_gain_db, 1);
         if (!selection.own_receivers[link.link.rx]) left_out = std::max(left_out, link.left_out_power_share);
       }
       fixed_bytes += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + own);
@@ -124,9 +120,14 @@ struct Survey {
     }
     const uint64_t most = selection.bytes / 4 * 3, room = most > fixed_bytes ? most - fixed_bytes : 0;
     const double share = own < selection.own_receivers.size() ? map_links_share : links_share;
+    areas = cell_paths > 0 && cell_paths <= selection.area_paths;
+    const std::vector<double>& beams = selection.links.beam_gain_db;
+    const bool some_beams = std::ranges::any_of(beams, [](double gain_db) { return !std::isnan(gain_db); });
+    const uint64_t link_bytes =
+        LinkColumns::bytes + (areas ? LinkColumns::more_bytes : 0) + (some_beams ? LinkColumns::more_bytes : 0);
     const uint64_t link_room =
         std::min(links.rows() * link_bytes, static_cast<uint64_t>(share * static_cast<double>(room)));
-    links.limit(links.rows(), link_room);
+    links.limit(link_room / link_bytes, links.rows());
     if (selection.max_paths > 0)
       paths.limit(selection.max_paths, std::numeric_limits<uint64_t>::max());
     else
@@ -183,7 +184,6 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
   Survey survey(run, selection, out);
   double lowest_db = std::numeric_limits<double>::infinity(), highest_db = -lowest_db;
   LinkColumns links;
-  const bool areas = survey.cell_paths > 0 && survey.cell_paths <= selection.area_paths;
   for (size_t f = 0; f < selection.rows.size(); ++f) {
     const SavedFrame frame = run.frame(selection.rows[f]);
     const std::vector<size_t> kept = kept_paths(frame.paths, survey.paths);
@@ -194,10 +194,10 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
       highest_db = std::max(highest_db, frame.paths.gain_db[i]);
     }
     std::optional<CellAreas> cells;
-    if (areas) cells.emplace(selection.grids, frame, run.frequency_hz());
+    if (survey.areas) cells.emplace(selection.grids, frame, run.frequency_hz());
     for (const LinkRow& row :
          link_rows(frame, selection.links, run.first_link(selection.rows[f]), run.frequency_hz())) {
-      if (!survey.links.keep(row.path_gain_db, survey.link_bytes)) continue;
+      if (!survey.links.keep(row.path_gain_db, 1)) continue;
       ++out.shown_links;
       links.add(f, row, cells ? cells->levels(row.link) : coverage::AreaLevels());
     }
