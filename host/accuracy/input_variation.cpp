@@ -37,14 +37,12 @@ InputVariation::InputVariation(const RunPlan& plan, const InputErrors& errors, u
   const std::vector<uint32_t>& twins = plan.world.twins.transmitter_of_receiver;
   size_t next = columns_of_end * plan.world.transmitters.ends.size();
   for (size_t i = 0; i < at_rest.size(); ++i) {
-    if (twins[i] != no_end) {
-      receivers_.push_back(columns_of_end * twins[i]);
-    } else if (at_rest[i]) {
+    if (at_rest[i]) {
       receivers_.push_back(no_column);
-    } else {
-      receivers_.push_back(next);
-      next += columns_of_end;
+      continue;
     }
+    receivers_.push_back(twins[i] == no_end ? next : columns_of_end * twins[i]);
+    next += columns_of_end;  // twins leave theirs unused
   }
   vehicles_ = next;
   first_material_ = vehicles_ + columns_of_vehicle * plan.world.fleet.instances.size();
