@@ -7,44 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include "accuracy/latin_hypercube.hpp"
+#include "accuracy/input_variation.hpp"
 #include "accuracy/measure.hpp"
-#include "radio/field_tables.hpp"
 #include "radio/links.hpp"
 #include "simulation/frame.hpp"
-#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
 
 constexpr double undefined_share = std::numeric_limits<double>::quiet_NaN();
-
-using Varied = std::array<bool, input_count>;
-
-// Columns of the errors of each end, vehicle and material in a row of the hypercube.
-class Dimensions {
- public:
-  Dimensions(const World& world, size_t materials)
-      : twins_(world.twins.transmitter_of_receiver),
-        transmitters_(world.transmitters.ends.size()),
-        vehicles_(3 * (transmitters_ + world.receivers.ends.size())),
-        materials_(vehicles_ + 2 * world.fleet.instances.size()),
-        count_(materials_ + materials) {}
-
-  size_t count() const { return count_; }
-  size_t transmitter(size_t i) const { return 3 * i; }
-  // A receiver that is also a transmitter is one antenna, and shares its errors.
-  size_t receiver(size_t i) const { return 3 * (twins_[i] == no_end ? transmitters_ + i : twins_[i]); }
-  size_t vehicle(size_t i) const { return vehicles_ + 2 * i; }
-  size_t material(size_t i) const { return materials_ + i; }
-
- private:
-  const std::vector<uint32_t>& twins_;
-  size_t transmitters_, vehicles_, materials_, count_;
-};
-
-bool is_varied(const Varied& varied, Input input) { return varied[static_cast<size_t>(input)]; }
 
 double percentile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return undefined_share;
@@ -90,19 +62,13 @@ struct LinkObserved {
 };
 
 Config study_config(const InputRequest& request) {
-  Config config = load_config(request.file, request.sets);
-  if (!config.live_vehicles.empty())
-    throw ConfigError(request.file +
-                      ": its [[live_vehicle]] tables need a client that sends poses, so nothing can be varied; "
-                      "give trajectories instead of them");
+  Config config = varied_config(request.file, request.sets);
   if (config.trace.by_spheres())
     throw ConfigError(request.file +
                       ": trace.reception = \"sphere\" keeps no sequences from sample to sample; "
                       "use --set trace.reception=exact");
   config.trace.reuse = true;
   config.trace.discover_every_s = request.discover_every;  // a sample counts as a second
-  config.cache.kind = "none";
-  config.output.waypoints = 0;
   return config;
 }
 
@@ -114,15 +80,12 @@ class InputMeasurement {
         config_(study_config(request)),
         setup_(make_setup(config_, request.device, true)),
         frames_(setup_),
-        materials_(make_field_tables(setup_.plan->scene, setup_.plan->asked, setup_.plan->world.fleet.models,
-                                     setup_.plan->world.fleet.instances)
-                       .materials),
-        dimensions_(setup_.plan->world, materials_.size()),
-        samples_(normal_hypercube(request.samples, dimensions_.count(), request.seed)) {}
+        variation_(*setup_.plan, request.errors, request.samples, request.seed,
+                   std::vector<bool>(setup_.plan->world.receivers.ends.size(), false)) {}
 
   InputStudy operator()() {
     out_.samples = request_.samples;
-    out_.varied = varied();
+    out_.varied = variation_.varied();
     uint64_t links = 0;
     for (const uint32_t frame : spread_frames(setup_.plan->world.clock.frame_count(), request_.frames)) {
       nominal_ = setup_.plan->world.state(frame);
@@ -142,33 +105,24 @@ class InputMeasurement {
   }
 
  private:
-  Varied varied() const {
-    const auto fixed = [](const EndState& end) { return end.instance == no_instance; };
-    const WorldState state = setup_.plan->world.state(0);
-    const InputErrors& e = request_.errors;
-    return {e.position_m > 0 &&
-                (std::ranges::any_of(state.transmitters, fixed) || std::ranges::any_of(state.receivers, fixed)),
-            e.height_m > 0, e.permittivity > 0, e.vehicles_m > 0 && !state.instances.empty()};
-  }
-
   // Runs the nominal frame, then samples of all inputs together, then of each input alone. Returns false if it was
   // interrupted.
   bool measure_frame(uint32_t frame) {
     observed_.assign(nominal_.links.size(), {});
     frames_.forget();
-    run(frame, nullptr, {}, [](Observed& of, double value) { of.nominal = value; });
-    for (size_t sample = 0; sample < samples_.size(); ++sample) {
+    run(frame, std::nullopt, {}, [](Observed& of, double value) { of.nominal = value; });
+    for (size_t sample = 0; sample < request_.samples; ++sample) {
       if (host_.interrupted()) return false;
-      host_.tell("samples", sample, samples_.size(), "samples");
-      run(frame, &samples_[sample], out_.varied, [](Observed& of, double value) { of.together.push_back(value); });
+      host_.tell("samples", sample, request_.samples, "samples");
+      run(frame, sample, out_.varied, [](Observed& of, double value) { of.together.push_back(value); });
     }
     for (size_t input = 0; input < input_count; ++input) {
       if (!out_.varied[input]) continue;
       Varied alone{};
       alone[input] = true;
-      for (const std::vector<double>& sample : samples_) {
+      for (size_t sample = 0; sample < request_.samples; ++sample) {
         if (host_.interrupted()) return false;
-        run(frame, &sample, alone, [&](Observed& of, double value) { of.alone[input].push_back(value); });
+        run(frame, sample, alone, [&](Observed& of, double value) { of.alone[input].push_back(value); });
       }
     }
     add_rows(frame);
@@ -176,11 +130,11 @@ class InputMeasurement {
   }
 
   template <class Keep>
-  void run(uint32_t frame, const std::vector<double>* sample, const Varied& varied, const Keep& keep) {
+  void run(uint32_t frame, std::optional<size_t> sample, const Varied& varied, const Keep& keep) {
     WorldState state = nominal_;
     state.time_s = time_s_++;
-    std::vector<device::wt_material> materials = materials_;
-    if (sample) vary(*sample, varied, state, materials);
+    std::vector<device::wt_material> materials = variation_.materials();
+    if (sample) variation_.apply(*sample, varied, state, materials);
     setup_.finish.set_materials(materials);
     const FrameResult result = frames_.run(FrameTask::of_drive(
         {.frame = frame, .pose = [&] { return state; }, .names = FrameNames::of(setup_.plan->asked), .timed = false}));
@@ -199,33 +153,6 @@ class InputMeasurement {
       if (figures[i].paths == 0 || !std::isfinite(figures[i].path_gain_db)) continue;
       keep(observed_[i].gain_db, figures[i].path_gain_db);
       keep(observed_[i].delay_spread_ns, 1e9 * figures[i].rms_delay_spread_s);
-    }
-  }
-
-  void vary(const std::vector<double>& sample, const Varied& varied, WorldState& state,
-            std::vector<device::wt_material>& materials) const {
-    const InputErrors& errors = request_.errors;
-    const auto vehicle_shift = [&](size_t i) {
-      const size_t at = dimensions_.vehicle(i);
-      return glm::dvec3(sample[at], sample[at + 1], 0) * errors.vehicles_m;
-    };
-    const auto move = [&](EndState& end, size_t at) {
-      const bool fixed = end.instance == no_instance;
-      if (fixed && is_varied(varied, Input::position))
-        end.position_m += glm::dvec3(sample[at], sample[at + 1], 0) * errors.position_m;
-      if (is_varied(varied, Input::height)) end.position_m.z += sample[at + 2] * errors.height_m;
-      if (!fixed && is_varied(varied, Input::vehicles)) end.position_m += vehicle_shift(end.instance);
-    };
-    for (size_t i = 0; i < state.transmitters.size(); ++i) move(state.transmitters[i], dimensions_.transmitter(i));
-    for (size_t i = 0; i < state.receivers.size(); ++i) move(state.receivers[i], dimensions_.receiver(i));
-    if (is_varied(varied, Input::vehicles))
-      for (size_t i = 0; i < state.instances.size(); ++i) state.instances[i].position_m += vehicle_shift(i);
-    if (!is_varied(varied, Input::permittivity)) return;
-    for (size_t i = 0; i < materials.size(); ++i) {
-      const double factor = std::exp(errors.permittivity * sample[dimensions_.material(i)]);
-      double* const permittivity = materials[i].permittivity;
-      permittivity[0] = 1 + (permittivity[0] - 1) * factor;
-      permittivity[1] *= factor;
     }
   }
 
@@ -250,9 +177,7 @@ class InputMeasurement {
   const Config config_;
   Setup setup_;
   FrameLoop frames_;
-  const std::vector<device::wt_material> materials_;
-  const Dimensions dimensions_;
-  const std::vector<std::vector<double>> samples_;
+  const InputVariation variation_;
   WorldState nominal_;
   std::vector<LinkObserved> observed_;  // links of the current frame
   double time_s_ = 0, all_s_ = 0;

@@ -7,24 +7,12 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "accuracy/input_errors.hpp"
 #include "plots/figure.hpp"
 #include "study/run.hpp"
 #include "wavetracer/late.hpp"
 
 namespace wavetracer::accuracy {
-
-// The inputs, in the order of all tables.
-enum class Input { position, height, permittivity, vehicles };
-constexpr size_t input_count = 4;
-constexpr std::array<const char*, input_count> input_names{"position", "height", "permittivity", "vehicles"};
-
-// Standard deviations of normal errors; an input with 0 is not varied.
-struct InputErrors {
-  double position_m = 2;      // error of each horizontal coordinate of each antenna that is not on a vehicle
-  double height_m = 0.2;      // error of each antenna's height
-  double permittivity = 0.1;  // error of the logarithm of (permittivity - 1) and of the conductivity, for each material
-  double vehicles_m = 2;      // error of each horizontal coordinate of each vehicle with its antennas
-};
 
 struct InputRequest {
   std::string file;               // file of the configuration

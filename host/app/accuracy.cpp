@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // `wavetracer accuracy` compares speed and error of the user's own scene, and advises what to set.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iostream>
 #include <memory>
 #include "accuracy/advice.hpp"
+#include "accuracy/chances.hpp"
 #include "accuracy/files.hpp"
 #include "accuracy/inputs.hpp"
 #include "accuracy/table.hpp"
 #include "app/commands.hpp"
+#include "app/map_formats.hpp"
 #include "app/named_files.hpp"
 #include "app/study_host.hpp"
+#include "coverage/chance_map.hpp"
+#include "coverage/kml.hpp"
+#include "coverage/write_map.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "wavetracer/config_file.hpp"
@@ -21,17 +27,63 @@ namespace fs = std::filesystem;
 
 struct AccuracyOptions {
   accuracy::Request request;
-  accuracy::InputRequest inputs;
+  accuracy::ChanceRequest chances;  // its inputs are those of intervals, too
+  std::vector<std::string> formats = {"csv"};
   std::string directory = "out/accuracy", rays;
   bool varies = false;
 };
 
-void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
-  accuracy::InputRequest request = options.inputs;
+accuracy::InputRequest input_request(const AccuracyOptions& options) {
+  accuracy::InputRequest request = options.chances.inputs;
   request.file = options.request.file;
   request.sets = options.request.sets;
   request.device = options.request.device;
   request.frames = options.request.frames;
+  return request;
+}
+
+// Returns the files that were written.
+std::vector<fs::path> write_chances(const accuracy::ChanceStudy& study, const std::vector<std::string>& formats,
+                                    const std::optional<Georeference>& georeference, const fs::path& folder,
+                                    Progress& progress) {
+  for (const std::string& warning : study.warnings) progress.line("warning: " + warning);
+  if (const std::string words = place_warning(formats, georeference); !words.empty())
+    progress.line("warning: " + words);
+  std::error_code error;
+  fs::create_directories(folder, error);  // writing the files reports an error
+  return coverage::write_maps({study.maps, study.drive, formats, georeference}, folder / "coverage");
+}
+
+// Makes maps of probabilities.
+void run_chances(const AccuracyOptions& options, Invocation& invocation) {
+  accuracy::ChanceRequest request = options.chances;
+  request.inputs = input_request(options);
+  check_map_formats(options.formats);
+  const Config config = load_config(request.inputs.file, request.inputs.sets);
+  const ReceiverGridConfig& grid = accuracy::mapped_grid(config, request);
+  coverage::check_formats_of(grid.name, grid.vertical(), options.formats);
+  check_inputs(config);
+  const std::string& scene = config.scene.file;
+  const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
+  if (has_format(options.formats, "kml")) coverage::georeference_for_kml(georeference, scene);
+  const fs::path folder = fs::absolute(options.directory).lexically_normal();
+  check_output_folder(folder);
+  catch_interrupts();
+  Progress progress;
+  const accuracy::ChanceStudy study = accuracy::study_chances(request, study_host(progress));
+  if (study.stopped) {
+    invocation.code = ExitCode::interrupted;
+    progress.line(study.maps.empty() ? "interrupted before the first map was complete; nothing was written"
+                                     : "interrupted; the written maps are those of the frames that were complete");
+  }
+  if (study.maps.empty()) return;
+  const std::vector<fs::path> files = write_chances(study, options.formats, georeference, folder, progress);
+  std::cout << accuracy::chances_text(study)
+            << fmt::format("written    {}, {} files", files.front().parent_path().string(), files.size()) << std::endl;
+}
+
+void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
+  const accuracy::InputRequest request = input_request(options);
   check_inputs(load_config(request.file, request.sets));
   const fs::path folder = fs::absolute(options.directory).lexically_normal();
   check_output_folder(folder);
@@ -51,25 +103,51 @@ void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
   std::cout << std::endl;
 }
 
+void add_chance_options(CLI::App& command, AccuracyOptions& options, CLI::Option* varies, CLI::Option* discover_every) {
+  CLI::Option* const threshold =
+      command
+          .add_option(
+              "--threshold", options.chances.thresholds,
+              fmt::format("With --inputs: NAME=VALUE, make maps of the probability that NAME is VALUE or more in "
+                          "a cell of a [[receiver_grid]]; NAME is {}; may be repeated",
+                          fmt::join(coverage::tested_names(), ", ")))
+          ->allow_extra_args(false)
+          ->needs(varies)
+          ->excludes(discover_every);
+  command
+      .add_option("--grid", options.chances.grid,
+                  "With --threshold: name of the [[receiver_grid]]; needed if the config has several")
+      ->needs(threshold);
+  command
+      .add_option("--tx", options.chances.tx,
+                  "With --threshold: name of the transmitter that serves all cells; the strongest of each cell if not "
+                  "given")
+      ->needs(threshold);
+  add_map_formats(command, options.formats)->needs(threshold);
+}
+
 void add_input_options(CLI::App& command, AccuracyOptions& options) {
-  accuracy::InputRequest& inputs = options.inputs;
+  accuracy::InputRequest& inputs = options.chances.inputs;
   accuracy::InputErrors& errors = inputs.errors;
   CLI::Option* const varies =
       command.add_flag("--inputs", options.varies,
                        "Vary positions, heights, materials and vehicles instead, and give each link an interval");
   const auto number = [&](const char* name, auto& value, const char* words, double least, double most) {
-    command.add_option(name, value, words)->check(CLI::Range(least, most))->capture_default_str()->needs(varies);
+    return command.add_option(name, value, words)->check(CLI::Range(least, most))->capture_default_str()->needs(varies);
   };
   number("--samples", inputs.samples, "With --inputs: samples of a Latin hypercube", 2, 1000000);
   number("--seed", inputs.seed, "With --inputs: seed of the samples", 0, 1e18);
-  number("--discover-every", inputs.discover_every, "With --inputs: launch rays in every Nth sample", 1, 1000000);
+  CLI::Option* const discover_every =
+      number("--discover-every", inputs.discover_every, "With --inputs: launch rays in every Nth sample", 1, 1000000);
   number("--position", errors.position_m, "With --inputs: standard deviation of antennas along x and y, m", 0, 1000);
   number("--height", errors.height_m, "With --inputs: standard deviation of the heights of antennas, m", 0, 1000);
   number("--permittivity", errors.permittivity, "With --inputs: relative standard deviation of materials", 0, 3);
   number("--vehicles", errors.vehicles_m, "With --inputs: standard deviation of vehicles along x and y, m", 0, 1000);
+  add_chance_options(command, options, varies, discover_every);
 }
 
 void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
+  if (!options.chances.thresholds.empty()) return run_chances(options, invocation);
   if (options.varies) return run_inputs(options, invocation);
   accuracy::Request request = options.request;
   request.command_line = invocation.command_line;

@@ -8,8 +8,8 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/map_formats.hpp"
 #include "app/saved_frames.hpp"
-#include "base/spelling.hpp"
 #include "config/retired_keys.hpp"
 #include "coverage/coverage_map.hpp"
 #include "coverage/kml.hpp"
@@ -26,14 +26,6 @@ struct CoverageOptions {
   std::optional<uint32_t> frame;
   std::vector<std::string> layers, formats = {"csv"};
 };
-
-void check_formats(const std::vector<std::string>& formats) {
-  const std::vector<std::string> known(coverage::format_names.begin(), coverage::format_names.end());
-  for (const std::string& format : formats)
-    if (std::ranges::find(known, format) == known.end())
-      throw ConfigError(fmt::format("--format \"{}\" is no format of a map, there are {}{}", format,
-                                    fmt::join(known, ", "), spelling_hint(format, known)));
-}
 
 const ReceiverGridConfig& chosen_grid(const Config& config, const std::string& name) {
   const std::vector<ReceiverGridConfig>& grids = config.receiver_grids;
@@ -64,7 +56,7 @@ FrameRows chosen_rows(const SavedRun& run, const CoverageOptions& options) {
 void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
 
 void make_coverage(const CoverageOptions& options) {
-  check_formats(options.formats);
+  check_map_formats(options.formats);
   const SavedRun run(options.run);
   const Config config = parse_config(run.config_text(), run.file().string(), config::without_retired_keys());
   const ReceiverGridConfig& grid = chosen_grid(config, options.grid);
@@ -90,10 +82,7 @@ void make_coverage(const CoverageOptions& options) {
                                       : fmt::format("frames {} to {}", maps.front().frame, maps.back().frame),
                      tx ? " from \"" + options.tx + "\"" : "",
                      maps.size() == 1 ? "the map is empty" : "the maps are empty"));
-  if (wanted("geotiff") && !georeference)
-    warn(
-        "where on the earth the scene is, is not known: the files of geotiff have its own coordinates in metres, in a "
-        "local system; a georeference.json beside the scene file would say it");
+  if (const std::string words = place_warning(options.formats, georeference); !words.empty()) warn(words);
   const std::filesystem::path folder =
       options.folder.empty() ? run.file().parent_path() / "coverage" : std::filesystem::path(options.folder);
   const coverage::MapsToWrite what{maps, !options.frames.empty(), options.formats, georeference};
@@ -124,12 +113,7 @@ void add_coverage(CLI::App& program) {
                                fmt::join(coverage::layer_names(), ", ")))
       ->delimiter(',')
       ->allow_extra_args(false);
-  command
-      ->add_option("--format", options->formats,
-                   fmt::format("Formats to write, separated by commas: {}", fmt::join(coverage::format_names, ", ")))
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_map_formats(*command, options->formats);
   command->callback([options] { make_coverage(*options); });
 }
 

@@ -5,6 +5,7 @@
 #include "app/command_text.hpp"
 #include "config/field_table.hpp"
 #include "convert/convert.hpp"
+#include "coverage/chance_map.hpp"
 #include "coverage/coverage_map.hpp"
 #include "coverage/write_map.hpp"
 #include "plots/plots.hpp"
@@ -43,7 +44,13 @@ std::vector<std::string> known_values(const CLI::App& program, const std::string
   if (path == "thesis" && name == "experiment") return experiment_names();
   if (path == "convert" && name == "to") return exporter_names();
   if (path == "plot" && name == "what") return {plots::plot_names.begin(), plots::plot_names.end()};
-  if (path == "coverage" && name == "format") return {coverage::format_names.begin(), coverage::format_names.end()};
+  if (path == "accuracy" && name == "threshold") {
+    std::vector<std::string> out;
+    for (const std::string& tested : coverage::tested_names()) out.push_back(tested + "=");
+    return out;
+  }
+  if ((path == "coverage" || path == "accuracy") && name == "format")
+    return {coverage::format_names.begin(), coverage::format_names.end()};
   if ((path == "coverage" && name == "layers") || (path == "plot" && name == "layer")) return coverage::layer_names();
   if (path == "help" && name == "topic") return help_topics(program);
   if (name.ends_with("-material") || (path == "scene city" && name == "ground")) return material_names();

@@ -114,10 +114,10 @@ double variance_of_points(std::span<const PlaneWave> waves, const glm::dvec2& si
   return squares / static_cast<double>(powers.size());
 }
 
-// Returns the unit vectors along the sides of the map's cells: to the next column and to the next row.
-std::array<glm::dvec3, 2> sides_of(const Map& map) {
-  if (map.plane) return {{{map.plane->direction, 0}, {0, 0, 1}}};
-  return {{{1, 0, 0}, {0, 1, 0}}};
+CellSides sides_of(const Map& map) {
+  CellSides out{.length_m = map.step_m};
+  if (map.plane) out.direction = {{{map.plane->direction, 0}, {0, 0, 1}}};
+  return out;
 }
 
 // Returns the rows of the paths from each cell's server, cell by cell: those of cell k are first[k] to first[k + 1]
@@ -164,21 +164,26 @@ AreaPower area_power(std::vector<PlaneWave> waves, const glm::dvec2& side_m) {
   return {weak + mean_power(waves, side_m), variance_of_points(waves, side_m)};
 }
 
+AreaLevels area_levels(const Paths& paths, std::span<const size_t> rows, double frequency_hz, const CellSides& sides) {
+  constexpr double even = 1e-12;  // smaller relative variances are rounding errors
+  std::vector<PlaneWave> waves;
+  for (const size_t row : rows) waves.push_back(wave_of(paths, row, frequency_hz, sides.direction));
+  if (waves.empty()) return {};
+  const AreaPower power = area_power(std::move(waves), sides.length_m);
+  if (!(power.mean > 0)) return {};
+  const double fading = power.variance / (power.mean * power.mean);
+  return {10 * std::log10(power.mean), 10 * std::log10(fading > even ? fading : 0)};
+}
+
 void add_areas(const Paths& paths, double frequency_hz, std::span<const uint32_t> cell_of,
                std::span<const uint32_t> server_of, Map& map) {
-  constexpr double even = 1e-12;  // smaller relative variances are rounding errors
   const RowsOfCells of_cells(paths, cell_of, server_of);
-  const std::array<glm::dvec3, 2> sides = sides_of(map);
+  const CellSides sides = sides_of(map);
   for (size_t k = 0; k < server_of.size(); ++k) {
-    std::vector<PlaneWave> waves;
-    for (size_t row = of_cells.first[k]; row < of_cells.first[k + 1]; ++row)
-      waves.push_back(wave_of(paths, of_cells.rows[row], frequency_hz, sides));
-    if (waves.empty()) continue;
-    const AreaPower power = area_power(std::move(waves), map.step_m);
-    if (!(power.mean > 0)) continue;
-    const double fading = power.variance / (power.mean * power.mean);
-    map.cells[k].cell_mean_db = 10 * std::log10(power.mean);
-    map.cells[k].fading_db = 10 * std::log10(fading > even ? fading : 0);
+    const std::span rows(of_cells.rows.data() + of_cells.first[k], of_cells.first[k + 1] - of_cells.first[k]);
+    const AreaLevels levels = area_levels(paths, rows, frequency_hz, sides);
+    map.cells[k].cell_mean_db = levels.cell_mean_db;
+    map.cells[k].fading_db = levels.fading_db;
   }
 }
 

@@ -41,12 +41,23 @@ struct Cell {
   double cell_mean_db = none, fading_db = none;
 };
 
+// The values of a cell over samples of the inputs (chance_map.hpp).
+struct Chances {
+  double samples = 0;  // samples in which the cell has a path
+  // Over these samples; without two of them there is no deviation.
+  double path_gain_mean_db = Cell::none, path_gain_deviation_db = Cell::none;
+  // Shares of all samples in which a value is at least its threshold; a sample without that value is below it.
+  double path_gain = Cell::none, received = Cell::none, snr = Cell::none, sinr = Cell::none;
+};
+
 struct LayerKind {
   std::string_view name, unit, words;  // unit: empty for numbers without one
-  double Cell::*value;
+  double Cell::*value;                 // null: the layer is one of Chances
   // The layer needs radio.transmit_power_dbm, radio.bandwidth_hz, or an array with a codebook.
   bool of_powers = false, of_noise = false, of_beams = false;
-  bool of_areas = false;  // the layer is made of the paths that paths.h5 has
+  bool of_areas = false;              // the layer is made of the paths that paths.h5 has
+  double Chances::*chance = nullptr;  // null: the layer is one of Cell
+  double Cell::*tested = nullptr;     // the value that has a threshold; null: the layer is no share of samples
   // Tells whether values are choices, which have colours of their own, and not amounts.
   constexpr bool of_choices() const {
     return value == &Cell::line_of_sight || value == &Cell::best_server || of_pair();
@@ -75,11 +86,61 @@ inline constexpr std::array<LayerKind, 17> layer_kinds = {{
     {"rx_beam", "", "beam of the receiver", &Cell::rx_beam, false, false, true},
 }};
 
-// Returns the names of all kinds, in their order.
+// The layers of samples of the inputs. Those of thresholds are there if their threshold is.
+inline constexpr std::array<LayerKind, 7> chance_kinds = {{
+    {.name = "path_gain_mean_db",
+     .unit = "dB",
+     .words = "mean path gain over samples of the inputs",
+     .value = nullptr,
+     .chance = &Chances::path_gain_mean_db},
+    {.name = "path_gain_deviation_db",
+     .unit = "dB",
+     .words = "standard deviation of the path gain over samples of the inputs",
+     .value = nullptr,
+     .chance = &Chances::path_gain_deviation_db},
+    {.name = "samples",
+     .unit = "",
+     .words = "samples of the inputs with a path",
+     .value = nullptr,
+     .chance = &Chances::samples},
+    {.name = "path_gain_probability",
+     .unit = "",
+     .words = "probability of the path gain to reach its threshold",
+     .value = nullptr,
+     .chance = &Chances::path_gain,
+     .tested = &Cell::path_gain_db},
+    {.name = "received_probability",
+     .unit = "",
+     .words = "probability of the received power to reach its threshold",
+     .value = nullptr,
+     .chance = &Chances::received,
+     .tested = &Cell::received_dbm},
+    {.name = "snr_probability",
+     .unit = "",
+     .words = "probability of the signal-to-noise ratio to reach its threshold",
+     .value = nullptr,
+     .chance = &Chances::snr,
+     .tested = &Cell::snr_db},
+    {.name = "sinr_probability",
+     .unit = "",
+     .words = "probability of the signal to interference and noise to reach its threshold",
+     .value = nullptr,
+     .chance = &Chances::sinr,
+     .tested = &Cell::sinr_db},
+}};
+
+// Returns the names of all kinds of layer_kinds, in their order.
 std::vector<std::string> layer_names();
 
 // Returns the kind of that name. Throws ConfigError, with a hint, if there is none.
 const LayerKind& layer_kind(const std::string& name);
+
+// A value of a probability layer, in the unit of the tested layer.
+struct Threshold {
+  const LayerKind* layer = nullptr;   // the row of chance_kinds
+  const LayerKind* tested = nullptr;  // the row of layer_kinds
+  double least = 0;
+};
 
 // The plane of a map whose columns go from from_m to to_m, and whose rows go up.
 struct VerticalPlane {
@@ -111,6 +172,9 @@ struct Map {
   std::vector<std::string> left_out = {};     // why layers are not there
   std::vector<std::string> notes = {};        // words about paths that layers do not include
   std::optional<VerticalPlane> plane = {};    // nothing: the map is horizontal, or lies on the ground
+  uint32_t samples = 0;                       // samples of the inputs; 0: the map is that of a run
+  std::vector<Threshold> thresholds = {};     // with samples
+  std::vector<Chances> chances = {};          // with samples, one for each cell; `cells` are then those without errors
 
   double x_m(size_t cell) const {
     return first_m.x + static_cast<double>(cell % columns) * step_m.x * (plane ? plane->direction.x : 1);
@@ -124,6 +188,9 @@ struct Map {
   // Tells whether the cell has a path from its server.
   bool reached(size_t cell) const { return cells[cell].paths > 0; }
   size_t reached_cells() const;
+  double value(const LayerKind& layer, size_t cell) const {
+    return layer.chance ? chances[cell].*layer.chance : cells[cell].*layer.value;
+  }
   std::vector<double> values(const LayerKind& layer) const;
 };
 

@@ -67,6 +67,7 @@ std::span<const Colour> choice_colours(const LayerKind& layer) {
 }
 
 ColourRange colour_range(const LayerKind& layer, std::span<const double> values) {
+  if (layer.tested) return {0, 1};
   constexpr double trimmed = 0.01, step = 5, widest = 100;
   std::vector<double> finite;
   std::ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });

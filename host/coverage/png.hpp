@@ -37,7 +37,8 @@ struct ColourRange {
 };
 
 // Returns the range for a layer. In layers of decibels it is whole multiples of 5 dB, at most 100 dB, around all values
-// but the lowest and highest percent; in others it begins at 0. Values that are not finite do not count.
+// but the lowest and highest percent; probabilities have 0 to 1, and others begin at 0. Values that are not finite do
+// not count.
 ColourRange colour_range(const LayerKind& layer, std::span<const double> values);
 
 // Returns a line about a picture: the layer, the grid, and for amounts the values of the darkest and brightest colour.

@@ -91,7 +91,7 @@ ColourRange MapWriter::range_of(const LayerKind& layer) const {
   std::vector<double> all;
   if (layer.of_choices()) return {};
   for (const Map& map : what_.maps)
-    for (const Cell& cell : map.cells) all.push_back(cell.*layer.value);
+    for (const double value : map.values(layer)) all.push_back(value);
   return colour_range(layer, all);
 }
 
@@ -120,11 +120,14 @@ std::string MapWriter::description() const {
     json["offset_m"] = {what_.georeference->offset_m.x, what_.georeference->offset_m.y};
     json["attribution"] = what_.georeference->attribution;
   }
+  if (first_.samples > 0) json["samples"] = first_.samples;
   json["layers"] = nlohmann::ordered_json::object();
   for (size_t k = 0; k < first_.layers.size(); ++k) {
     const LayerKind& layer = *first_.layers[k];
     nlohmann::ordered_json& row = json["layers"][std::string(layer.name)];
     row = {{"unit", layer.unit}, {"about", layer.words}};
+    for (const Threshold& threshold : first_.thresholds)
+      if (threshold.layer == &layer) row["at_least"] = {{std::string(threshold.tested->name), threshold.least}};
     if (layer.of_choices()) {
       for (const Colour& c : choice_colours(layer)) row["colours"].push_back(hex(c));
     } else {
@@ -256,7 +259,7 @@ std::string table_of(const Map& map, std::span<const glm::dvec2> degrees, bool o
     for (const double value : {map.x_m(cell), map.y_m(cell), map.z_m[cell]}) row.push_back(text(value));
     if (map.plane) row.push_back(text(map.along_m(cell)));
     if (!degrees.empty()) row.insert(row.end(), {text(degrees[cell].x), text(degrees[cell].y)});
-    for (const LayerKind* layer : map.layers) row.push_back(text(map.cells[cell].*layer->value));
+    for (const LayerKind* layer : map.layers) row.push_back(text(map.value(*layer, cell)));
     row.push_back(server_name(map, cell));
     table.add_texts(row);
   }

@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <utility>
 
-#include "simulation/frame.hpp"
+#include "simulation/batched_frames.hpp"
 #include "simulation/missing_paths.hpp"
-#include "simulation/receiver_batches.hpp"
 #include "wavetracer/arrays.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/live.hpp"
@@ -25,8 +23,7 @@ struct Simulation::State {
   FrameNames names() const { return FrameNames::of(plan().asked); }
 
   // Makes the task of a frame of the drive, for links that may be a part of them.
-  using TaskOf = std::function<FrameTask(const LinkPart& links)>;
-  TaskOf tasks(uint32_t frame, bool profiled) const {
+  BatchedFrames::TaskOf tasks(uint32_t frame, bool profiled) const {
     return [this, frame, profiled](const LinkPart& links) {
       return FrameTask::of_drive({.frame = frame,
                                   .pose = [this, frame] { return plan().world.state(frame); },
@@ -37,77 +34,15 @@ struct Simulation::State {
     };
   }
 
-  // Runs a frame, or the part of it with these links. If it reuses nothing, it may be solved in batches of receivers,
-  // which are halved if their lists are too long for the device.
-  FrameResult run(const TaskOf& task, const LinkPart& links) {
-    const bool whole = plan().reuse || !block_obstacle(plan().asked).empty();
-    const auto receivers = static_cast<uint32_t>(plan().world.receivers.ends.size());
-    if (whole || receivers < 2) return frames.run(task(links));
-    std::deque<ReceiverRange> left;
-    for (const ReceiverRange& batch :
-         receiver_batches(plan().trace, receivers, setup.context.info().global_memory, fitting, summed))
-      left.push_back({batch.first, std::min(batch.end, receivers)});
-    if (left.size() == 1) {
-      try {
-        return frames.run(task(links));
-      } catch (const gpu::BufferError&) {
-        halve(left);
-      }
-    }
-    return run_batches(task, links, std::move(left));
-  }
-
-  // Splits the first batch into two, and later frames begin with none that is longer.
-  void halve(std::deque<ReceiverRange>& left) {
-    const auto [first, end] = left.front();
-    const uint32_t middle = first + (end - first + 1) / 2;
-    fitting = middle - first;
-    left.front() = {middle, end};
-    left.push_front({first, middle});
-  }
-
-  FrameResult run_batches(const TaskOf& task, const LinkPart& links, std::deque<ReceiverRange> left) {
-    Stopwatch whole;
-    std::vector<FrameResult> parts;
-    LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
-    while (!left.empty()) {
-      setup.frame_watch->set_part(parts.size(), parts.size() + left.size());
-      try {
-        parts.push_back(frames.run(task(links.batch(left.front(), left_out, !parts.empty()))));
-        if (parts.size() > 1) parts.back().world.receivers = {};  // the first part has them for all
-        left.pop_front();
-      } catch (const gpu::BufferError&) {
-        if (left.front().end - left.front().first < 2) throw;
-        halve(left);
-      }
-    }
-    setup.frame_watch->set_part(0, 1);
-    FrameResult out = joined_batches(std::move(parts));
-    if (fitting < no_end)
-      out.warnings.push_back(fmt::format(
-          "the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at a "
-          "time, for each of which the transmitters launch their rays again{}",
-          setup.device.name, fitting,
-          plan().trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting) : ""));
-    if (!left_out.empty()) out.warnings.push_back(left_out_warning(left_out, names().transmitter, names().receiver));
-    if (setup.elements.on()) {  // for all links at once
-      Stopwatch watch;
-      setup.elements(out);
-      out.seconds["elements"] += watch.lap();
-    }
-    out.seconds["frame"] = whole.lap();
-    return out;
-  }
-
   // Runs a frame of a live world. pose: gives the world, and sets the names in the frame; task: makes its task.
   LiveFrame live_frame(uint32_t frame, const std::function<WorldState(LiveNames&)>& pose,
                        const std::function<FrameTask(FrameInput)>& task) {
     LiveFrame out;
-    out.result = frames.run(task({.frame = frame,
-                                  .pose = [&] { return pose(out); },
-                                  .names = {[&](uint32_t end) { return out.transmitters[end]; },
-                                            [&](uint32_t end) { return out.receivers[end]; }},
-                                  .timed = timed()}));
+    out.result = frames.loop().run(task({.frame = frame,
+                                         .pose = [&] { return pose(out); },
+                                         .names = {[&](uint32_t end) { return out.transmitters[end]; },
+                                                   [&](uint32_t end) { return out.receivers[end]; }},
+                                         .timed = timed()}));
     return out;
   }
 
@@ -118,11 +53,9 @@ struct Simulation::State {
   }
 
   Setup setup;
-  FrameLoop frames;
-  bool summed = false;  // sum_links()
+  BatchedFrames frames;
   uint32_t profile_every = 1;
   uint64_t runs = 0;
-  uint32_t fitting = no_end;  // the most receivers of a batch whose lists the device can hold, as far as is known
 };
 
 Simulation::Simulation(const Config& config, const std::string& device)
@@ -137,11 +70,8 @@ void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::m
 void Simulation::give_back(FrameResult& result) {
   state_->setup.finish.give_room(std::exchange(result.paths, Paths()));
 }
-void Simulation::sum_links(bool on) {
-  state_->summed = on;
-  state_->frames.sum_links(on);
-}
-void Simulation::forget() { state_->frames.forget(); }
+void Simulation::sum_links(bool on) { state_->frames.sum_links(on); }
+void Simulation::forget() { state_->frames.loop().forget(); }
 uint64_t Simulation::frame_count() const { return state_->plan().world.clock.frame_count(); }
 double Simulation::time_s(uint32_t frame) const { return state_->plan().world.clock.time_s(frame); }
 const Config& Simulation::config() const { return state_->plan().asked; }
@@ -180,7 +110,7 @@ const Features& Simulation::features() const { return state_->plan().features; }
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup.stages.seconds(); }
 
 FrameResult Simulation::run_frame(uint32_t frame) {
-  return state_->run(state_->tasks(frame, state_->timed()), LinkPart());
+  return state_->frames.run(state_->tasks(frame, state_->timed()), LinkPart());
 }
 
 std::string block_obstacle(const Config& config) {
@@ -194,7 +124,7 @@ std::string block_obstacle(const Config& config) {
 FrameResult Simulation::run_block(uint32_t frame, TransmitterRange transmitters) {
   if (const std::string why = block_obstacle(config()); !why.empty())
     throw ConfigError("a frame of this configuration cannot be cut into blocks of transmitters: " + why);
-  return state_->run(state_->tasks(frame, true), LinkPart(transmitters));
+  return state_->frames.run(state_->tasks(frame, true), LinkPart(transmitters));
 }
 
 LiveFrame Simulation::run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses) {

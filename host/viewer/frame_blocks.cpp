@@ -12,12 +12,14 @@
 #include <span>
 #include "results/link_rows.hpp"
 #include "viewer/blocks.hpp"
+#include "viewer/cell_areas.hpp"
+#include "viewer/link_columns.hpp"
 #include "viewer/strongest.hpp"
 
 namespace wavetracer {
 namespace {
 
-constexpr uint64_t link_bytes = 37, pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
+constexpr uint64_t pose_bytes = 4 + 12 + 8, end_bytes = 12, vertex_bytes = 21;
 // Links take at most this share of the space: the gain of a link over time is worth less than the paths. If there is a
 // map, its colours come first.
 constexpr double links_share = 0.25, map_links_share = 0.75;
@@ -85,33 +87,6 @@ Packer pack_frame(const SavedFrame& frame, const std::vector<size_t>& kept, cons
   return wide;
 }
 
-// The columns of all links on the page, as data.js reads them.
-class LinkColumns {
- public:
-  void add(size_t frame, const LinkRow& row) {
-    frame_.add(static_cast<uint32_t>(frame));
-    tx_.add(row.link.tx);
-    rx_.add(row.link.rx);
-    paths_.add(row.paths);
-    gain_.add(static_cast<float>(row.path_gain_db));
-    narrowband_.add(static_cast<float>(row.narrowband_gain_db));
-    spread_.add(static_cast<float>(row.rms_delay_spread_s));
-    missed_.add(static_cast<float>(row.missed_power_share));
-    k_factor_.add(static_cast<float>(row.k_factor));
-    los_.add(uint8_t{row.los});
-  }
-  Packer block() const {
-    Packer out;
-    for (const Packer* column :
-         {&frame_, &tx_, &rx_, &paths_, &gain_, &narrowband_, &spread_, &missed_, &k_factor_, &los_})
-      out.append(*column);
-    return out;
-  }
-
- private:
-  Packer frame_, tx_, rx_, paths_, gain_, narrowband_, spread_, missed_, k_factor_, los_;
-};
-
 void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {
   if (!std::isfinite(point.x + point.y + point.z)) return;
   box = box ? PageBounds{glm::min(box->lower, point), glm::max(box->upper, point)} : PageBounds{point, point};
@@ -121,14 +96,22 @@ void grow(std::optional<PageBounds>& box, const glm::dvec3& point) {
 struct Survey {
   Strongest paths, links;
   uint64_t fixed_bytes = 0;  // bytes of frames without paths and links
+  uint64_t cell_paths = 0;   // paths to cells of grids
+  bool areas = false;        // links get values of areas
+  double left_out = 0;       // largest share of the power of a cell that paths.h5 lacks
 
   Survey(const SavedRun& run, const FrameSelection& selection, FrameBlocks& out) {
     const auto own = static_cast<uint64_t>(std::ranges::count(selection.own_receivers, true));
     for (const size_t row : selection.rows) {
       const SavedFrame frame = run.frame(row);
-      for (size_t i = 0; i < frame.paths.size(); ++i) paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
-      for (const LinkRow& link : link_rows(frame, selection.links, run.first_link(row), run.frequency_hz()))
-        links.count(link.path_gain_db, link_bytes);
+      for (size_t i = 0; i < frame.paths.size(); ++i) {
+        paths.count(frame.paths.gain_db[i], path_bytes(frame.paths, i));
+        cell_paths += !selection.own_receivers[frame.paths.rx[i]];
+      }
+      for (const LinkRow& link : link_rows(frame, selection.links, run.first_link(row), run.frequency_hz())) {
+        links.count(link.path_gain_db, 1);
+        if (!selection.own_receivers[link.link.rx]) left_out = std::max(left_out, link.left_out_power_share);
+      }
       fixed_bytes += 200 + pose_bytes * frame.poses.size() + end_bytes * (run.transmitters().size() + own);
       for (const auto* points : {&frame.transmitter_position_m, &frame.receiver_position_m})
         for (const glm::dvec3& point : *points) grow(out.ends_m, point);
@@ -137,15 +120,36 @@ struct Survey {
     }
     const uint64_t most = selection.bytes / 4 * 3, room = most > fixed_bytes ? most - fixed_bytes : 0;
     const double share = own < selection.own_receivers.size() ? map_links_share : links_share;
+    areas = cell_paths > 0 && cell_paths <= selection.area_paths;
+    const std::vector<double>& beams = selection.links.beam_gain_db;
+    const bool some_beams = std::ranges::any_of(beams, [](double gain_db) { return !std::isnan(gain_db); });
+    const uint64_t link_bytes =
+        LinkColumns::bytes + (areas ? LinkColumns::more_bytes : 0) + (some_beams ? LinkColumns::more_bytes : 0);
     const uint64_t link_room =
         std::min(links.rows() * link_bytes, static_cast<uint64_t>(share * static_cast<double>(room)));
-    links.limit(links.rows(), link_room);
+    links.limit(link_room / link_bytes, links.rows());
     if (selection.max_paths > 0)
       paths.limit(selection.max_paths, std::numeric_limits<uint64_t>::max());
     else
       paths.limit(paths.rows(), room - link_room);
   }
 };
+
+// Says what the areas of cells lack; empty if nothing.
+std::string area_warning(const Survey& survey, uint64_t area_paths) {
+  constexpr double least_left_out = 1e-9;  // smaller shares of power are rounding errors of links.csv
+  if (area_paths == 0 || survey.cell_paths == 0) return "";
+  if (survey.cell_paths > area_paths)
+    return fmt::format(
+        "the map has no cell mean and no fading, which take long for {} paths to its cells; fewer frames (--frames) and "
+        "`wavetracer coverage` show them",
+        survey.cell_paths);
+  if (!(survey.left_out > least_left_out)) return "";
+  return fmt::format(
+      "the cell mean and the fading of the map are those of the paths in paths.h5, where limits of output ([output] "
+      "min_gain_db, dynamic_range_db, max_paths_per_link) have left out up to {:.3g}% of the power of a cell",
+      100 * survey.left_out);
+}
 
 // Returns the rows of the paths that the page holds, the weakest first: it draws them in this order, so that the
 // strongest lie on top.
@@ -189,11 +193,13 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
       lowest_db = std::min(lowest_db, frame.paths.gain_db[i]);
       highest_db = std::max(highest_db, frame.paths.gain_db[i]);
     }
+    std::optional<CellAreas> cells;
+    if (survey.areas) cells.emplace(selection.grids, frame, run.frequency_hz());
     for (const LinkRow& row :
          link_rows(frame, selection.links, run.first_link(selection.rows[f]), run.frequency_hz())) {
-      if (!survey.links.keep(row.path_gain_db, link_bytes)) continue;
+      if (!survey.links.keep(row.path_gain_db, 1)) continue;
       ++out.shown_links;
-      links.add(f, row);
+      links.add(f, row, cells ? cells->levels(row.link) : coverage::AreaLevels());
     }
     elements += block_element("frame_" + std::to_string(f), pack_frame(frame, kept, selection, centre_m));
     out.frames.push_back({frame.number, frame.time_s, frame.paths.size(), kept.size()});
@@ -205,6 +211,9 @@ FrameBlocks add_frame_blocks(const SavedRun& run, const FrameSelection& selectio
     out.highest_db = highest_db;
   }
   out.links = survey.links.rows();
+  out.beams = links.beams();
+  out.areas = links.areas();
+  out.area_warning = area_warning(survey, selection.area_paths);
   elements += block_element("links", links.block());
   return out;
 }

@@ -11,6 +11,7 @@
 #include "results/link_table.hpp"
 #include "results/saved_run.hpp"
 #include "results/saved_waypoints.hpp"
+#include "viewer/grid_maps.hpp"
 
 namespace wavetracer {
 
@@ -20,6 +21,8 @@ struct FrameSelection {
   uint64_t bytes = 0;                    // bytes of base64 for all blocks of frames together
   std::vector<bool> own_receivers = {};  // receivers of the run that are not cells of a grid
   LinkTable links = {};                  // links of the run
+  std::vector<GridMap> grids = {};       // grids of the run
+  uint64_t area_paths = 0;  // with at most so many paths to cells these get their mean and fading; 0: in no case
 };
 
 struct PageBounds {
@@ -35,6 +38,8 @@ struct FrameBlocks {
   // Box around ends and vehicles in all frames, file coordinates; nothing if there are none.
   std::optional<PageBounds> ends_m;
   uint64_t paths = 0, shown_paths = 0, links = 0, shown_links = 0;
+  bool beams = false, areas = false;  // links have the columns of beams, and those of the areas of cells
+  std::string area_warning;           // says what the areas of cells lack; empty if nothing
 };
 
 // Appends the elements block_frame_0, block_frame_1, ... and block_links. page/data.js describes the layouts.

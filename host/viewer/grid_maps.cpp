@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include "simulation/receiver_grid.hpp"
 #include "viewer/blocks.hpp"
 
@@ -34,11 +33,17 @@ GridMap grid_from(const std::vector<RadioEnd>& receivers, uint32_t first) {
   return grid;
 }
 
-// The steps of columns and rows in x and y, and that of rows in z if the grid stands on a vertical plane, else 0.
-struct GridSteps {
-  glm::dvec2 column_m{0}, row_m{0};
-  double rise_m = 0;
-};
+}  // namespace
+
+std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers) {
+  std::vector<GridMap> out;
+  for (uint32_t i = 0; i < receivers.size();) {
+    const GridMap grid = grid_from(receivers, i);
+    if (grid.count() > 0) out.push_back(grid);
+    i += std::max(grid.count(), 1u);
+  }
+  return out;
+}
 
 // Cells of a single row or column are squares: they lie, or stand along x if it is a column that goes up.
 GridSteps steps_of(const GridMap& grid, const std::vector<glm::dvec3>& position_m) {
@@ -57,18 +62,6 @@ GridSteps steps_of(const GridMap& grid, const std::vector<glm::dvec3>& position_
   if (grid.rows == 1) out.row_m = {-out.column_m.y, out.column_m.x};
   if (grid.columns == 1)
     out.column_m = out.rise_m != 0 ? glm::dvec2(out.rise_m, 0) : glm::dvec2(out.row_m.y, -out.row_m.x);
-  return out;
-}
-
-}  // namespace
-
-std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers) {
-  std::vector<GridMap> out;
-  for (uint32_t i = 0; i < receivers.size();) {
-    const GridMap grid = grid_from(receivers, i);
-    if (grid.count() > 0) out.push_back(grid);
-    i += std::max(grid.count(), 1u);
-  }
   return out;
 }
 

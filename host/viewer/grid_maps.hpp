@@ -3,6 +3,7 @@
 // recognised by their names, NAME/IX,IY row by row, so that a run can be read without its configuration.
 #pragma once
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +20,16 @@ struct GridMap {
 
 // Returns grids in the order of their receivers, of at least 2 x 2 cells, or 4 in a row.
 std::vector<GridMap> find_grids(const std::vector<RadioEnd>& receivers);
+
+// The steps of columns and rows in x and y, and that of rows in z if the grid stands on a vertical plane, else 0. Cells
+// of a single row or column are squares.
+struct GridSteps {
+  glm::dvec2 column_m{0}, row_m{0};
+  double rise_m = 0;
+};
+
+// position_m: of all receivers of the run.
+GridSteps steps_of(const GridMap& grid, const std::vector<glm::dvec3>& position_m);
 
 // Appends an element block_grid_K of heights for each grid, and returns the other data that the page needs about them.
 // position_m: of all receivers of the run. Cells must lie in equal steps along x and y, or along a line and upwards,

@@ -147,6 +147,23 @@ void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
   if (blocks.shown_links < blocks.links)
     page.warnings.push_back(fmt::format("gains over time are there for the {} strongest of {} links of all frames",
                                         blocks.shown_links, blocks.links));
+  if (!blocks.area_warning.empty()) page.warnings.push_back(blocks.area_warning);
+}
+
+// Adds to the metadata what the blocks of frames have.
+void add_frame_facts(const FrameBlocks& blocks, const SavedWorld& world, const glm::dvec3& centre, json& meta,
+                     ViewPage& page) {
+  page.paths = blocks.shown_paths;
+  warn_of_losses(blocks, page);
+  meta["frames"] = blocks.frames;
+  meta["gain_range_db"] = {blocks.lowest_db, blocks.highest_db};
+  meta["highest_order"] = blocks.highest_order;
+  meta["path_kinds"] = path_kind_rows(world.config, blocks.interactions);
+  if (blocks.ends_m) meta["ends_m"] = box(*blocks.ends_m, centre);
+  meta["links"] = blocks.shown_links;
+  meta["link_columns"] = {{"areas", blocks.areas}, {"beams", blocks.beams}};
+  meta["paths"] = {blocks.shown_paths, blocks.paths};
+  meta["warnings"] = page.warnings;
 }
 
 // Writes sampled rays, which may take a quarter of the page; null if the run holds none.
@@ -235,19 +252,16 @@ ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptio
                {"warnings", page.warnings}});
   const uint64_t taken = form_bytes + scripts.size() + elements.size() + meta_text(meta).size();
   const uint64_t room = taken + least_frame_bytes < options.max_bytes ? options.max_bytes - taken : least_frame_bytes;
-  const FrameBlocks blocks =
-      add_frame_blocks(run, {rows, options.max_paths, room, own, std::move(links)}, centre, elements);
-  page.paths = blocks.shown_paths;
-  warn_of_losses(blocks, page);
-  meta["frames"] = blocks.frames;
-  meta["gain_range_db"] = {blocks.lowest_db, blocks.highest_db};
-  meta["highest_order"] = blocks.highest_order;
-  meta["path_kinds"] = path_kind_rows(world.config, blocks.interactions);
-  if (blocks.ends_m) meta["ends_m"] = box(*blocks.ends_m, centre);
-  meta["links"] = blocks.shown_links;
-  meta["paths"] = {blocks.shown_paths, blocks.paths};
-  meta["warnings"] = page.warnings;
-
+  const FrameBlocks blocks = add_frame_blocks(run,
+                                              {.rows = rows,
+                                               .max_paths = options.max_paths,
+                                               .bytes = room,
+                                               .own_receivers = own,
+                                               .links = std::move(links),
+                                               .grids = grids,
+                                               .area_paths = options.reload_s == 0 ? options.area_paths : 0},
+                                              centre, elements);
+  add_frame_facts(blocks, world, centre, meta, page);
   page.html = filled(page_file("index.html"), {{"/*STYLE*/", page_file("style.css")},
                                                {"<!--META-->", meta_text(meta)},
                                                {"<!--BLOCKS-->", elements},

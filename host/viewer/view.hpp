@@ -20,6 +20,7 @@ struct ViewOptions {
   uint64_t max_paths = 0;           // the strongest of all frames; 0: as many as keep the page below max_bytes
   std::string title = {};           // empty: the run's folder
   uint64_t max_bytes = page_bytes;  // limit of the page, if the scene leaves room for 8 MB of frames
+  uint64_t area_paths = 3'000'000;  // pages of more paths to cells of grids have no values of areas, which take long
   double reload_s = 0;              // the page reloads itself after this time; 0: never
 };
 

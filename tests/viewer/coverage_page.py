@@ -105,8 +105,9 @@ for ix, server in ((102, best[cell(102, 160)]), (240, best[cell(240, 160)])):
 assert "east" in page.text("legend") and "west" in page.text("legend")
 page.screenshot("coverage_server")
 options = [option.text for option in page.find("quantity").find_elements(By.TAG_NAME, "option")]
-assert options == ["path gain", "received power", "SNR", "SINR", "interference", "best transmitter", "margin", "delay spread",
-                   "K factor", "line of sight", "number of paths", "none"], options
+assert options == ["path gain", "narrowband gain", "received power", "SNR", "SINR", "interference", "best transmitter",
+                   "margin", "delay spread", "K factor", "line of sight", "number of paths", "cell mean", "fading",
+                   "none"], options
 sent, noise = 1000, 1.380649e-23 * 290 * 20e6 * 1e3  # mW
 own, other = (power[k, np.arange(90001)] for k in (best, 1 - best))
 with np.errstate(divide="ignore", invalid="ignore"):

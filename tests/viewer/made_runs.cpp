@@ -58,6 +58,18 @@ void add_path(Paths& paths, uint32_t frame, const Link& link, const EndState& fr
   paths.quarters.push_back(k % 2 ? 1 : 15);
 }
 
+// Adds gains of a link through 15 beams of the transmitter. The best beam is that of the column.
+void add_beams(BeamRows& beams, const Link& link, uint32_t column, uint32_t frame) {
+  constexpr uint32_t count = 15;
+  for (uint32_t beam = 0; beam < count; ++beam) {
+    beams.tx.push_back(link.tx);
+    beams.rx.push_back(link.rx);
+    beams.tx_beam.push_back(beam);
+    beams.rx_beam.push_back(0);
+    beams.gain_db.push_back(-70 - 3.0 * frame - 0.5 * column - 10.0 * (beam != column % count));
+  }
+}
+
 // Adds counts of all the paths of a frame.
 void add_counts(FrameResult& frame, MadeRun::Found found = MadeRun::Found::rays) {
   frame.counts.paths = frame.paths.size();
@@ -137,7 +149,8 @@ void write_made_run(const MadeRun& made, const std::filesystem::path& folder) {
   write_outputs(folder, {config, scene, instances, models, made_summary()}, frames);
 }
 
-void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder, bool upright) {
+void write_made_coverage(const MadeMap& made, const std::filesystem::path& folder) {
+  const uint32_t columns = made.columns, rows = made.rows;
   Config config;
   config.radio.frequency_hz = frequency_hz;
   config.text =
@@ -152,22 +165,30 @@ void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem:
       RadioEnd& cell = config.receivers.emplace_back();
       cell.name = fmt::format("map/{},{}", ix, iy);
       cell.position_m = {ix - 0.5 * columns + 0.5, iy - 0.5 * rows + 0.5, 1.5};
-      if (upright) cell.position_m = {-3 + 0.6 * ix, 4 + 0.8 * ix, 1.0 + iy};
+      if (made.upright) cell.position_m = {-3 + 0.6 * ix, 4 + 0.8 * ix, 1.0 + iy};
     }
-  FrameResult frame;
-  for (auto [ends, states] : {std::pair{&config.transmitters, &frame.world.transmitters},
-                              std::pair{&config.receivers, &frame.world.receivers}})
-    for (const RadioEnd& end : *ends)
-      states->push_back({.position_m = {end.position_m[0], end.position_m[1], end.position_m[2]}});
-  for (uint32_t tx = 0; tx < 2; ++tx)
-    for (uint32_t rx = 0; rx <= columns * rows; ++rx) {
-      frame.world.links.push_back({tx, rx});
-      const uint32_t ix = rx == 0 ? 0 : (rx - 1) % columns;
-      for (uint32_t k = ix % 3; k < 2; ++k)
-        add_path(frame.paths, 0, {tx, rx}, frame.world.transmitters[tx], frame.world.receivers[rx], k);
-    }
-  add_counts(frame);
-  write_outputs(folder, {config, {}, {}, {}, made_summary()}, std::span(&frame, 1));
+  config.output.max_paths_per_link = made.max_paths_per_link;
+  std::vector<FrameResult> frames(made.frames);
+  for (uint32_t f = 0; f < made.frames; ++f) {
+    FrameResult& frame = frames[f];
+    frame.frame = f;
+    frame.world.time_s = 0.5 * f;
+    for (auto [ends, states] : {std::pair{&config.transmitters, &frame.world.transmitters},
+                                std::pair{&config.receivers, &frame.world.receivers}})
+      for (const RadioEnd& end : *ends)
+        states->push_back({.position_m = {end.position_m[0], end.position_m[1], end.position_m[2]}});
+    frame.world.transmitters[0].position_m.x -= 6.0 * f;
+    for (uint32_t tx = 0; tx < 2; ++tx)
+      for (uint32_t rx = 0; rx <= columns * rows; ++rx) {
+        frame.world.links.push_back({tx, rx});
+        const uint32_t ix = rx == 0 ? 0 : (rx - 1) % columns;
+        for (uint32_t k = ix % 3; k < 2; ++k)
+          add_path(frame.paths, f, {tx, rx}, frame.world.transmitters[tx], frame.world.receivers[rx], k);
+        if (made.beams && rx > 0 && ix % 3 < 2) add_beams(frame.beams, {tx, rx}, ix, f);
+      }
+    add_counts(frame);
+  }
+  write_outputs(folder, {config, {}, {}, {}, made_summary()}, frames);
 }
 
 void write_made_rays(const std::filesystem::path& folder) {

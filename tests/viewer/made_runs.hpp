@@ -3,6 +3,7 @@
 // delays and angles are functions of the geometry, so that the numbers on the page can be computed again.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace wavetracer::test {
@@ -19,10 +20,17 @@ struct MadeRun {
 // Writes paths.h5 and the rest into the folder. One road-side unit sends, every vehicle sends and receives.
 void write_made_run(const MadeRun& made, const std::filesystem::path& folder);
 
-// One frame of two transmitters, a receiver "car" and a grid "map" of cells of 1 m around the origin, 1.5 m high. Cells
-// of columns 0, 3, 6 ... have a direct and a reflected path, those of 1, 4, 7 ... a reflected one, the others none.
-// upright: rows go up from 1 m instead, and columns along (0.6, 0.8) from (-3, 4).
-void write_made_coverage(uint32_t columns, uint32_t rows, const std::filesystem::path& folder, bool upright = false);
+struct MadeMap {
+  uint32_t columns, rows;
+  bool upright = false;  // rows go up from 1 m, and columns along (0.6, 0.8) from (-3, 4)
+  uint32_t frames = 1;   // at 0 s, 0.5 s and so on; the first transmitter goes 6 m to the west between two of them
+  std::optional<uint32_t> max_paths_per_link = {};  // as in [output]
+  bool beams = false;  // links of cells with a path have the gains of 15 beams, and the best one is column modulo 15
+};
+
+// Frames of two transmitters, a receiver "car" and a grid "map" of cells of 1 m around the origin, 1.5 m high. Cells of
+// columns 0, 3, 6 ... have a direct and a reflected path, those of 1, 4, 7 ... a reflected one, the others none.
+void write_made_coverage(const MadeMap& made, const std::filesystem::path& folder);
 
 // Two frames, f = 0 and 1, without paths, of two sampled rays that start at (0, 0, 10). The first meets (10 + f, 0, 0),
 // passes the receiver, meets (10 + f, 10, 5), which the cache answered, and is lost; the second meets (20 + f, 0, 0),

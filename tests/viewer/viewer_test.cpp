@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include "base/file.hpp"
-#include "folders.hpp"
 #include "output/sample_run.hpp"
 #include "radio/links.hpp"
 #include "results/link_rows.hpp"
@@ -16,29 +15,17 @@
 #include "viewer/grid_maps.hpp"
 #include "viewer/made_runs.hpp"
 #include "viewer/page_files.hpp"
+#include "viewer/pages.hpp"
 #include "viewer/scene_blocks.hpp"
 #include "viewer/strongest.hpp"
 #include "viewer/view.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
+using namespace wavetracer::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path folder = fs::path(test::build_folder()) / "tests" / "viewer";
-
-ViewPage write_page(const std::string& name, const ViewOptions& options = {}) {
-  ViewPage page = make_view(SavedRun(folder / name), options);
-  write_file(folder / name / "view.html", page.html);
-  return page;
-}
-
-nlohmann::json meta_of(const ViewPage& page) {
-  const std::string begin = "<script type=\"application/json\" id=\"meta\">";
-  const size_t from = page.html.find(begin) + begin.size();
-  return nlohmann::json::parse(page.html.substr(from, page.html.find("</script>", from) - from));
-}
 
 size_t count_of(const std::string& text, const std::string& part) {
   size_t count = 0;
@@ -154,36 +141,6 @@ TEST_CASE("a drive in a city") {
     CHECK_THROWS_WITH_AS(make_view(SavedRun(folder / "drive"), {.first_frame = 40, .last_frame = 50}),
                          doctest::Contains("its frames are 0 to 10"), ConfigError);
   }
-}
-
-TEST_CASE("a map of receivers is one, and what it shows is what its paths say") {
-  test::write_made_coverage(300, 300, folder / "coverage");
-  const SavedRun run(folder / "coverage");
-  const std::vector<GridMap> grids = find_grids(run.receivers());
-  REQUIRE(grids.size() == 1);
-  CHECK(grids[0].name == "map");
-  CHECK(grids[0].first == 1);
-  CHECK(grids[0].columns == 300);
-  CHECK(grids[0].rows == 300);
-  const ViewPage page = write_page("coverage");
-  const nlohmann::json meta = meta_of(page);
-  CHECK(meta["receivers"].size() == 1);
-  CHECK(meta["grids"][0]["first_m"][1].get<double>() + meta["centre_m"][1].get<double>() == doctest::Approx(-149.5));
-  CHECK(meta["grids"][0]["column_m"] == nlohmann::json{1, 0});
-  CHECK(meta["grids"][0]["row_m"] == nlohmann::json{0, 1});
-  CHECK(meta["grids"][0]["rise_m"] == 0);
-  CHECK(meta["links"] == 2 * 90001);
-  CHECK(page.html.size() < 40e6);
-}
-
-TEST_CASE("a map on a vertical plane has steps along it and upwards") {
-  test::write_made_coverage(12, 9, folder / "upright", true);
-  const nlohmann::json grid = meta_of(write_page("upright"))["grids"][0];
-  CHECK(grid["column_m"][0].get<double>() == doctest::Approx(0.6));
-  CHECK(grid["column_m"][1].get<double>() == doctest::Approx(0.8));
-  CHECK(grid["row_m"] == nlohmann::json{0, 0});
-  CHECK(grid["rise_m"].get<double>() == doctest::Approx(1));
-  CHECK(grid["rows"] == 9);
 }
 
 TEST_CASE("what is no whole grid is none") {

@@ -130,15 +130,17 @@ class Coverage {
       parent.append(element("div", `${words} of the map${unit ? `, ${unit}` : ""}`));
       if (!counted) parent.append(...legend_bar(...range_of(this.quantity), theme().map_stops));
     }
-    if (counted)
+    if (counted) {
       for (const [value, colour] of this.counted_entries()) parent.append(legend_entry(colour, value_text(this.quantity, value)));
+      if (counted_values(this.quantity) > this.counted_colours().length) parent.append(element("div", "and so on: colours repeat"));
+    }
     if (this.holes) parent.append(legend_entry("transparent", "no colour: no path, or no value"));
   }
 
   // Values and colours of a legend; there are not more of them than colours.
   counted_entries() {
-    const colours = this.counted_colours(), count = this.quantity === "los" ? 2 : meta.transmitters.length;
-    return colours.slice(0, count).map((colour, value) => [value, colour]).reverse();
+    const colours = this.counted_colours();
+    return colours.slice(0, counted_values(this.quantity)).map((colour, value) => [value, colour]).reverse();
   }
 }
 
@@ -161,6 +163,11 @@ class PointerValue {
       this.waiting = true;
       setTimeout(() => this.show(), Math.max(16, 2 * this.took_ms));  // a map on hills has many triangles to meet
     });
+  }
+
+  // Shows the present value, after the frame or the layer has changed.
+  again() {
+    if (!this.box.hidden && this.place) this.show();
   }
 
   show() {

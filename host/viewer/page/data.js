@@ -151,6 +151,11 @@ const links = (() => {
     gain_db: from.take(Float32Array, meta.links), narrowband_gain_db: from.take(Float32Array, meta.links),
     rms_delay_spread_s: from.take(Float32Array, meta.links),
     missed_power_share: from.take(Float32Array, meta.links), k_factor: from.take(Float32Array, meta.links),
+    ...(meta.link_columns.areas
+      ? {cell_mean_db: from.take(Float32Array, meta.links), fading_db: from.take(Float32Array, meta.links)} : {}),
+    ...(meta.link_columns.beams
+      ? {beam_gain_db: from.take(Float32Array, meta.links), tx_beam: from.take(Uint16Array, meta.links),
+         rx_beam: from.take(Uint16Array, meta.links)} : {}),
     los: from.take(Uint8Array, meta.links),
   };
 })();

@@ -79,6 +79,10 @@ function link_figures(k) {
     ["Line of sight", links.los[k] ? "yes" : "no"],
     ...(links.k_factor[k] > 0 && Number.isFinite(links.k_factor[k])
       ? [["K factor", `${fixed(10 * Math.log10(links.k_factor[k]), 2)} dB`]] : []),
+    ...(some_areas && !Number.isNaN(links.cell_mean_db[k])
+      ? [["Over the cell", `mean ${fixed(links.cell_mean_db[k], 2)} dB, fading ${value_text("fading", links.fading_db[k])}`]] : []),
+    ...(some_beams && Number.isFinite(links.beam_gain_db[k])
+      ? [["Best beams", `${fixed(links.beam_gain_db[k], 2)} dB, beam ${links.tx_beam[k]} to ${links.rx_beam[k]}`]] : []),
     ...(Number.isFinite(links.missed_power_share[k])
       ? [["Missed", links.missed_power_share[k] === 0 ? "probably nothing"
           : `about ${share_text(links.missed_power_share[k])} of the power`]] : []),

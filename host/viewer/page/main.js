@@ -61,6 +61,7 @@ function refilter() {
   if (state.selected >= 0 && !filters.wanted(state.frame, state.selected)) select(-1);
   draw_legends();
   refresh_link();
+  pointer_value.again();
 }
 
 // Returns the scale of paths by power: that of the map, if it shows gains as well; beside other maps only its colours.
@@ -292,7 +293,7 @@ control("toggles").addEventListener("input", apply_toggles);
 control("colour").addEventListener("change", paint);
 prepare_rays_control();
 prepare_quantities();
-new PointerValue(control("pointer"), canvas, (x, y) => coverage.probe(orbit.raycaster(x, y), false), (rx) => coverage.words(rx));
+const pointer_value = new PointerValue(control("pointer"), canvas, (x, y) => coverage.probe(orbit.raycaster(x, y), false), (rx) => coverage.words(rx));
 control("home").addEventListener("click", () => show_all(true));
 control("top").addEventListener("click", () => show_all(false, Math.PI / 2));
 dark_scheme.addEventListener("change", paint);

@@ -54,15 +54,21 @@ class Reception {
   }
 }
 
-// A quantity has its words, its unit, its value in a cell that has a server, and whether the run has it. Values are
-// counts in `counted` ones: rows of transmitters, or no and yes.
+// A quantity has its words, its unit, its value in a cell that has a server, whether the run has it, and the words for
+// an infinite value. Values are counts in `counted` ones: rows of transmitters, no and yes, or numbers of beams.
 const some_power = sent_dbm !== null, some_noise = some_power && noise_floor_dbm !== null;
 const several = meta.transmitters.length > 1;
 const of_server = (column, factor = 1) => ({server}, rx) => factor * links[column][server[rx]];
+const {areas: some_areas, beams: some_beams} = meta.link_columns;
+// Links without a gain through beams have no pair of them.
+const beam_of = (k, side) => (Number.isFinite(links.beam_gain_db[k]) ? links[side][k] : NaN);
+const beam_of_server = (side) => ({server}, rx) => beam_of(server[rx], side);
 // Quantities with `of_link` have colours that hold for each transmitter, and not for the strongest alone.
 const Quantities = {
   gain: {name: "path gain", words: "Path gain", unit: "dB", value: of_server("gain_db"), known: true,
          of_link: (k) => links.gain_db[k]},
+  narrowband: {name: "narrowband gain", words: "Narrowband gain", unit: "dB", value: of_server("narrowband_gain_db"), known: true,
+               of_link: (k) => links.narrowband_gain_db[k]},
   received: {name: "received power", words: "Received power", unit: "dBm", known: some_power,
              value: ({server}, rx) => sent_dbm + links.gain_db[server[rx]], of_link: (k) => sent_dbm + links.gain_db[k]},
   snr: {name: "SNR", words: "Signal to noise", unit: "dB", known: some_noise,
@@ -77,10 +83,27 @@ const Quantities = {
            value: (cells, rx) => cells.margin(rx)},
   spread: {name: "delay spread", words: "Delay spread", unit: "ns", known: true, value: of_server("rms_delay_spread_s", 1e9)},
   k_factor: {name: "K factor", words: "Direct path over all others", unit: "dB", known: true,
-             value: ({server}, rx) => db_of_power(links.k_factor[server[rx]])},
+             value: ({server}, rx) => db_of_power(links.k_factor[server[rx]]), infinite: "the direct path alone"},
   los: {name: "line of sight", words: "Line of sight", counted: true, known: true, value: of_server("los")},
   paths: {name: "number of paths", words: "Number of paths", unit: "", known: true, value: of_server("paths")},
+  cell_mean: {name: "cell mean", words: "Mean gain over the cell", unit: "dB", known: some_areas,
+              value: of_server("cell_mean_db")},
+  fading: {name: "fading", words: "Fading within the cell", unit: "dB", known: some_areas,
+           value: of_server("fading_db"), infinite: "the same power everywhere"},
+  beam_gain: {name: "beam gain", words: "Gain through the best beams", unit: "dB", known: some_beams,
+              value: of_server("beam_gain_db")},
+  tx_beam: {name: "beam of the transmitter", words: "Beam of the transmitter", counted: true, known: some_beams,
+            value: beam_of_server("tx_beam"), side: "tx_beam"},
+  rx_beam: {name: "beam of the receiver", words: "Beam of the receiver", counted: true, known: some_beams,
+            value: beam_of_server("rx_beam"), side: "rx_beam"},
 };
+
+// Returns the number of values of a counted quantity, which begin at 0.
+function counted_values(quantity) {
+  const {side} = Quantities[quantity];
+  if (quantity === "los") return 2;
+  return side ? links[side].reduce((most, value) => Math.max(most, value), 0) + 1 : meta.transmitters.length;
+}
 
 // Returns the values at two shares of all, in order: a few extreme cells would take the colours of the others.
 function quantiles(values, low, high) {
@@ -122,10 +145,11 @@ function range_of(quantity) {
 
 // Returns the value of a quantity in words.
 function value_text(quantity, value) {
-  const {unit} = Quantities[quantity];
+  const {unit, infinite, side} = Quantities[quantity];
   if (Number.isNaN(value)) return "no value";
   if (quantity === "los") return value ? "line of sight" : "other paths only";
   if (quantity === "server") return name_of(meta.transmitters, value);
-  if (!Number.isFinite(value)) return "the direct path alone";
+  if (side) return `beam ${value}`;
+  if (!Number.isFinite(value)) return infinite || "no power";
   return unit === "" ? String(value) : `${fixed(value, 1)} ${unit}`;
 }
