@@ -3,12 +3,23 @@
 // First legs are tested first, then all others.
 #include "passes/occlusion.hpp"
 #include <algorithm>
+#include <string>
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
+namespace {
+
+gpu::Definitions build_of(const gpu::DeviceInfo& device, const DeviceScene& scene) {
+  gpu::Definitions out = scene.definitions;
+  if (const uint32_t most = tuning_of(device).leg_registers; most > 0)
+    out["-cl-nv-maxrregcount"] = std::to_string(most);
+  return out;
+}
+
+}  // namespace
 
 Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
-    : work_(tuning_of(context.info()).exact), kernel_(context, scene.definitions) {}
+    : work_(tuning_of(context.info()).exact), kernel_(context, build_of(context.info(), scene)) {}
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {

@@ -3,31 +3,11 @@
 // and the waves that they belong to (path_groups.cl), so that the host need not read the rows of a map.
 // A link's rows are dealt out to PARTS parts, which are added in their order, so that one work-item or PARTS of them
 // may take a link and the sums have the same bits.
+#include "lib/link_rows.clh"
 #include "lib/link_waves.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/elementary.h"
 #pragma OPENCL FP_CONTRACT OFF
-
-inline int is_of(const global wt_path_row* row, uint2 link) { return row->tx == link.x && row->rx == link.y; }
-
-// The first of rows low to high - 1 whose link is not before this one; high if there is none.
-inline uint first_row(const global wt_path_row* rows, uint low, uint high, uint2 link) {
-  while (low < high) {
-    const uint middle = low + (high - low) / 2;
-    if (rows[middle].tx < link.x || (rows[middle].tx == link.x && rows[middle].rx < link.y))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-// The row after the last one of a link. Looks in larger and larger steps: most links have few rows, some thousands.
-inline uint end_row(const global wt_path_row* rows, uint first, uint count, uint2 link) {
-  uint low = first, step = 1;
-  for (; step <= count - low && is_of(rows + low + step - 1, link); step *= 2) low += step;
-  return first_row(rows, low, min(step, count - low) + low, link + (uint2)(0, 1));
-}
 
 inline double power_of_row(const global wt_path_row* row) {
   double power = 0.0;
@@ -74,13 +54,6 @@ inline link_part no_rows(void) {
   return part;
 }
 
-// The rows of a frame, and of them those of a link.
-typedef struct {
-  const global wt_path_row* rows;
-  const global wt_vertex_row* vertices;
-  uint count, vertex_count, first, end;
-} link_rows;
-
 inline void add_row(link_part* part, const link_rows* of, uint at, double2* fields, uint values) {
   const global wt_path_row* row = of->rows + at;
   wt_link_sum* sum = &part->sum;
@@ -107,7 +80,7 @@ inline link_part sums_of_part(const link_rows* of, uint part, const link_waves* 
     add_row(&out, of, row, fields, args.values);
     if (!args.grouped) continue;
     for (uint k = 0; k < args.values; ++k) waves->fields[args.values * (size_t)row + k] = fields[k];
-    write_entries(waves, of->first, row);
+    write_entries(waves, row);
   }
   return out;
 }
@@ -158,16 +131,15 @@ kernel void link_sums(const global uint2* links, const global wt_path_row* rows,
                       const global wt_counters* counters, wt_link_sums_arguments args) {
   const uint i = get_global_id(0) / WT_LANES, lane = wt_lane();
   if (i >= args.link_count) return;
-  const uint2 link = links[i];
-  link_rows of = {rows, vertices, min(counters->rows, args.row_capacity), counters->row_vertices, 0, 0};
-  of.first = first_row(rows, 0, of.count, link);
-  of.end = end_row(rows, of.first, of.count, link);
+  const link_rows of =
+      rows_of_link(rows, vertices, min(counters->rows, args.row_capacity), counters->row_vertices, links[i]);
   const link_waves grouped = {waves, shared, entries, fields, keys, sums, args.values};
   const uint parts = min(PARTS, of.end - of.first);
   LINK_SPACE link_part part[PARTS], all[1];
   LINK_SPACE double2 deviations[PARTS];
   LINK_SPACE double powers[PARTS];
   LINK_SPACE uint starts[PARTS + 1];
+  LINK_SPACE ulong read[SLOTS_OF_ROW * WT_LANES];
 
   for (uint p = lane; p < parts; p += WT_LANES) part[p] = sums_of_part(&of, p, &grouped, args);
   for (uint p = lane; args.grouped && p <= PARTS; p += WT_LANES) starts[p] = 0;
@@ -183,10 +155,15 @@ kernel void link_sums(const global uint2* links, const global wt_path_row* rows,
   for (uint p = lane; p < parts; p += WT_LANES) deviations[p] = deviations_of_part(&of, p, mean, all->sum.power);
   if (args.grouped && lane == 0) place_tables(of.end - of.first, starts);
   WT_SYNC();
-  if (args.grouped) {
-    add_entries(&grouped, of.first, of.end, starts);
-    for (uint p = lane; p < PARTS; p += WT_LANES) powers[p] = power_of_owner(&grouped, of.first, p, starts);
+  if (args.grouped) clear_tables(&grouped, of.first, starts);
+  for (uint row = of.first; row < (args.grouped ? of.end : of.first); row += WT_LANES) {
+    read_entries(&grouped, row, of.end, read);
+    WT_SYNC();
+    add_entries(&grouped, of.first, row, starts, read);
+    WT_SYNC();
   }
+  for (uint p = lane; args.grouped && p < PARTS; p += WT_LANES)
+    powers[p] = power_of_owner(&grouped, of.first, p, starts);
   WT_SYNC();
   if (lane != 0) return;
   wt_link_sum sum = all->sum;

@@ -33,7 +33,7 @@ inline wt_double2 wt_over(wt_double2 a, wt_double2 b) {
     y = b.y / size;
     norm = (x * x + y * y) * size;
   }
-  return WT_DOUBLE2((wt_product(a.x, x) + wt_product(a.y, y)) / norm, (wt_product(a.y, x) - wt_product(a.x, y)) / norm);
+  return WT_DOUBLE2(wt_product(a.x, x) + wt_product(a.y, y), wt_product(a.y, x) - wt_product(a.x, y)) * (1.0 / norm);
 }
 inline double wt_size(wt_double2 a) {
   const double norm = wt_norm(a);

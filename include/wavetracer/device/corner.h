@@ -26,10 +26,18 @@ inline int wt_same_faces(const wt_wedge_face* a, const wt_wedge_face* b) {
 
 typedef struct {
   double exterior;
-  wt_double3 normals[2];
+  wt_double2 turn;  // cosine and sine of that angle
   wt_wedge_face faces[2];
   double wavelength_m;
 } wt_corner;
+
+// Selections keep a corner in registers, where places in its arrays would not.
+inline wt_wedge_face wt_corner_face(const wt_corner* corner, int face) {
+  return face ? corner->faces[1] : corner->faces[0];
+}
+inline wt_double3 wt_corner_normal(const wt_corner* corner, int face) {
+  return face ? WT_DOUBLE3(corner->turn.y, -corner->turn.x, 0.0) : WT_DOUBLE3(0.0, 1.0, 0.0);
+}
 
 // A plane wave that comes to the corner, from the side of the edge on which its source lies.
 typedef struct {
@@ -118,15 +126,29 @@ inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, dou
   return wt_face_slab_of(face, lit, wt_real(cosine) + shift, !(shift.x > 0.0), wavelength_m);
 }
 
-// The wave reflected at one face, from (beta', phi') to (beta, phi). lit, shift: see wt_face_slab_beside.
-WT_CALLED wt_matrix wt_reflected_wave(const wt_corner* corner, const wt_corner_wave* wave, int face, double lit,
-                                      wt_double2 shift) {
-  const wt_double3 normal = corner->normals[face], out = wt_mirrored(wave->k, normal);
-  const double cosine = fmin(fabs(wt_dot3(wave->k, normal)), 1.0);
-  const wt_slab slab = wt_face_slab_beside(corner->faces + face, cosine, lit, shift, corner->wavelength_m);
-  wt_transfer transfer = wt_transfer_from(wave->coming);
-  wt_meet(&transfer, wave->k, out, normal, slab.reflection_te, slab.reflection_tm);
-  return wt_seen_in(&transfer, wt_leaving(WT_DOUBLE3(0.0, 0.0, 1.0), out));
+// The matrix from (beta', phi') to (beta, phi) of a wave that a face reflects. te, tm: the coefficients of the face;
+// turn: cosine and sine of the azimuth of the source from this face; cosine: that of the angle between the wave and the
+// edge. The unit vector normal to the plane of incidence has the components -turn.x / S along beta' and cosine turn.y /
+// S along phi', S^2 = turn.x^2 + (cosine turn.y)^2. At normal incidence there is no such plane, and tm is -te.
+inline wt_matrix wt_reflection_between(int face, wt_double2 turn, double cosine, wt_double2 te, wt_double2 tm) {
+  const double along = cosine * turn.y, square = turn.x * turn.x + along * along, share = 1.0 / square;
+  const int plane = square > 1e-16;
+  const double beta = plane ? turn.x * turn.x * share : 1.0, phi = plane ? along * along * share : 0.0;
+  const wt_double2 mixed = (te + tm) * (plane ? turn.x * along * share : 0.0);
+  wt_matrix out;
+  out.m[0] = tm * phi - te * beta;
+  out.m[1] = face ? -mixed : mixed;
+  out.m[2] = face ? mixed : -mixed;
+  out.m[3] = te * phi - tm * beta;
+  return out;
+}
+
+// The wave reflected at one face. turn, cosine: see wt_reflection_between; sine: that of the angle between the wave and
+// the edge; lit, shift: see wt_face_slab_beside.
+WT_CALLED wt_matrix wt_reflected_wave(wt_wedge_face material, int face, wt_double2 turn, double cosine, double sine,
+                                      double lit, wt_double2 shift, double wavelength_m) {
+  const wt_slab slab = wt_face_slab_beside(&material, fmin(sine * fabs(turn.y), 1.0), lit, shift, wavelength_m);
+  return wt_reflection_between(face, turn, cosine, slab.reflection_te, slab.reflection_tm);
 }
 
 // The wave as a matrix from (beta', phi') to (beta, phi): reflected `count` times, or let through by as many faces; it
@@ -138,9 +160,10 @@ WT_CALLED wt_matrix wt_met(const wt_corner* corner, const wt_corner_wave* wave, 
   wt_transfer transfer = wt_transfer_from(wave->coming);
   for (int i = 0; i < count; ++i) {
     const int face = first != (i % 2 == 1);
-    const wt_double3 normal = corner->normals[face];
+    const wt_double3 normal = wt_corner_normal(corner, face);
     const wt_double3 out = straight ? k : wt_mirrored(k, normal);
-    const wt_slab slab = wt_face_slab(&corner->faces[face], fmin(fabs(wt_dot3(k, normal)), 1.0), corner->wavelength_m);
+    const wt_wedge_face material = wt_corner_face(corner, face);
+    const wt_slab slab = wt_face_slab(&material, fmin(fabs(wt_dot3(k, normal)), 1.0), corner->wavelength_m);
     if (straight)
       wt_meet(&transfer, k, out, normal, slab.transmission_te, slab.transmission_tm);
     else
