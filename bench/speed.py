@@ -172,6 +172,24 @@ def coverage(groups):
                          lambda value: f"{digits(value / 1e3)} thousand places/s")
 
 
+def maps(groups):
+    """Maps of the same cells by both programs on one GPU, from fast to slow: time and cells that are off."""
+    def case(rays, peer=""):
+        return f"munich, 22500 receivers, {rays} rays, depth 3, error against 10 times the rays{peer}"
+
+    own = [of_device(groups, "coverage", H200, case(rays)) for rays in ("1e+03", "3e+03", "1e+05")]
+    lines = [[f"wavetracer, {row['rays']:,} rays", seconds(row["frame_s"]), share(row["error"]), ""] for row in own if row]
+    found = [row for row in own if row]
+    for row in (of_device(groups, "coverage", H200, case("1e+03", peer)) for peer in ("", " (2)", " (3)", " (4)")):
+        if row and row["baseline"]:
+            rays, error = row["baseline"].split(", ")[-1].split(" rays: ")
+            lines.append([f"Sionna RT, {float(rays):,.0f} rays", seconds(row["receivers"] / row["baseline_value"]),
+                          error.split(" of ")[0], digits(row["ratio"])])
+            found.append(row)
+    return markdown(["22,500 places in Munich, depth 3", "one map", "places that err by more than 0.1 dB",
+                     "times as long as wavetracer with 1,000 rays"], lines, 3) + sources(found)
+
+
 def scaling(groups):
     def efficiency(rows):
         row = newest_of(rows)
@@ -274,5 +292,5 @@ def checks(groups):
 
 
 TABLES = {"cars": cars, "steps": steps, "features": features, "recall": recall, "checks": checks,
-          "visitor": visitor, "links": links, "edges": edges, "drives": drives, "live": live, "coverage": coverage,
+          "visitor": visitor, "links": links, "edges": edges, "drives": drives, "live": live, "coverage": coverage, "maps": maps,
           "scaling": scaling, "parts": parts}

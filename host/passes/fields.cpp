@@ -30,7 +30,7 @@ gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows r
 }  // namespace
 
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m)
-    : Fields(context, tables, edges, origin_m, tuning_of(context.info()).corners_apart) {}
+    : Fields(context, tables, edges, origin_m, path_tuning_of(context.info()).corners_apart) {}
 
 Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m,
                bool corners_apart)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t slots_of_row = WT_MOST_GROUPS;
 
-uint32_t lanes_of(const gpu::DeviceInfo& device, bool waves) { return waves ? tuning_of(device).sum_lanes : 1; }
+uint32_t lanes_of(const gpu::DeviceInfo& device, bool waves) { return waves ? path_tuning_of(device).sum_lanes : 1; }
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 
 gpu::Definitions build_of(const gpu::DeviceInfo& device, const DeviceScene& scene) {
   gpu::Definitions out = scene.definitions;
-  if (const uint32_t most = tuning_of(device).leg_registers; most > 0)
+  if (const uint32_t most = path_tuning_of(device).leg_registers; most > 0)
     out["-cl-nv-maxrregcount"] = std::to_string(most);
   return out;
 }

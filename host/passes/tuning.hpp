@@ -87,9 +87,6 @@ struct Tuning {
   Work sequences;
   uint32_t busy_nodes;  // commute: nodes that keep the device busy
   Work candidates, exact, prefixes;
-  uint32_t leg_registers;  // occlusion: the most of a work-item, on NVIDIA's GPUs; 0: the compiler's choice
-  bool corners_apart;      // fields: paths past corners have a launch of their own, and do not hold up their neighbours
-  uint32_t sum_lanes;      // link_sums: work-items of a link whose rows have waves
   uint32_t join_lanes, join_group;          // wedge_join: work-items per prefix
   uint32_t pairs_lanes, pairs_group;        // wedge_pairs: work-items per group of prefixes
   Work tiles;                               // rows of scatter
@@ -139,13 +136,6 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // (bench_drive, 100 vehicles, depth 3, 2026-11-24).
       .exact = {1, cpu ? 16u : 32u},
       .prefixes = {1, 64},  // the ground bounds many wedges and a wall few
-      // An H200 takes 7.2 ms instead of 9.1 for the legs of a map with diffraction, as below; 7.4 with 64 and 7.9
-      // with 96.
-      .leg_registers = on_nvidia(device) ? 80u : 0u,
-      // An H200 takes 21 ms instead of 61 for 4.5 million paths around edges, of which some pass corners (munich,
-      // 22,500 cells, `wavetracer run --repeat 5`, 2026-11-28). No limit of registers from 48 to 128 made it faster.
-      .corners_apart = !cpu,
-      .sum_lanes = cpu ? 1u : 32u,
       // A wedge may be seen by few prefixes or by thousands; not measured.
       .join_lanes = cpu ? 1u : 32u,
       // Most prefixes are not a transmitter's and end at once. GPUs: an H100 takes 0.36 ms instead of 0.52 in groups of
@@ -170,6 +160,21 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // This many rays fill the device; with few cores they also suit its caches. Not measured.
       .batch_rays = uint64_t{1} << (cpu ? 18 : 25),
   };
+}
+
+// Kernels of paths that are known.
+struct PathTuning {
+  uint32_t leg_registers;  // occlusion: the most of a work-item, on NVIDIA's GPUs; 0: the compiler's choice
+  bool corners_apart;      // fields: paths past corners have a launch of their own, and do not hold up their neighbours
+  uint32_t sum_lanes;      // link_sums: work-items of a link whose rows have waves
+};
+
+// An H200 takes these times for 4.5 million paths around edges, some of which pass corners (munich, 22,500 cells,
+// `wavetracer run --repeat 5`, 2026-11-28): occlusion 7.2 ms with 80 registers, 7.4 with 64, 7.9 with 96, 9.1 without a
+// limit; fields 21 ms with corners apart, 64 without; no limit of registers from 48 to 128 made fields faster.
+inline PathTuning path_tuning_of(const gpu::DeviceInfo& device) {
+  return {
+      .leg_registers = on_nvidia(device) ? 80u : 0u, .corners_apart = !device.cpu, .sum_lanes = device.cpu ? 1u : 32u};
 }
 
 // Radix sort by groups. key_bytes, value_bytes: those of an element; value_bytes is 0 without values.

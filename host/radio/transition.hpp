@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transition function of the uniform theory of diffraction, with a relative error below 1e-11.
+// The transition function of the uniform theory of diffraction, with a relative error below 1e-14.
 // The time convention is exp(+j 2 pi f t).
 #pragma once
 #include <cmath>

@@ -30,15 +30,15 @@ TEST_CASE("transition function: values from mpmath, x from 1e-12 to 1e12") {
                          {1e8, 0.99999999999999992, 4.9999999999999981e-9},
                          {1e12, 1.0, 5.0e-13}}) {
     CAPTURE(k.x);
-    CHECK(std::abs(transition(k.x) - Complex{k.re, k.im}) < 1e-11 * std::abs(Complex{k.re, k.im}));
+    CHECK(std::abs(transition(k.x) - Complex{k.re, k.im}) < 1e-14 * std::abs(Complex{k.re, k.im}));
   }
   CHECK(transition(0) == 0.0);
   CHECK(std::abs(transition_over_root(0) - std::polar(std::sqrt(std::numbers::pi), std::numbers::pi / 4)) < 1e-15);
 }
 
-TEST_CASE("transition function: its integral by quadrature, also where its two expansions meet") {
+TEST_CASE("transition function: its integral by quadrature") {
   const Complex j{0, 1};
-  for (double s = 0.01; s < 12; s += s < 2.5 || s > 3.5 ? 0.37 : 0.013) {
+  for (double s = 0.01; s < 12; s += 0.037) {
     CAPTURE(s);
     const Complex exact = 2.0 * j * std::exp(j * s * s) * test::fresnel_tail(s);
     CHECK(std::abs(transition_over_root(s) - exact) < 1e-10 * std::abs(exact));
