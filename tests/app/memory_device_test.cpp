@@ -31,14 +31,9 @@ TEST_CASE("without memory for the lists of all receivers the frame comes in batc
     CHECK(contains(batches.err, "did not fit into"));
     CHECK(contents(folder.path("out/links.csv")) == links);
   }
-  const auto says = [&](const char* key, const char* what) {
-    const Outcome out =
-        run_program({"run", "-c", file, "-o", folder.path("out"), "--set", key}, gate.at_buffers(size_t{1} << 21));
-    CAPTURE(out.err);
-    CHECK(contains(out.err, what));
-  };
-  says("trace.diffraction=false", "rays are launched for the first of them, and the others use what these find");
-  says("trace.edge_rays=0", "rays are launched again for each of them");
+  const Outcome shared = run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.diffraction=false"},
+                                     gate.at_buffers(size_t{1} << 21));
+  CHECK(contains(shared.err, "rays are launched for the first of them, and the others use what these find"));
   const Outcome none = run(size_t{1} << 20);  // less than the set of sequences needs at first
   CHECK(none.code == 4);
   CHECK(contains(none.err, "CL_MEM_OBJECT_ALLOCATION_FAILURE"));
