@@ -279,8 +279,8 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_waypoints(config, out);
   check_cache(config, out);
   check_ends(config, out);
-  auto names = check_names("transmitter", "name", config.transmitters, &RadioEnd::name, {}, out);
-  names = check_names("receiver", "name", config.receivers, &RadioEnd::name, names, out);
+  auto names = check_names("transmitter", "name", config.transmitters.values(), &RadioEnd::name, {}, out);
+  names = check_names("receiver", "name", config.receivers.values(), &RadioEnd::name, names, out);
   check_names("station", "name", config.stations, &RadioEnd::name, names, out);
   check_names("receiver_grid", "name", config.receiver_grids, &ReceiverGridConfig::name, {}, out);
   check_names("material", "name", config.materials, &MaterialConfig::name, {}, out);

@@ -29,6 +29,10 @@ template <class E, class M>
 auto at(std::vector<E> Config::*list, M E::*member) {
   return [list, member](Config& c, size_t i) -> Slot { return slot_of((c.*list)[i].*member); };
 }
+template <class E, class M>
+auto at(SharedList<E> Config::*list, M E::*member) {
+  return [list, member](Config& c, size_t i) -> Slot { return slot_of((c.*list)[i].*member); };
+}
 template <auto List>
 size_t append(Config& c) {
   (c.*List).emplace_back();

@@ -101,8 +101,8 @@ void check_sums(const Config& config, std::vector<Contradiction>& out) {
 void check_arrays(const Config& config, std::vector<Contradiction>& out) {
   std::vector<std::string> names;
   for (const ArrayConfig& array : config.arrays) names.push_back(array.name);
-  check_references("transmitter", config.transmitters, names, out);
-  check_references("receiver", config.receivers, names, out);
+  check_references("transmitter", config.transmitters.values(), names, out);
+  check_references("receiver", config.receivers.values(), names, out);
   check_references("station", config.stations, names, out);
   check_references("receiver_grid", config.receiver_grids, names, out);
   check_references("mount", config.mounts, names, out);

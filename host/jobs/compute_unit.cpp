@@ -63,8 +63,9 @@ bool solve_unit(const DriveTask& task, const Unit& unit, UnitWriter& writer, Pro
       explained = true;
     }
     writer.add(std::move(*result));
-    if (std::optional<FrameResult> written = writer.take_written()) task.simulation.give_back(*written);
+    std::optional<FrameResult> old = writer.take_written();
     if (stop) return frame == unit.last;
+    if (old) task.simulation.give_back(*old);
   }
   return true;
 }

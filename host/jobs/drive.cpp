@@ -11,6 +11,7 @@
 #include "jobs/earlier_run.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/solve_frame.hpp"
+#include "jobs/write_outputs.hpp"
 #include "output/path_limits.hpp"
 #include "wavetracer/error.hpp"
 
@@ -73,7 +74,7 @@ Results run_still(Simulation& simulation, Run& run, Progress& progress) {
   results.totals = totals_of({&frame, 1});
   if (const OutputConfig& output = run.config.output; limits_paths(output))
     results.totals.left_out = left_out(frame, written_rows(frame.paths, output));
-  results.files = write_outputs(run.config.output.directory, run, {&frame, 1});
+  results.files = write_frame(run.config.output.directory, run, std::move(frame));
   results.links = statistics_of(run);
   return results;
 }

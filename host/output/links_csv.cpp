@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the figures of radio/links.hpp as comma-separated text, sorted by frame, transmitter, receiver.
-// One frame at a time is in memory.
+// One frame at a time is in memory, and a small part of its rows as text.
 #include "output/links_csv.hpp"
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <ranges>
 #include <string>
 #include <string_view>
+#include <vector>
 #include "base/csv.hpp"
 #include "output/copy_pieces.hpp"
 #include "output/path_limits.hpp"
@@ -27,11 +31,9 @@ constexpr std::string_view header =
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-std::vector<std::string> labels(const std::vector<RadioEnd>& ends) {
-  std::vector<std::string> result;
-  for (const RadioEnd& end : ends)
-    result.push_back(end.name.empty() ? std::to_string(result.size()) : csv_field(end.name));
-  return result;
+std::string label(const std::vector<RadioEnd>& ends, size_t i) {
+  const std::string& name = ends.at(i).name;
+  return name.empty() ? std::to_string(i) : csv_field(name);
 }
 
 // Returns the pair of beams with the largest gain, and that gain. beam: the first row that may belong to the link; it
@@ -46,20 +48,31 @@ std::string best_beams(const BeamRows& beams, const Link& link, size_t& beam) {
   return fmt::format("{},{},{}", beams.tx_beam[best], beams.rx_beam[best], beams.gain_db[best]);
 }
 
+// Returns the first row of sorted columns that belongs to this link, or to a later one.
+size_t first_row(const std::vector<uint32_t>& tx, const std::vector<uint32_t>& rx, const Link& link) {
+  const auto rows = std::views::iota(size_t{0}, tx.size());
+  return static_cast<size_t>(std::ranges::partition_point(rows,
+                                                          [&](size_t row) {
+                                                            return Link{tx[row], rx[row]} < link;
+                                                          }) -
+                             rows.begin());
+}
+
 }  // namespace
 
 LinksCsv::LinksCsv(const Run& run, const std::filesystem::path& path)
-    : file_(path), radio_(run.config.radio), tx_(labels(run.config.transmitters)), rx_(labels(run.config.receivers)) {
+    : file_(path), radio_(run.config.radio), tx_(run.config.transmitters), rx_(run.config.receivers) {
   file_.write(bytes(header));
 }
 
-void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
-  std::string text;
-  size_t row = 0, beam = 0;  // rows of the link's first path and pair of beams
-  const std::vector<LinkFigures> links =
-      frame.summed ? frame.summed->links
-                   : link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz);
+std::string LinksCsv::rows(const FrameResult& frame, std::span<const LinkFigures> links,
+                           std::span<const uint8_t> written) const {
+  std::string text, tx;
+  const Link first{links.front().tx, links.front().rx};
+  size_t row = first_row(frame.paths.tx, frame.paths.rx, first),
+         beam = first_row(frame.beams.tx, frame.beams.rx, first);
   for (const LinkFigures& link : links) {
+    if (&link == links.data() || link.tx != (&link - 1)->tx) tx = label(tx_, link.tx);
     while (row < frame.paths.size() && Link{frame.paths.tx[row], frame.paths.rx[row]} < Link{link.tx, link.rx}) ++row;
     // If the device has summed the paths, all are left out.
     const LeftOutPaths gone =
@@ -68,13 +81,28 @@ void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
     const std::string best = best_beams(frame.beams, {link.tx, link.rx}, beam);
     const LinkBudget budget = link_budget(radio_, link.path_gain_db);
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{},{},{}\n",
-                   frame.world.time_s, tx_.at(link.tx), rx_.at(link.rx), link.paths, link.path_gain_db,
-                   link.sum_of_powers_db, link.narrowband_gain_db, link.mean_delay_s, link.rms_delay_spread_s,
-                   link.doppler_spread_hz, link.los, link.missed_power_share, budget.received_dbm, budget.snr_db,
-                   gone.paths, gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best,
-                   10 * std::log10(link.k_factor));
+                   frame.world.time_s, tx, label(rx_, link.rx), link.paths, link.path_gain_db, link.sum_of_powers_db,
+                   link.narrowband_gain_db, link.mean_delay_s, link.rms_delay_spread_s, link.doppler_spread_hz,
+                   link.los, link.missed_power_share, budget.received_dbm, budget.snr_db, gone.paths,
+                   gone.paths > 0 && gone.all > 0 ? gone.power / gone.all : 0.0, best, 10 * std::log10(link.k_factor));
   }
-  file_.write(bytes(text));
+  return text;
+}
+
+void LinksCsv::add(const FrameResult& frame, std::span<const uint8_t> written) {
+  std::vector<LinkFigures> computed;
+  if (!frame.summed) computed = link_figures(frame.paths, frame.frame, frame.world.links, radio_.frequency_hz);
+  const std::span<const LinkFigures> links = frame.summed ? frame.summed->links : computed;
+  constexpr size_t links_of_text = 2048;
+  std::array<std::string, 16> texts;  // written by all cores, and stored before the next ones
+  for (size_t first = 0; first < links.size(); first += texts.size() * links_of_text) {
+    const size_t count = std::min(texts.size(), (links.size() - first + links_of_text - 1) / links_of_text);
+    tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+      const size_t from = first + i * links_of_text;
+      texts[i] = rows(frame, links.subspan(from, std::min(links_of_text, links.size() - from)), written);
+    });
+    for (size_t i = 0; i < count; ++i) file_.write(bytes(texts[i]));
+  }
 }
 
 PendingFile LinksCsv::finish() {

@@ -2,10 +2,10 @@
 // Writes links.csv: one row per frame and link, including links without a path.
 // RFC 4180 with a header row and "\n" line ends; numbers are the shortest text that reads back to the same double.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
 #include "base/pending_file.hpp"
 #include "wavetracer/output.hpp"
 
@@ -22,9 +22,13 @@ class LinksCsv {
   PendingFile finish();
 
  private:
+  // Returns the rows of these links of the frame, at least one.
+  std::string rows(const FrameResult& frame, std::span<const LinkFigures> links,
+                   std::span<const uint8_t> written) const;
+
   PendingFile file_;
   RadioConfig radio_;
-  std::vector<std::string> tx_, rx_;  // names of the ends
+  SharedList<RadioEnd> tx_, rx_;  // only their names count
 };
 
 // Joins the rows of all parts, each written by LinksCsv, under one header. Throws RuntimeError.

@@ -68,10 +68,14 @@ void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* w
                         const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
                         const Distinct& distinct, const RowList& rows, RowCounts most) {
   if (ends.moved || !ends_[0]) {
-    std::vector<device::wt_field_end> records[2] = {field_ends(world.transmitters, 0),
-                                                    field_ends(world.receivers, transmitters_)};
-    for (int side = 0; side < 2; ++side)
-      upload_changed(context_, ends_[side], end_records_[side], std::move(records[side]), "ends of paths");
+    const SharedList<EndState>* states[2] = {&world.transmitters, &world.receivers};
+    const uint32_t first_antenna[2] = {0, transmitters_};
+    for (int side = 0; side < 2; ++side) {
+      if (ends_[side] && states[side]->shares(end_states_[side])) continue;
+      upload_changed(context_, ends_[side], end_records_[side], field_ends(*states[side], first_antenna[side]),
+                     "ends of paths");
+      end_states_[side] = *states[side];
+    }
   }
   make_room(context_, rows_, most.rows, "path rows");
   make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");

@@ -73,6 +73,7 @@ class Fields {
   gpu::Buffer<device::wt_foliage> foliages_;
   gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers
   std::vector<device::wt_field_end> end_records_[2];
+  SharedList<EndState> end_states_[2];  // those that the records were made of
   gpu::Buffer<device::wt_path_row> rows_;
   gpu::Buffer<device::wt_vertex_row> vertices_;
   gpu::HostMemory host_rows_, host_vertices_;

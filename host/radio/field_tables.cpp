@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -85,7 +87,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
 
 std::vector<device::wt_field_end> field_ends(std::span<const EndState> ends, uint32_t first_antenna) {
   std::vector<device::wt_field_end> records(ends.size());
-  for (size_t i = 0; i < ends.size(); ++i) {
+  tbb::parallel_for(size_t{0}, ends.size(), [&](size_t i) {
     device::wt_field_end& record = records[i];
     for (int row = 0; row < 3; ++row) {
       record.position_m[row] = ends[i].position_m[row];
@@ -93,7 +95,7 @@ std::vector<device::wt_field_end> field_ends(std::span<const EndState> ends, uin
       for (int column = 0; column < 3; ++column) record.rotation[3 * row + column] = ends[i].rotation[column][row];
     }
     record.antenna = first_antenna + static_cast<uint32_t>(i);
-  }
+  });
   return records;
 }
 

@@ -160,7 +160,7 @@ FieldModel::FieldModel(const Scene& scene, const Config& config, std::span<const
       models_(models),
       instances_(instances.begin(), instances.end()),
       tables_(make_field_tables(scene, config, models, instances)) {
-  const auto still = [&](const std::vector<RadioEnd>& ends, std::vector<EndState>& states) {
+  const auto still = [&](const std::vector<RadioEnd>& ends, SharedList<EndState>& states) {
     for (const RadioEnd& end : ends)
       states.push_back({.position_m = to_vector(end.position_m) - scene.origin_m,
                         .rotation = rotation_of(end.orientation_deg),

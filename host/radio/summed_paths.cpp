@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "wavetracer/interaction_kinds.hpp"
 
@@ -62,11 +63,23 @@ LinkFigures figures_of(const device::wt_link_sum& sum, uint32_t frame, const Lin
 
 }  // namespace
 
+std::vector<LinkFigures> sized_figures(std::vector<LinkFigures> room, size_t links) {
+  constexpr size_t page = 4096;
+  if (room.capacity() < links) {
+    room = std::vector<LinkFigures>();
+    room.reserve(links);
+    auto* const bytes = reinterpret_cast<volatile unsigned char*>(room.data());
+    tbb::parallel_for(size_t{0}, links * sizeof(LinkFigures) / page, [&](size_t i) { bytes[i * page] = 0; });
+  }
+  room.resize(links);
+  return room;
+}
+
 SummedPaths summed_paths(std::span<const device::wt_link_sum> sums, uint32_t frame, std::span<const Link> links,
-                         bool told) {
+                         bool told, std::vector<LinkFigures> room) {
   static_assert(std::tuple_size_v<decltype(SummedPaths::kinds)> == path_kinds.size());
   SummedPaths out;
-  out.links.resize(links.size());
+  out.links = sized_figures(std::move(room), links.size());
   tbb::parallel_for(size_t{0}, links.size(),
                     [&](size_t i) { out.links[i] = figures_of(sums[i], frame, links[i], told); });
   for (const SummedPaths& part : by_blocks<SummedPaths>(sums, [](SummedPaths&to, const device::wt_link_sum&sum) {

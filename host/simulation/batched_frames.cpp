@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transmitters launch their rays again for each batch, unless batches share what listeners hear of edges.
+// Rays are launched for each batch, unless batches share what they find (FrameLoop::batches_share).
 #include "simulation/batched_frames.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/stopwatch.hpp"
+#include "simulation/joined_batches.hpp"
 #include "simulation/receiver_batches.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer {
+namespace {
+
+// The links of the frame that are computed.
+std::vector<Link> links_of(const FrameTask& task, const LinkPart& part) {
+  std::vector<Link> out = task.pose().links;
+  const auto [first, end] = part.transmitters();
+  std::erase_if(out, [first = first, end = end](const Link& link) { return link.tx < first || link.tx >= end; });
+  return out;
+}
+
+}  // namespace
 
 FrameResult BatchedFrames::run(const TaskOf& task, const LinkPart& links) {
   const RunPlan& plan = *setup_.plan;
@@ -43,16 +56,14 @@ void BatchedFrames::halve(std::deque<ReceiverRange>& left) {
 }
 
 FrameResult BatchedFrames::run_batches(const TaskOf& task, const LinkPart& links, std::deque<ReceiverRange> left) {
-  const TraceConfig& trace = setup_.plan->trace;
   const FrameNames names = FrameNames::of(setup_.plan->asked);
   Stopwatch whole;
-  std::vector<FrameResult> parts;
+  JoinedBatches parts(links_of(task(links), links), loop_.take_room());
   LeftOut left_out;  // links of a batch are those of its receivers, so no link is here twice
   while (!left.empty()) {
     setup_.frame_watch->set_part(parts.size(), parts.size() + left.size());
     try {
-      parts.push_back(loop_.run(task(links.batch(left.front(), left_out, !parts.empty()))));
-      if (parts.size() > 1) parts.back().world.receivers = {};  // the first part has them for all
+      loop_.give_room(parts.add(loop_.run(task(links.batch(left.front(), left_out, parts.size() > 0)))));
       left.pop_front();
     } catch (const gpu::BufferError&) {
       if (left.front().end - left.front().first < 2) throw;
@@ -60,13 +71,8 @@ FrameResult BatchedFrames::run_batches(const TaskOf& task, const LinkPart& links
     }
   }
   setup_.frame_watch->set_part(0, 1);
-  FrameResult out = joined_batches(std::move(parts));
-  if (fitting_ < no_end)
-    out.warnings.push_back(
-        fmt::format("the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at a "
-                    "time, for each of which the transmitters launch their rays again{}",
-                    setup_.device.name, fitting_,
-                    trace.diffraction ? fmt::format("; trace.batch_receivers = {} begins so", fitting_) : ""));
+  FrameResult out = parts.joined();
+  if (fitting_ < no_end) out.warnings.push_back(halved_warning());
   if (!left_out.empty()) out.warnings.push_back(left_out_warning(left_out, names.transmitter, names.receiver));
   if (setup_.elements.on()) {  // for all links at once
     Stopwatch watch;
@@ -75,6 +81,17 @@ FrameResult BatchedFrames::run_batches(const TaskOf& task, const LinkPart& links
   }
   out.seconds["frame"] = whole.lap();
   return out;
+}
+
+std::string BatchedFrames::halved_warning() const {
+  const char* const rays = loop_.batches_share()
+                               ? "rays are launched for the first of them, and the others use what these find"
+                               : "rays are launched again for each of them";
+  const bool asks = setup_.plan->trace.diffraction || summed_;  // else frames begin with all receivers
+  return fmt::format(
+      "the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at "
+      "a time, and {}{}",
+      setup_.device.name, fitting_, rays, asks ? fmt::format("; trace.batch_receivers = {} begins so", fitting_) : "");
 }
 
 }  // namespace wavetracer

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <string>
 
 #include "simulation/frame.hpp"
 #include "wavetracer/frame_result.hpp"
@@ -31,6 +32,8 @@ class BatchedFrames {
 
  private:
   void halve(std::deque<ReceiverRange>& left);
+  // Says that batches were halved, and what that costs.
+  std::string halved_warning() const;
   FrameResult run_batches(const TaskOf& task, const LinkPart& links, std::deque<ReceiverRange> left);
 
   Setup& setup_;

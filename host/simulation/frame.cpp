@@ -3,6 +3,7 @@
 #include "simulation/frame.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "radio/summed_paths.hpp"
 #include "simulation/late_paths.hpp"
@@ -34,8 +35,6 @@ void FrameLoop::forget() {
   if (s_.cache) s_.cache->clear();
 }
 
-// Do batches of receivers share sequences? They do if only transmitters launch rays, or edges that listeners hear, and
-// if the launch does not depend on what was found.
 bool FrameLoop::batches_share() const {
   if (s_.exact_paths.from_edges) return true;
   return plan_.origins.listeners.count() == 0 && !s_.beams && !s_.cache && !s_.trails && plan_.trace.rays;
@@ -132,7 +131,9 @@ void FrameLoop::take_paths(const FrameTask& task, const DiscoveryCounts& found, 
   if (const auto text = witness_.hear(found, warm_frames_ == 0, plan_.has_surfaces() && !spheres)) account.warn(*text);
   const bool told = !s_.cache && !spheres && witness_.tells();
   if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
-  if (summed_) out.summed = summed_paths(sums, out.frame, out.world.links, told && !s_.beams);
+  if (summed_)
+    out.summed = out.summed =
+        summed_paths(sums, out.frame, out.world.links, told && !s_.beams, std::exchange(figures_room_, {}));
   if (found.rays > 0 || heard_) {
     out.missed = MissedCounts{.unknown = 1};
     if (told) out.missed = summed_ ? of_sums.missed : missed_counts(out.paths, 0, out.paths.size());

@@ -3,6 +3,8 @@
 // Frames of one setup share its set of sequences and its ray cache, so they are solved one after the other.
 #pragma once
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "simulation/discovery_clock.hpp"
 #include "simulation/frame_account.hpp"
@@ -10,6 +12,7 @@
 #include "simulation/launch_plan.hpp"
 #include "simulation/recall_warning.hpp"
 #include "simulation/setup.hpp"
+#include "wavetracer/link_figures.hpp"
 
 namespace wavetracer {
 
@@ -23,6 +26,12 @@ class FrameLoop {
   void forget();
   // The host reads sums of links from now on, and no paths; or paths again.
   void sum_links(bool on) { summed_ = on; }
+  // Memory for sums of links that later frames use: it is taken by the next one, or by whoever joins batches.
+  void give_room(std::vector<LinkFigures> figures) { figures_room_ = std::move(figures); }
+  std::vector<LinkFigures> take_room() { return std::exchange(figures_room_, {}); }
+  // Do batches of receivers share sequences? They do if only transmitters launch rays, or edges that listeners hear,
+  // and if the launch does not depend on what was found.
+  bool batches_share() const;
 
  private:
   struct Found {
@@ -30,7 +39,6 @@ class FrameLoop {
     wt_counters counted{};
   };
 
-  bool batches_share() const;
   FrameResult solve(FrameTask& task);
   Found find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, const LinkBlock* block,
                    bool searches, bool alike, FrameAccount& account);
@@ -59,6 +67,7 @@ class FrameLoop {
   bool places_rest_ = false, links_rest_ = false;
   bool heard_ = false;  // the sequences of all batches were found with the first one
   bool summed_ = false;
+  std::vector<LinkFigures> figures_room_;
   std::optional<LaunchPlan> launch_;
   RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one

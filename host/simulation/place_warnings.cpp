@@ -141,7 +141,7 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
   PlaceFinder places(config, around.scene());
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
     const GridShape shape = grid_shape(grid, around.scene(), places);
-    const size_t count = size_t{shape.columns} * shape.rows;
+    const size_t count = shape.cells();
     for (int kind = 0; kind < kinds; ++kind) {
       size_t such = 0;
       for (size_t i = first; i < first + count; ++i) such += !ends.receiver(i)[static_cast<size_t>(kind)].empty();

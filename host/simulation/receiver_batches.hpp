@@ -7,7 +7,6 @@
 
 #include "simulation/link_block.hpp"
 #include "wavetracer/config.hpp"
-#include "wavetracer/frame_result.hpp"
 
 namespace wavetracer {
 
@@ -17,9 +16,5 @@ namespace wavetracer {
 // without diffraction are cut, too.
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
                                             uint32_t most = no_end, bool summed = false);
-
-// Joins the batches, one after the other, to their frame. Counts and seconds are those of all work; the rays of
-// transmitters are launched for every batch. There must be at least two batches, without a cache or waypoints.
-FrameResult joined_batches(std::vector<FrameResult> batches);
 
 }  // namespace wavetracer

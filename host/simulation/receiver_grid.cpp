@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,9 +13,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <set>
-#include <utility>
+#include <memory>
+#include <string>
 
+#include "scene/ground.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -103,6 +106,55 @@ void check_made(const ReceiverGridConfig& grid) {
                     grid.name));
 }
 
+std::string cell_name(const ReceiverGridConfig& grid, uint32_t ix, uint32_t iy) {
+  return fmt::format("{}/{},{}", grid.name, ix, iy);
+}
+
+// Throws ConfigError if a cell has the name of a transmitter, of a receiver of its own, or of a cell of another grid.
+// Names of cells follow from their grid's, so that they need no list.
+void check_names(const Config& config, const std::vector<RadioEnd>& receivers, const ReceiverGridConfig& grid,
+                 const GridShape& shape) {
+  const auto refuse = [&](const std::string& name) {
+    throw ConfigError(
+        fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" exists already: "
+                    "rename one of them",
+                    grid.name, name));
+  };
+  for (const std::vector<RadioEnd>* ends : {&config.transmitters.values(), &receivers})
+    for (const RadioEnd& end : *ends)
+      if (const auto cell = grid_cell(grid.name, end.name);
+          cell && cell->ix < shape.columns && cell->iy < shape.rows && end.name == cell_name(grid, cell->ix, cell->iy))
+        refuse(end.name);
+  for (const ReceiverGridConfig& other : config.receiver_grids) {
+    if (&other == &grid) break;
+    if (other.name == grid.name) refuse(cell_name(grid, 0, 0));
+  }
+}
+
+// Appends the cells of a grid, on all cores.
+void add_cells(const ReceiverGridConfig& grid, const GridShape& shape, const Scene& scene, PlaceFinder& places,
+               std::vector<RadioEnd>& out) {
+  const size_t first = out.size();
+  out.resize(first + shape.cells());
+  const double height_m = grid.height_m.value_or(ReceiverGridConfig::default_height_m);
+  const std::shared_ptr<const Ground> ground =
+      !grid.vertical() && from_ground(grid.above) ? places.ground() : std::shared_ptr<const Ground>();
+  tbb::parallel_for(uint32_t{0}, shape.rows, [&](uint32_t iy) {
+    for (uint32_t ix = 0; ix < shape.columns; ++ix) {
+      glm::dvec3 place_m = shape.at(ix, iy);
+      if (!grid.vertical()) place_m.z = height_m;
+      if (ground) place_m.z += ground->height_m(glm::dvec2(place_m)).value_or(scene.origin_m.z + scene.lower.z);
+      RadioEnd& end = out[first + size_t{iy} * shape.columns + ix];
+      end.name = cell_name(grid, ix, iy);
+      end.position_m = {place_m.x, place_m.y, place_m.z};
+      end.antenna = grid.antenna;
+      end.polarization = grid.polarization;
+      end.orientation_deg = grid.orientation_deg;
+      end.array = grid.array;
+    }
+  });
+}
+
 }  // namespace
 
 glm::dvec2 plane_direction(const ReceiverGridConfig& grid) {
@@ -127,34 +179,16 @@ std::vector<RadioEnd> standing_transmitters(const Config& config, PlaceFinder& p
 std::vector<RadioEnd> standing_receivers(const Config& config, const Scene& scene, PlaceFinder& places) {
   std::vector<RadioEnd> out = placed(config.receivers, config.stations, places);
   if (config.receiver_grids.empty()) return out;
-  const size_t singles = out.size();
-  std::set<std::string> taken;
-  for (const auto* ends : {&config.transmitters, &std::as_const(out)})
-    for (const RadioEnd& end : *ends) taken.insert(end.name);
+  std::vector<GridShape> shapes;
+  uint64_t cells = 0;
   for (const ReceiverGridConfig& grid : config.receiver_grids) {
-    const GridShape shape = grid_shape(grid, scene, places);
-    check_count(grid, static_cast<double>(out.size() - singles + uint64_t{shape.columns} * shape.rows));
-    for (uint32_t iy = 0; iy < shape.rows; ++iy)
-      for (uint32_t ix = 0; ix < shape.columns; ++ix) {
-        glm::dvec3 place_m = shape.at(ix, iy);
-        if (!grid.vertical()) {
-          place_m.z = grid.height_m.value_or(ReceiverGridConfig::default_height_m);
-          if (from_ground(grid.above)) place_m.z += places.ground_m(place_m).value_or(scene.origin_m.z + scene.lower.z);
-        }
-        RadioEnd end{.name = fmt::format("{}/{},{}", grid.name, ix, iy),
-                     .position_m = {place_m.x, place_m.y, place_m.z},
-                     .antenna = grid.antenna,
-                     .polarization = grid.polarization,
-                     .orientation_deg = grid.orientation_deg,
-                     .array = grid.array};
-        if (!taken.insert(end.name).second)
-          throw ConfigError(
-              fmt::format("[[receiver_grid]] \"{}\": a radio end of the name \"{}\" exists already: "
-                          "rename one of them",
-                          grid.name, end.name));
-        out.push_back(std::move(end));
-      }
+    shapes.push_back(grid_shape(grid, scene, places));
+    cells += shapes.back().cells();
+    check_count(grid, static_cast<double>(cells));
+    check_names(config, out, grid, shapes.back());
   }
+  out.reserve(out.size() + cells);
+  for (size_t i = 0; i < shapes.size(); ++i) add_cells(config.receiver_grids[i], shapes[i], scene, places, out);
   return out;
 }
 

@@ -25,6 +25,7 @@ struct GridShape {
   double x_m = 0, y_m = 0, step_m = 1, z_m = 0;
   glm::dvec3 column_direction{1, 0, 0}, row_direction{0, 1, 0};
 
+  uint64_t cells() const { return uint64_t{columns} * rows; }
   glm::dvec3 at(uint32_t ix, uint32_t iy) const {
     return glm::dvec3(x_m, y_m, z_m) + (ix * step_m) * column_direction + (iy * step_m) * row_direction;
   }

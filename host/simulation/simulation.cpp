@@ -69,6 +69,8 @@ void Simulation::observe(FrameObserver observer) { state_->setup.frame_watch->se
 void Simulation::profile_every(uint32_t frames) { state_->profile_every = std::max(frames, 1u); }
 void Simulation::give_back(FrameResult& result) {
   state_->setup.finish.give_room(std::exchange(result.paths, Paths()));
+  if (result.summed) state_->frames.loop().give_room(std::move(result.summed->links));
+  result.summed.reset();
 }
 void Simulation::sum_links(bool on) { state_->frames.sum_links(on); }
 void Simulation::forget() { state_->frames.loop().forget(); }

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "base/spelling.hpp"
 #include "radio/antenna.hpp"
@@ -99,13 +102,16 @@ GroundBelow ground_below(const std::vector<MountConfig>& mounts, PlaceFinder& pl
   return {asked ? places.ground() : nullptr, origin_m};
 }
 
-EndsOfRole standing_ends(const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m) {
-  EndsOfRole out;
-  out.ends = ends;
-  for (const RadioEnd& end : ends)
-    out.standing.push_back({.position_m = vector_of(end.position_m) - origin_m,
-                            .rotation = rotation_of(end.orientation_deg),
-                            .velocity_m_s = vector_of(end.velocity_m_s)});
+EndsOfRole standing_ends(SharedList<RadioEnd> ends, const glm::dvec3& origin_m) {
+  EndsOfRole out{std::move(ends), {}, {}};
+  const std::vector<RadioEnd>& from = out.ends;
+  std::vector<EndState> standing(from.size());
+  tbb::parallel_for(size_t{0}, from.size(), [&](size_t i) {
+    standing[i] = {.position_m = vector_of(from[i].position_m) - origin_m,
+                   .rotation = rotation_of(from[i].orientation_deg),
+                   .velocity_m_s = vector_of(from[i].velocity_m_s)};
+  });
+  out.standing = std::move(standing);
   return out;
 }
 
@@ -114,9 +120,10 @@ WorldEnds with_mounts(WorldEnds standing, const std::vector<MountConfig>& mounts
   const Trajectories& trajectories = fleet.trajectories;
   require_carriers(mounts, trajectories);
   WorldEnds out = std::move(standing);
+  if (mounts.empty() || trajectories.tracks.empty()) return out;
   std::set<std::string> taken;
   for (const auto* role : {&out.transmitters, &out.receivers})
-    for (const RadioEnd& end : role->ends) taken.insert(end.name);
+    for (const RadioEnd& end : role->ends.values()) taken.insert(end.name);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
     if (!track.mounts) continue;
@@ -133,9 +140,9 @@ WorldEnds with_mounts(WorldEnds standing, const std::vector<MountConfig>& mounts
   return out;
 }
 
-std::vector<EndState> ends_at(const EndsOfRole& role, const Fleet& fleet, const GroundBelow& ground,
-                              const std::vector<VehicleState>& vehicles) {
-  std::vector<EndState> out = role.standing;
+SharedList<EndState> ends_at(const EndsOfRole& role, const Fleet& fleet, const GroundBelow& ground,
+                             const std::vector<VehicleState>& vehicles) {
+  SharedList<EndState> out = role.standing;
   for (const MountedEnd& end : role.mounted) out.push_back(mounted_at(end, fleet, ground, vehicles[end.track]));
   return out;
 }
@@ -154,8 +161,11 @@ TwinEnds find_twins(const WorldEnds& ends) {
   };
   TwinEnds out{std::vector<uint32_t>(transmitters.ends.size(), no_end),
                std::vector<uint32_t>(receivers.ends.size(), no_end)};
+  std::set<PlaceKey> sending;  // receivers may be millions, and few of them send
+  for (uint32_t tx = 0; tx < transmitters.ends.size(); ++tx) sending.insert(place(transmitters, tx));
   std::map<PlaceKey, uint32_t> at;
-  for (uint32_t rx = 0; rx < receivers.ends.size(); ++rx) at.emplace(place(receivers, rx), rx);
+  for (uint32_t rx = 0; rx < receivers.ends.size(); ++rx)
+    if (const PlaceKey key = place(receivers, rx); sending.contains(key)) at.emplace(key, rx);
   for (uint32_t tx = 0; tx < transmitters.ends.size(); ++tx) {
     const auto found = at.find(place(transmitters, tx));
     if (found == at.end() || out.transmitter_of_receiver[found->second] != no_end) continue;

@@ -28,8 +28,8 @@ struct MountedEnd {
 
 // All ends of one role: those that stand, then those on vehicles.
 struct EndsOfRole {
-  std::vector<RadioEnd> ends;
-  std::vector<EndState> standing;
+  SharedList<RadioEnd> ends;
+  SharedList<EndState> standing;
   std::vector<MountedEnd> mounted;
 };
 
@@ -48,7 +48,7 @@ struct GroundBelow {
 GroundBelow ground_below(const std::vector<MountConfig>& mounts, PlaceFinder& places, const glm::dvec3& origin_m);
 
 // A role whose ends all stand. origin_m: of the recentred scene.
-EndsOfRole standing_ends(const std::vector<RadioEnd>& ends, const glm::dvec3& origin_m);
+EndsOfRole standing_ends(SharedList<RadioEnd> ends, const glm::dvec3& origin_m);
 
 // These ends and those that [[mount]]s put on vehicles, by track, then by mount. by_id: patterns may name vehicles, not
 // only types; places of a live world have no ids that a user would know. Throws ConfigError for a pattern that nothing
@@ -57,8 +57,8 @@ WorldEnds with_mounts(WorldEnds standing, const std::vector<MountConfig>& mounts
                       const GroundBelow& ground, bool by_id);
 
 // The ends of a role where the vehicles are in these states, one for each track.
-std::vector<EndState> ends_at(const EndsOfRole& role, const Fleet& fleet, const GroundBelow& ground,
-                              const std::vector<VehicleState>& vehicles);
+SharedList<EndState> ends_at(const EndsOfRole& role, const Fleet& fleet, const GroundBelow& ground,
+                             const std::vector<VehicleState>& vehicles);
 
 // Each transmitter's receiver that is the same end, and each receiver's transmitter; no_end where there is none.
 struct TwinEnds {

@@ -21,12 +21,24 @@ namespace {
 constexpr uint64_t most_pairs = uint64_t{1} << 36;          // 262,144 vehicles with an antenna each
 constexpr uint64_t most_present_pairs = uint64_t{1} << 30;  // seconds for the test of their distances
 
-std::vector<uint32_t> wanted(const std::vector<std::string>& patterns, const std::vector<std::string>& names,
+// Throws ConfigError for a pattern that no name matches; names are copied only then, since they may be millions.
+void require_ends(const std::vector<std::string>& patterns, const std::vector<RadioEnd>& ends,
+                  const std::string& role) {
+  for (const std::string& pattern : patterns) {
+    if (std::ranges::any_of(ends, [&](const RadioEnd& end) { return matches(pattern, end.name); })) continue;
+    std::vector<std::string> names;
+    for (const RadioEnd& end : ends) names.push_back(end.name);
+    require_match(pattern, names, "links." + role + "s", role);
+  }
+}
+
+std::vector<uint32_t> wanted(const std::vector<std::string>& patterns, const std::vector<RadioEnd>& ends,
                              const std::string& role) {
-  for (const std::string& pattern : patterns) require_match(pattern, names, "links." + role + "s", role);
+  require_ends(patterns, ends, role);
   std::vector<uint32_t> out;
-  for (uint32_t i = 0; i < names.size(); ++i)
-    if (std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(pattern, names[i]); }))
+  out.reserve(ends.size());
+  for (uint32_t i = 0; i < ends.size(); ++i)
+    if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches(pattern, ends[i].name); }))
       out.push_back(i);
   return out;
 }
@@ -42,7 +54,7 @@ void check_pairs(size_t transmitters, size_t receivers, uint64_t most, const cha
 
 LinkSide side_of(const EndsOfRole& role) {
   LinkSide out;
-  for (const RadioEnd& end : role.ends) out.names.push_back(end.name);
+  out.ends = role.ends;
   out.vehicles.assign(role.standing.size(), no_vehicle);
   for (const MountedEnd& end : role.mounted) out.vehicles.push_back(end.track);
   return out;
@@ -58,8 +70,8 @@ LinkRules::LinkRules(const LinksConfig& config, LinkSide transmitters, LinkSide 
     : config_(config),
       transmitters_(std::move(transmitters)),
       receivers_(std::move(receivers)),
-      wanted_transmitters_(wanted(config.transmitters, transmitters_.names, "transmitter")),
-      wanted_receivers_(wanted(config.receivers, receivers_.names, "receiver")) {
+      wanted_transmitters_(wanted(config.transmitters, transmitters_.ends, "transmitter")),
+      wanted_receivers_(wanted(config.receivers, receivers_.ends, "receiver")) {
   check_pairs(wanted_transmitters_.size(), wanted_receivers_.size(), most_pairs, "of all frames");
 }
 
@@ -74,7 +86,7 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
 bool LinkRules::one_radio(uint32_t tx, uint32_t rx) const {
   const uint32_t vehicle = transmitters_.vehicles[tx];
   if (vehicle != receivers_.vehicles[rx]) return false;
-  return vehicle != no_vehicle || transmitters_.names[tx] == receivers_.names[rx];
+  return vehicle != no_vehicle || transmitters_.ends[tx].name == receivers_.ends[rx].name;
 }
 
 bool LinkRules::any_allowed() const {

@@ -17,7 +17,7 @@ constexpr uint32_t no_vehicle = std::numeric_limits<uint32_t>::max();
 
 // One side of all links, an entry per end.
 struct LinkSide {
-  std::vector<std::string> names;
+  SharedList<RadioEnd> ends;       // only their names count
   std::vector<uint32_t> vehicles;  // the vehicle that carries the end; no_vehicle: it is fixed
 };
 

@@ -16,6 +16,7 @@
 #include "wavetracer/live_config.hpp"
 #include "wavetracer/material_config.hpp"
 #include "wavetracer/outdoors_config.hpp"
+#include "wavetracer/shared_list.hpp"
 
 namespace wavetracer {
 
@@ -268,7 +269,7 @@ struct Config {
   AirConfig air;
   std::vector<VegetationConfig> vegetation;
   std::vector<MaterialConfig> materials;
-  std::vector<RadioEnd> transmitters, receivers;
+  SharedList<RadioEnd> transmitters, receivers;
   std::vector<RadioEnd> stations;  // each of them is a transmitter and a receiver of one name
   std::vector<ReceiverGridConfig> receiver_grids;
   std::vector<ArrayConfig> arrays;

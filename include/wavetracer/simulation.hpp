@@ -73,8 +73,8 @@ class Simulation {
   // follow the cubic that has the positions and velocities of both, and turn evenly. With trace.discover_every_s such
   // frames launch no rays. Throws PoseError for any other time.
   LiveFrame run_between(const LiveTraffic& traffic, double time_s);
-  // Takes a result that is needed no more: the next frame uses the memory of its paths, which saves time where a frame
-  // has many. The result is left without paths.
+  // Takes a result that is needed no more: the next frame uses the memory of its paths or sums, which saves time where
+  // a frame has many. The result is left without paths and sums.
   void give_back(FrameResult& result);
   const std::vector<LiveType>& live_types() const;
   const LiveBounds& live_bounds() const;

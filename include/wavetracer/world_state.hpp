@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wavetracer/paths.hpp"
+#include "wavetracer/shared_list.hpp"
 
 namespace wavetracer {
 
@@ -43,7 +44,7 @@ struct Link {
 struct WorldState {
   double time_s = 0;
   std::vector<Placement> instances;
-  std::vector<EndState> transmitters, receivers;
+  SharedList<EndState> transmitters, receivers;
   std::vector<Link> links;  // links of ends that are present, sorted, each once
   bool arrivals = false;    // in a live world: a vehicle has arrived, or jumped, since the previous frame
 };

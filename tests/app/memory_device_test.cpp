@@ -31,6 +31,9 @@ TEST_CASE("without memory for the lists of all receivers the frame comes in batc
     CHECK(contains(batches.err, "did not fit into"));
     CHECK(contents(folder.path("out/links.csv")) == links);
   }
+  const Outcome shared = run_program({"run", "-c", file, "-o", folder.path("out"), "--set", "trace.diffraction=false"},
+                                     gate.at_buffers(size_t{1} << 21));
+  CHECK(contains(shared.err, "rays are launched for the first of them, and the others use what these find"));
   const Outcome none = run(size_t{1} << 20);  // less than the set of sequences needs at first
   CHECK(none.code == 4);
   CHECK(contains(none.err, "CL_MEM_OBJECT_ALLOCATION_FAILURE"));

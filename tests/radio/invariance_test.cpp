@@ -157,8 +157,8 @@ TEST_CASE("rows of many links: the order of discovery and the number of threads 
   const Ends ends = some_ends();
   World world = walled(ends);
   world.geometry = {};
-  world.config.transmitters.assign(7, ends.tx);
-  world.config.receivers.assign(9, ends.rx);
+  world.config.transmitters.edit().assign(7, ends.tx);
+  world.config.receivers.edit().assign(9, ends.rx);
   struct Case {
     uint32_t tx, rx;
     std::vector<uint32_t> surfaces;

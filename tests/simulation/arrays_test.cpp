@@ -59,7 +59,7 @@ Config array_config(const std::filesystem::path& scene) {
 
 // Returns the same configuration with an end for every element.
 Config traced_config(Config config) {
-  const auto split = [&](std::vector<RadioEnd>& ends) {
+  const auto split = [&](SharedList<RadioEnd>& ends) {
     const RadioEnd centre = ends[0];
     const auto positions = element_positions_m(config, centre);
     ends.clear();

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulation::sum_links: the sums of links that the device makes are the figures of the paths that it otherwise gives,
 // for all kinds of paths, ports, links both ways, and batches of receivers.
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "radio/links.hpp"
 #include "simulation/bends.hpp"
 
@@ -120,6 +125,45 @@ TEST_CASE("sums in batches of receivers are those of the whole frame, and rays a
       CHECK(simulation.run_frame(0).paths.size() == whole.paths.paths.size());
     }
   }
+}
+
+// The figures of links with their bits, so that NaN is equal to itself.
+std::vector<std::vector<uint64_t>> bits_of(const std::vector<LinkFigures>& links) {
+  std::vector<std::vector<uint64_t>> out;
+  for (const LinkFigures& link : links) {
+    std::vector<uint64_t>& row = out.emplace_back();
+    row = {link.frame, link.tx, link.rx, link.paths, link.los};
+    for (const double value : {link.path_gain_db, link.sum_of_powers_db, link.narrowband_gain_db, link.mean_delay_s,
+                               link.rms_delay_spread_s, link.doppler_spread_hz, link.k_factor, link.missed_power_share})
+      row.push_back(std::bit_cast<uint64_t>(value));
+  }
+  return out;
+}
+
+TEST_CASE("sums of several transmitters in batches have the bits of the whole frame, in memory that is given back") {
+  const SceneFile file(two_boxes());
+  Config config = map_over_boxes(file, 20000, 3, 3);
+  config.trace.diffraction = false;
+  std::vector<std::vector<uint64_t>> whole;
+  for (const std::optional<uint32_t> batch : {std::optional<uint32_t>(), {1u}, {7u}, {50u}}) {
+    CAPTURE(batch.value_or(0));
+    config.trace.batch_receivers = batch;
+    Simulation simulation(config, "");
+    simulation.sum_links(true);
+    const LinkFigures* room = nullptr;
+    for (int times = 0; times < 3; ++times) {
+      FrameResult frame = simulation.run_frame(0);
+      REQUIRE(frame.world.transmitters.size() == 3);
+      REQUIRE(frame.summed);
+      if (whole.empty()) whole = bits_of(frame.summed->links);
+      CHECK(bits_of(frame.summed->links) == whole);
+      if (room != nullptr) CHECK(frame.summed->links.data() == room);
+      room = frame.summed->links.data();
+      simulation.give_back(frame);
+      CHECK_FALSE(frame.summed);
+    }
+  }
+  CHECK(whole.size() > 300);
 }
 
 TEST_CASE("batches share rays where stations have links both ways, in blocks of transmitters, too") {

@@ -86,7 +86,7 @@ TEST_CASE("two vehicles in one place: their antennas are linked, and none is to 
 
 TEST_CASE("more pairs than a drive or a frame can have are an error that says so") {
   const auto side = [](size_t ends) {
-    return LinkSide{std::vector<std::string>(ends, "a"), std::vector<uint32_t>(ends, 0)};
+    return LinkSide{std::vector<RadioEnd>(ends, RadioEnd{.name = "a"}), std::vector<uint32_t>(ends, 0)};
   };
   const auto limit = [](const std::string& said) {
     return doctest::Contains((said + " pairs, the limit: mount antennas on fewer vehicles").c_str());
