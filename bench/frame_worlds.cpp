@@ -39,7 +39,7 @@ void plant(Config& config) {
 void drive(Config& config, size_t vehicles, uint32_t frames) {
   config.time = {.start_s = 0, .end_s = (frames - 1) * step_s, .step_s = step_s};
   StreetTraffic traffic{.vehicles = vehicles, .duration_s = (frames - 1) * step_s};
-  for (const std::vector<RadioEnd>* ends : {&config.transmitters, &config.receivers})
+  for (const SharedList<RadioEnd>* ends : {&config.transmitters, &config.receivers})
     for (const RadioEnd& end : *ends)
       traffic.standing_m.emplace_back(end.position_m[0], end.position_m[1], end.position_m[2]);
   traffic.centre_m = traffic.standing_m.front();
