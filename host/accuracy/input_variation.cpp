@@ -60,7 +60,8 @@ Varied InputVariation::varied() const {
 }
 
 glm::dvec3 InputVariation::vehicle_shift(const std::vector<double>& row, size_t i) const {
-  return glm::dvec3(row[vehicle(i)], row[vehicle(i) + 1], 0) * errors_.vehicles_m;
+  const size_t at = vehicles_ + columns_of_vehicle * i;
+  return glm::dvec3(row[at], row[at + 1], 0) * errors_.vehicles_m;
 }
 
 void InputVariation::move(EndState& end, const std::vector<double>& row, size_t at, const Varied& varied) const {

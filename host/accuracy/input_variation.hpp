@@ -32,7 +32,6 @@ class InputVariation {
   void apply(size_t sample, const Varied& varied, WorldState& state, std::vector<device::wt_material>& materials) const;
 
  private:
-  size_t vehicle(size_t i) const { return vehicles_ + 2 * i; }
   glm::dvec3 vehicle_shift(const std::vector<double>& row, size_t i) const;
   void move(EndState& end, const std::vector<double>& row, size_t at, const Varied& varied) const;
 

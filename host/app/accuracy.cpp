@@ -33,6 +33,14 @@ struct AccuracyOptions {
   bool varies = false;
 };
 
+// Returns the folder of the results, which must be one that can be written to. From now on Ctrl-C only stops the study.
+fs::path begin_study(const AccuracyOptions& options) {
+  fs::path folder = fs::absolute(options.directory).lexically_normal();
+  check_output_folder(folder);
+  catch_interrupts();
+  return folder;
+}
+
 accuracy::InputRequest input_request(const AccuracyOptions& options) {
   accuracy::InputRequest request = options.chances.inputs;
   request.file = options.request.file;
@@ -66,9 +74,7 @@ void run_chances(const AccuracyOptions& options, Invocation& invocation) {
   const std::string& scene = config.scene.file;
   const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
   if (has_format(options.formats, "kml")) coverage::georeference_for_kml(georeference, scene);
-  const fs::path folder = fs::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
+  const fs::path folder = begin_study(options);
   Progress progress;
   const accuracy::ChanceStudy study = accuracy::study_chances(request, study_host(progress));
   if (study.stopped) {
@@ -85,9 +91,7 @@ void run_chances(const AccuracyOptions& options, Invocation& invocation) {
 void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
   const accuracy::InputRequest request = input_request(options);
   check_inputs(load_config(request.file, request.sets));
-  const fs::path folder = fs::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
+  const fs::path folder = begin_study(options);
   Progress progress;
   const accuracy::InputStudy study = accuracy::study_inputs(request, study_host(progress));
   if (study.stopped) {
@@ -153,9 +157,7 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
   check_inputs(load_config(request.file, request.sets));
-  const fs::path folder = fs::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
+  const fs::path folder = begin_study(options);
   Progress progress;
   const study::Host host = study_host(progress);
   const accuracy::Study study = accuracy::study(request, host);

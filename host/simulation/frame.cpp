@@ -132,8 +132,7 @@ void FrameLoop::take_paths(const FrameTask& task, const DiscoveryCounts& found, 
   const bool told = !s_.cache && !spheres && witness_.tells();
   if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
   if (summed_)
-    out.summed = out.summed =
-        summed_paths(sums, out.frame, out.world.links, told && !s_.beams, std::exchange(figures_room_, {}));
+    out.summed = summed_paths(sums, out.frame, out.world.links, told && !s_.beams, std::exchange(figures_room_, {}));
   if (found.rays > 0 || heard_) {
     out.missed = MissedCounts{.unknown = 1};
     if (told) out.missed = summed_ ? of_sums.missed : missed_counts(out.paths, 0, out.paths.size());

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <string>
 #include <vector>
+#include "check_contains.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -23,12 +24,6 @@ inline std::string error_of(const std::string& text, const std::vector<std::stri
     return e.what();
   }
   return "no error";
-}
-
-inline void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  CHECK(text.find(part) != std::string::npos);
 }
 
 }  // namespace wavetracer::test

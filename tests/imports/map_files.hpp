@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "check_contains.hpp"
 #include "imported.hpp"
 #include "scene/georeference.hpp"
 #include "scene/load.hpp"
@@ -65,12 +66,6 @@ inline std::string refusal(const fs::path& file, const ImportOptions& options) {
     return e.what();
   }
   return "no error";
-}
-
-inline void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  CHECK(text.find(part) != text.npos);
 }
 
 }  // namespace wavetracer::test

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "check_contains.hpp"
 #include "motion/read.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
@@ -48,12 +49,6 @@ inline std::string fcd(const std::string& timesteps) {
 // One line of an FCD file.
 inline std::string timestep(const std::string& time, const std::string& elements) {
   return "<timestep time=\"" + time + "\">" + elements + "</timestep>\n";
-}
-
-inline void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  CHECK(text.find(part) != text.npos);
 }
 
 inline void check_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {

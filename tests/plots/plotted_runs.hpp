@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "check_contains.hpp"
 #include "output/sample_run.hpp"
 #include "results/saved_run.hpp"
 #include "temporary_folder.hpp"
@@ -62,11 +63,6 @@ std::string error_of(const auto& action) {
     return e.what();
   }
   return "no error";
-}
-
-inline void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CHECK(text.find(part) != text.npos);
 }
 
 // Written as a run writes it, in a folder of its own.

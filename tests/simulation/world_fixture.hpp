@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <numbers>
+#include "check_contains.hpp"
 #include "motion/pose.hpp"
 #include "scene/scene_files.hpp"
 #include "simulation/world.hpp"
@@ -43,11 +44,6 @@ inline std::string error_of(const Config& config) {
     return e.what();
   }
   return "no error";
-}
-
-inline void check_contains(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CHECK(text.find(part) != text.npos);
 }
 
 // "turner" (passenger, 4.6 m long) drives a circle of 20 m at 10 m/s, counter-clockwise; "truck1" (truck, 7.1 m) along

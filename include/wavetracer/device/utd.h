@@ -60,6 +60,7 @@ inline wt_wave_map wt_diffract(wt_wedge_frame wedge, const wt_wedge_face* faces,
   }
   const int grazes = wt_grazes(turn->in, wedge.exterior) || wt_grazes(turn->away, wedge.exterior);
   out.matrix = wt_scaled(out.matrix, wt_edge_amplitude(distance_m, bend.n) * (grazes ? 0.5 : 1.0));
+  // These are the bases of the bend, computed here, so that no registers keep them meanwhile.
   out.from = wt_coming(wedge.along, k_in);
   out.to = wt_leaving(wedge.along, k_out);
   return out;
