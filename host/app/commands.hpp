@@ -20,6 +20,7 @@ void add_init(CLI::App& program);
 void add_scene(CLI::App& program);
 void add_thesis(CLI::App& program, Invocation& invocation);
 void add_accuracy(CLI::App& program, Invocation& invocation);
+void add_calibrate(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program);
 void add_plot(CLI::App& program);
 void add_coverage(CLI::App& program);

@@ -52,6 +52,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_scene(program);
   wavetracer::app::add_thesis(program, invocation);
   wavetracer::app::add_accuracy(program, invocation);
+  wavetracer::app::add_calibrate(program, invocation);
   wavetracer::app::add_view(program);
   wavetracer::app::add_plot(program);
   wavetracer::app::add_coverage(program);

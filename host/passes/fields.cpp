@@ -37,6 +37,7 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
     : context_(context),
       apart_(edges > 0 && tables.corners && corners_apart),
       kernel_(context, build_of(tables, edges, apart_ ? FieldRows::without_corners : FieldRows::all)),
+      listed_build_(build_of(tables, edges, FieldRows::listed)),
       work_(tuning_of(context.info()).exact),
       transmitters_(tables.transmitters),
       ports_(tables.ports),
@@ -59,65 +60,93 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
       samples_(context.buffer(tables.samples, "antenna patterns")),
       antennas_(context.buffer(tables.antennas, "antennas")),
       foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {
-  if (apart_) listed_kernel_ = {context, build_of(tables, edges, FieldRows::listed)};
+  if (apart_) listed_kernel_.emplace(context, listed_build_);
   make_room(context_, rows_, 1 << 12, "path rows");
   make_room(context_, vertices_, 1 << 14, "path vertex rows");
 }
 
-void Fields::operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
-                        const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
-                        const Distinct& distinct, const RowList& rows, RowCounts most) {
-  if (ends.moved || !ends_[0]) {
-    const SharedList<EndState>* states[2] = {&world.transmitters, &world.receivers};
-    const uint32_t first_antenna[2] = {0, transmitters_};
-    for (int side = 0; side < 2; ++side) {
-      if (ends_[side] && states[side]->shares(end_states_[side])) continue;
-      upload_changed(context_, ends_[side], end_records_[side], field_ends(*states[side], first_antenna[side]),
-                     "ends of paths");
-      end_states_[side] = *states[side];
-    }
+void Fields::set_ends(const RadioEnds& ends, const WorldState& world) {
+  if (!ends.moved && ends_[0]) return;
+  const SharedList<EndState>* states[2] = {&world.transmitters, &world.receivers};
+  const uint32_t first_antenna[2] = {0, transmitters_};
+  for (int side = 0; side < 2; ++side) {
+    if (ends_[side] && states[side]->shares(end_states_[side])) continue;
+    upload_changed(context_, ends_[side], end_records_[side], field_ends(*states[side], first_antenna[side]),
+                   "ends of paths");
+    end_states_[side] = *states[side];
   }
+}
+
+calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
+  return {.solved = inputs.visible.headers,
+          .vertices = inputs.visible.vertices,
+          .steps = inputs.visible.sequences,
+          .transmitter_places = inputs.ends.transmitters,
+          .receiver_places = inputs.ends.receivers,
+          .receiver_of = inputs.distinct.receiver_of(),
+          .transmitter_of = inputs.distinct.transmitter_of(),
+          .rows = inputs.rows.rows,
+          .delays = inputs.rows.delays,
+          .quarters = inputs.rows.quarters,
+          .before = inputs.rows.counts,
+          .surfaces = inputs.scene.exact_surfaces,
+          .materials_of = materials_of_,
+          .materials = materials_,
+          .wedges = inputs.wedges,
+          .surface_of_tile = surface_of_tile_,
+          .area_of_tile = area_of_tile_,
+          .instances = inputs.scene.exact_instances,
+          .transmitters = ends_[0],
+          .receivers = ends_[1],
+          .antennas = antennas_,
+          .samples = samples_,
+          .foliages = foliages_,
+          .lengths_inside = inputs.lengths_inside,
+          .listed = apart_ ? &listed_ : nullptr,
+          .out = rows_,
+          .out_vertices = vertices_,
+          .args = arguments_};
+}
+
+void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most) {
+  set_ends(inputs.ends, world);
   make_room(context_, rows_, most.rows, "path rows");
   make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
-  arguments_.row_count = rows.places;
+  const uint32_t places = inputs.rows.places;
+  arguments_.row_count = places;
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
-  arguments_.max_depth = visible.max_depth;
+  arguments_.max_depth = inputs.visible.max_depth;
   if (apart_) {
-    make_room(context_, listed_, rows.places + size_t{1}, "rows past corners");
+    make_room(context_, listed_, places + size_t{1}, "rows past corners");
     const uint32_t none = 0;
     context_.fill(listed_, &none, sizeof none, 0, sizeof none, Stage::fields);
   }
-  const calls::fields::fields call{.solved = visible.headers,
-                                   .vertices = visible.vertices,
-                                   .steps = visible.sequences,
-                                   .transmitter_places = ends.transmitters,
-                                   .receiver_places = ends.receivers,
-                                   .receiver_of = distinct.receiver_of(),
-                                   .transmitter_of = distinct.transmitter_of(),
-                                   .rows = rows.rows,
-                                   .delays = rows.delays,
-                                   .quarters = rows.quarters,
-                                   .before = rows.counts,
-                                   .surfaces = scene.exact_surfaces,
-                                   .materials_of = materials_of_,
-                                   .materials = materials_,
-                                   .wedges = wedges,
-                                   .surface_of_tile = surface_of_tile_,
-                                   .area_of_tile = area_of_tile_,
-                                   .instances = scene.exact_instances,
-                                   .transmitters = ends_[0],
-                                   .receivers = ends_[1],
-                                   .antennas = antennas_,
-                                   .samples = samples_,
-                                   .foliages = foliages_,
-                                   .lengths_inside = lengths_inside,
-                                   .listed = apart_ ? &listed_ : nullptr,
-                                   .out = rows_,
-                                   .out_vertices = vertices_,
-                                   .args = arguments_};
-  kernel_(work_.range(rows.places), Stage::fields, call);
-  if (apart_) listed_kernel_(work_.range(rows.places), Stage::fields, call);
+  const calls::fields::fields call = call_of(inputs);
+  kernel_(work_.range(places), Stage::fields, call);
+  if (apart_) (*listed_kernel_)(work_.range(places), Stage::fields, call);
+}
+
+// Vertices keep their places, so they are written once more as they are.
+RowChoice Fields::choose(const RowList& rows, std::span<const uint32_t> chosen) const {
+  const std::vector<uint32_t> at = rows.rows.read(0, rows.places);
+  std::vector<uint32_t> before = rows.counts.read(0, size_t{2} * rows.places), listed{0};
+  uint32_t row = 0;
+  for (uint32_t place = 0; place < rows.places && listed[0] < chosen.size(); ++place) {
+    if (at[place] == WT_NO_ROW || row++ != chosen[listed[0]]) continue;
+    before[place] = listed[0]++;
+    listed.push_back(place);
+  }
+  return {context_.buffer(listed, "chosen rows"), context_.buffer(before, "numbers of chosen rows"), listed[0]};
+}
+
+void Fields::again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice) {
+  if (!listed_kernel_) listed_kernel_.emplace(context_, listed_build_);
+  set_ends(inputs.ends, world);
+  calls::fields::fields call = call_of(inputs);
+  call.before = choice.before;
+  call.listed = choice.listed;
+  (*listed_kernel_)(work_.range(choice.count), Stage::fields, call);
 }
 
 void Fields::make_host_rooms() {

@@ -5,6 +5,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,24 @@
 
 namespace wavetracer {
 
+// The geometry of a frame's rows. wedges: placed in the frame, or nullptr where nothing diffracts. lengths_inside:
+// those of the visible paths, nullptr where there is no vegetation. The counts of rows are scanned.
+struct FieldInputs {
+  const DeviceScene& scene;
+  const gpu::Buffer<wt_wedge>* wedges;
+  const RadioEnds& ends;
+  const SolvedList& visible;
+  const gpu::Buffer<double>* lengths_inside;
+  const Distinct& distinct;
+  const RowList& rows;
+};
+
+// Some rows of a frame: a list of their places, as the kernel takes it, and their numbers in the list.
+struct RowChoice {
+  gpu::Buffer<uint32_t> listed, before;
+  uint32_t count = 0;
+};
+
 class Fields {
  public:
   // edges: the most of a path; one, two and more edges each need a larger kernel. origin_m: that of recentred
@@ -25,12 +44,12 @@ class Fields {
   Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m,
          bool corners_apart);
 
-  // Computes the rows, whose counts are scanned. wedges: placed in the frame, or nullptr where nothing diffracts.
-  // lengths_inside: those of the visible paths, nullptr where there is no vegetation. most: the most rows and vertices
-  // that there may be.
-  void operator()(const DeviceScene& scene, const gpu::Buffer<wt_wedge>* wedges, const RadioEnds& ends,
-                  const WorldState& world, const SolvedList& visible, const gpu::Buffer<double>* lengths_inside,
-                  const Distinct& distinct, const RowList& rows, RowCounts most);
+  // Computes the rows. most: the most rows and vertices that there may be.
+  void operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most);
+  // Chooses rows by their numbers in the order of rows, which must ascend.
+  RowChoice choose(const RowList& rows, std::span<const uint32_t> chosen) const;
+  // Computes the chosen rows alone, in their order, after the frame of the inputs and before any other one.
+  void again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice);
   void set_materials(const std::vector<device::wt_material>& materials) {
     materials_.write(materials, 0, Stage::fields);
   }
@@ -60,7 +79,9 @@ class Fields {
  private:
   gpu::Context& context_;
   bool apart_;  // paths past corners have a launch of their own, which takes them from a list
-  gpu::KernelOf<calls::fields::fields> kernel_, listed_kernel_;
+  gpu::KernelOf<calls::fields::fields> kernel_;
+  gpu::Definitions listed_build_;
+  std::optional<gpu::KernelOf<calls::fields::fields>> listed_kernel_;  // built where it is needed first
   Work work_;
   uint32_t transmitters_;
   Ports ports_;
@@ -87,6 +108,8 @@ class Fields {
   uint32_t frame_ = 0, near_edges_ = 0;
   Paths room_;  // the columns of the next rows, or memory for them
 
+  void set_ends(const RadioEnds& ends, const WorldState& world);
+  calls::fields::fields call_of(const FieldInputs& inputs) const;
   void make_host_rooms();
   FrameRows rows_of(RowCounts count) const;
 };

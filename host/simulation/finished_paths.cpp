@@ -50,6 +50,7 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
   RowCounts most{}, expected{};
+  compute_again_ = {};
   const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
   if (places > 0) {
     sort_(distinct_.sort_keys(), distinct_.order(), places, 32, Stage::distinct);  // sort
@@ -64,8 +65,11 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     if (groups_ && rows != Rows::summed) groups_->begin_read(expected.rows);
     if (rows != Rows::summed && counts_ahead(expected)) begin_count(counters);
-    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
-      fields_[i](scene, wedges, ends, world, visible, inside, distinct_, distinct_.rows(), most);  // fields
+    const FieldInputs inputs{scene, wedges, ends, visible, inside, distinct_, distinct_.rows()};
+    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i) fields_[i](inputs, world, most);  // fields
+    compute_again_ = [this, inputs](const RowChoice& choice, const WorldState& now) {
+      fields_[0].again(inputs, now, choice);  // fields
+    };
   }
   if (rows == Rows::summed) {
     if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_, groups_.has_value());
@@ -114,6 +118,17 @@ Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::ve
   Paths paths = fields_[0].columns(count);
   if (groups_) groups_->set(paths);
   return paths;
+}
+
+RowChoice FinishedPaths::choose(std::span<const uint32_t> rows) { return fields_[0].choose(distinct_.rows(), rows); }
+
+CarrierFields FinishedPaths::again(const RowChoice& choice, const WorldState& world) {
+  if (!compute_again_ || choice.count == 0) return {};
+  compute_again_(choice, world);
+  const RowCounts count{choice.count, 0};
+  fields_[0].begin_read_carrier(count);
+  context_.wait(context_.mark());
+  return fields_[0].carrier(count);
 }
 
 std::span<const device::wt_link_sum> FinishedPaths::take_sums(const wt_counters& counted, LeftOut& left_out) {

@@ -30,6 +30,24 @@ bool same_columns(const Paths& a, const Paths& b) {
          a.vertex_instance == b.vertex_instance;
 }
 
+// Computes every third of these paths once more: those have their columns, in their order.
+void check_chosen(Fields& fields, const FieldInputs& inputs, const WorldState& state, const Paths& paths) {
+  std::vector<uint32_t> chosen;
+  for (uint32_t row = 0; row < paths.size(); row += 3) chosen.push_back(row);
+  const RowChoice choice = fields.choose(inputs.rows, chosen);
+  REQUIRE(choice.count == chosen.size());
+  fields.again(inputs, state, choice);
+  fields.begin_read_carrier({choice.count, 0});
+  context().finish();
+  const CarrierFields again = fields.carrier({choice.count, 0});
+  REQUIRE(again.a.size() == chosen.size());
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    CHECK(again.a[i] == paths.a[chosen[i]]);
+    CHECK(again.gain_db[i] == paths.gain_db[chosen[i]]);
+  }
+  fields(inputs, state, {static_cast<uint32_t>(paths.size()), static_cast<uint32_t>(paths.vertex_position_m.size())});
+}
+
 // Computes rows at their places on the device. numbers: twice the number of a path, plus one for its way back, or
 // no_path. receiver_of, transmitter_of: ends in one place.
 Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, const std::vector<uint32_t>& receiver_of,
@@ -62,9 +80,10 @@ Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, c
   const SolvedList visible = upload_rows(world.rows, most_steps);
   const FieldTables tables = make_field_tables(world.scene, world.config);
   CHECK(tables.corners);
+  const FieldInputs inputs{scene, &wedges.list().wedges, ends, visible, nullptr, distinct, list};
   const auto computed = [&](bool apart) {
     Fields fields(context(), tables, 1, world.scene.origin_m, apart);
-    fields(scene, &wedges.list().wedges, ends, world.state, visible, nullptr, distinct, list, count);
+    fields(inputs, world.state, count);
     return fields;
   };
   Fields together = computed(false);
@@ -78,6 +97,7 @@ Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, c
   context().finish();
   Paths paths = fields.columns(count);
   CHECK(same_columns(paths, all_together));
+  check_chosen(fields, inputs, world.state, paths);
   for (const uint32_t expected : {count.rows, count.rows + count.rows / 8}) {  // in parts, if there are many
     fields.begin_read(5, {expected, count.vertices + 7});
     fields.size_room();

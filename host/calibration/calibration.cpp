@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// The world is solved once. A fit to all points gives the result; a fit without each block of places says how well the
+// result predicts places that were not measured.
+#include "calibration/calibration.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include "accuracy/latin_hypercube.hpp"
+#include "base/stopwatch.hpp"
+#include "calibration/fitted_config.hpp"
+#include "calibration/measured_world.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::calibration {
+namespace {
+
+constexpr size_t least_points_of_fold = 5;
+
+constexpr int most_rounds = 4;
+constexpr size_t samples_per_parameter = 12, seed_of_samples = 1;
+constexpr double tolerated_db = 0.02;  // the error of a level that comes from paths that keep their power
+
+struct Interrupted {};
+
+double spread_db(double nanoseconds) { return 10 * std::log10(nanoseconds); }
+
+double largest_difference_db(const std::vector<Computed>& a, const std::vector<Computed>& b) {
+  double out = 0;
+  for (size_t i = 0; i < a.size(); ++i)
+    if (std::isfinite(a[i].gain_db)) out = std::max(out, std::abs(a[i].gain_db - b[i].gain_db));
+  return out;
+}
+
+class Calibrating {
+ public:
+  Calibrating(const Request& request, const study::Host& host) : request_(request), host_(host) {}
+
+  Calibration operator()() {
+    read_files();
+    host_.tell("finding paths", 0, 1, "frames");
+    Stopwatch watch;
+    world_.emplace(request_.config, request_.sets, out_.files, request_.device);
+    out_.solve_s = watch.lap();
+    out_.paths = world_->paths();
+    out_.device = world_->device();
+    out_.warnings = world_->warnings();
+    out_.parameters = request_.patterns.empty()
+                          ? std::vector<Parameter>()
+                          : chosen_parameters(world_->materials(), request_.patterns, request_.prior, out_.notes);
+    list_points();
+    state_problem();
+    try {
+      fit_all();
+    } catch (const Interrupted&) {
+      out_.stopped = true;
+      return std::move(out_);
+    }
+    out_.fit_s = watch.lap();
+    out_.agreements = agreements();
+    out_.config = fitted_config(request_.config, request_.sets, out_.parameters, out_.fit.theta);
+    return std::move(out_);
+  }
+
+ private:
+  void read_files() {
+    for (const std::string& file : request_.measured) {
+      out_.files.push_back(read_measured(file, request_.level));
+      const MeasuredFile& read = out_.files.back();
+      if (read.left_out > 0)
+        out_.notes.push_back(
+            fmt::format("{}: {} rows without a level or a position are left out", file, read.left_out));
+      if (!read.unused.empty())
+        out_.notes.push_back(fmt::format("{}: these columns are not used: {}", file, fmt::join(read.unused, ", ")));
+    }
+  }
+
+  size_t offset_number(const std::string& name) {
+    auto& names = out_.offset_names;
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return static_cast<size_t>(found - names.begin());
+    names.push_back(name);
+    return names.size() - 1;
+  }
+
+  void list_points() {
+    const std::vector<glm::dvec3> places = world_->places();
+    const std::vector<std::string> transmitters = world_->transmitters();
+    std::vector<double> x, y;
+    for (size_t file = 0; file < out_.files.size(); ++file)
+      for (size_t point = 0; point < out_.files[file].points.size(); ++point) {
+        const size_t i = out_.points.size();
+        out_.points.push_back({.file = file,
+                               .point = point,
+                               .tx = transmitters[i],
+                               .place_m = places[i],
+                               .measured_db = out_.files[file].points[point].level_db});
+        x.push_back(places[i].x);
+        y.push_back(places[i].y);
+      }
+    folds_ = std::min<size_t>(request_.folds, out_.points.size() / least_points_of_fold);
+    if (folds_ < 2) folds_ = 0;
+    if (folds_ != request_.folds && request_.folds > 1)
+      out_.notes.push_back(fmt::format("{} points are too few for {} blocks, so {} are held out", out_.points.size(),
+                                       request_.folds, folds_ == 0 ? "none" : std::to_string(folds_)));
+    if (folds_ == 0) return;
+    const std::vector<unsigned> blocks = spatial_blocks(x, y, static_cast<unsigned>(folds_));
+    for (size_t i = 0; i < blocks.size(); ++i) out_.points[i].fold = blocks[i];
+  }
+
+  // The data are the levels of all points, then the delay spreads of those that have one.
+  void state_problem() {
+    problem_.kinds = 2;
+    for (const FittedPoint& point : out_.points) {
+      const MeasuredPoint& measured = out_.files[point.file].points[point.point];
+      Datum datum{.value = measured.level_db, .below = measured.below};
+      if (request_.offsets == "all") datum.offset = offset_number("all points");
+      if (request_.offsets == "file") datum.offset = offset_number(out_.files[point.file].file);
+      if (request_.offsets == "tx") datum.offset = offset_number(point.tx);
+      problem_.data.push_back(datum);
+    }
+    for (size_t i = 0; i < out_.points.size(); ++i)
+      if (const auto spread = out_.files[out_.points[i].file].points[out_.points[i].point].delay_spread_ns) {
+        problem_.data.push_back({.value = spread_db(*spread), .kind = 1});
+        spreads_.push_back(i);
+      }
+    problem_.offsets = out_.offset_names.size();
+    for (const Parameter& parameter : out_.parameters) problem_.priors.push_back(parameter.prior);
+    problem_.model = [this](std::span<const double> theta) { return values(theta); };
+  }
+
+  std::vector<Computed> computed(std::span<const double> theta) {
+    if (host_.interrupted()) throw Interrupted{};
+    return world_->values(records(theta));
+  }
+
+  std::vector<double> values(std::span<const double> theta) {
+    const std::vector<Computed> points = computed(theta);
+    std::vector<double> out;
+    for (const Computed& point : points) out.push_back(point.gain_db);
+    for (const size_t i : spreads_) out.push_back(spread_db(points[i].delay_spread_ns));
+    return out;
+  }
+
+  double offset_of(size_t point, const std::vector<double>& offsets) const {
+    const std::optional<size_t> offset = problem_.data[point].offset;
+    return offset ? offsets[*offset] : 0;
+  }
+
+  // Weak paths are not evaluated while a fit goes on. If they have gained weight, it goes on with other ones.
+  void fit_all() {
+    const std::vector<double> start(problem_.priors.size(), 0);
+    const std::vector<bool> takes(problem_.data.size(), true);
+    const std::vector<Computed> before = world_->weigh(records(start));
+    out_.fit.theta = start;
+    std::vector<Computed> after;
+    for (int round = 0; round < most_rounds; ++round) {
+      tell_fit(0);
+      model_.emplace(problem_);
+      out_.fit = round == 0 ? fit_from_best(problem_, *model_, takes, starts())
+                            : fit(problem_, *model_, takes, out_.fit.theta);
+      evaluations_before_ += model_->evaluations();
+      const std::vector<Computed> approximate = world_->values(records(out_.fit.theta));
+      Stopwatch watch;
+      after = world_->weigh(records(out_.fit.theta));
+      out_.evaluation_s = watch.lap();
+      if (largest_difference_db(approximate, after) < tolerated_db) break;
+    }
+    note_fit();
+    for (size_t i = 0; i < out_.points.size(); ++i) {
+      out_.points[i].before = before[i];
+      out_.points[i].after = after[i];
+      out_.points[i].offset_db = offset_of(i, out_.fit.offsets);
+    }
+    out_.paths_that_matter = world_->paths_that_matter();
+    model_.emplace(problem_);
+    for (size_t fold = 0; fold < folds_; ++fold) {
+      tell_fit(1 + fold);
+      hold_out(fold);
+    }
+    out_.evaluations = evaluations_before_ + model_->evaluations();
+  }
+
+  std::vector<device::wt_material> records(std::span<const double> theta) const {
+    return with_parameters(world_->materials(), out_.parameters, theta);
+  }
+
+  // The configuration itself, and a sample of the priors.
+  std::vector<std::vector<double>> starts() const {
+    const size_t count = problem_.priors.size();
+    std::vector<std::vector<double>> out{std::vector<double>(count, 0)};
+    if (count == 0) return out;
+    for (std::vector<double>& row :
+         accuracy::normal_hypercube(static_cast<uint32_t>(samples_per_parameter * count), count, seed_of_samples)) {
+      for (size_t p = 0; p < count; ++p) row[p] *= problem_.priors[p];
+      out.push_back(std::move(row));
+    }
+    return out;
+  }
+
+  void tell_fit(size_t number) const { host_.tell("fitting", number, 1 + folds_, "fits"); }
+
+  void note_fit() {
+    for (size_t p = 0; p < out_.parameters.size(); ++p)
+      if (!model_->depends_on(p))
+        out_.notes.push_back(
+            fmt::format("{} keeps its value: no measured path depends on it", out_.parameters[p].name()));
+    if (!out_.fit.converged)
+      out_.notes.push_back(fmt::format("the fit did not converge in {} steps", out_.fit.iterations));
+  }
+
+  // The fit to all other blocks starts from that to all points, which is near.
+  void hold_out(size_t fold) {
+    std::vector<bool> takes;
+    for (const FittedPoint& point : out_.points) takes.push_back(point.fold != fold);
+    for (const size_t i : spreads_) takes.push_back(out_.points[i].fold != fold);
+    const FitResult fitted = fit(problem_, *model_, takes, out_.fit.theta);
+    const std::vector<Computed> predicted = computed(fitted.theta);
+    for (size_t i = 0; i < out_.points.size(); ++i)
+      if (out_.points[i].fold == fold) {
+        out_.points[i].held_out = predicted[i];
+        out_.points[i].offset_held_out_db = offset_of(i, fitted.offsets);
+      }
+  }
+
+  template <class Chosen>
+  void add_agreement(std::vector<Agreement>& out, const std::string& name, const Chosen& chosen) const {
+    std::vector<LevelPair> before, after, held_out;
+    for (const FittedPoint& point : out_.points) {
+      if (out_.files[point.file].points[point.point].below || !chosen(point)) continue;
+      before.push_back({point.measured_db, point.before.gain_db});
+      after.push_back({point.measured_db, point.after.gain_db + point.offset_db});
+      held_out.push_back({point.measured_db, point.held_out.gain_db + point.offset_held_out_db});
+    }
+    Agreement agreement{name, statistics_of(before), statistics_of(after), {}};
+    if (folds_ > 0) agreement.held_out = statistics_of(held_out);
+    out.push_back(std::move(agreement));
+  }
+
+  // Makes a line for all points, and for each file, transmitter and group where there are several.
+  std::vector<Agreement> agreements() const {
+    std::vector<Agreement> out;
+    add_agreement(out, "all", [](const FittedPoint&) { return true; });
+    const auto add_each = [&](const auto& name_of_point) {
+      std::vector<std::string> names;
+      for (const FittedPoint& point : out_.points)
+        if (const std::string name = name_of_point(point); std::ranges::find(names, name) == names.end())
+          names.push_back(name);
+      if (names.size() < 2) return;
+      for (const std::string& name : names)
+        add_agreement(out, name, [&](const FittedPoint& point) { return name_of_point(point) == name; });
+    };
+    add_each([&](const FittedPoint& point) { return out_.files[point.file].file; });
+    add_each([&](const FittedPoint& point) { return point.tx; });
+    add_each([&](const FittedPoint& point) { return out_.files[point.file].points[point.point].group; });
+    return out;
+  }
+
+  const Request& request_;
+  const study::Host& host_;
+  std::optional<MeasuredWorld> world_;
+  Problem problem_;
+  std::vector<size_t> spreads_;  // points whose delay spreads are data
+  size_t folds_ = 0, evaluations_before_ = 0;
+  std::optional<Linearized> model_;
+  Calibration out_;
+};
+
+}  // namespace
+
+Calibration calibrate(const Request& request, const study::Host& host) { return Calibrating(request, host)(); }
+
+}  // namespace wavetracer::calibration

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each datum has a cost, its slope and its curvature in the model's value, so that Huber's function and the probability
+// of being below a number (Tobin, Econometrica 26, 1958) are treated alike. The deviations s are found anew before each
+// step, as in iteratively reweighted least squares.
+#include "calibration/fit.hpp"
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wavetracer::calibration {
+namespace {
+
+constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
+constexpr double least_deviation = 1e-6;  // data without noise
+constexpr double step_of_slopes = 1e-5;
+constexpr double least_gain = 1e-3;  // a smaller gain of the logarithm of the probability means nothing
+constexpr size_t most_iterations = 60, kept_results = 4, followed_starts = 3;
+
+struct Cost {
+  double cost = 0, slope = 0, curvature = 0;  // the last two with respect to the model's value
+};
+
+// u: (number - model's value) / s.
+Cost normal_cost(double u, double s) {
+  const double size = std::abs(u);
+  if (size <= huber) return {0.5 * u * u, -u / s, 1 / (s * s)};
+  return {huber * (size - 0.5 * huber), -std::copysign(huber, u) / s, huber / (size * s * s)};
+}
+
+// The negative logarithm of the probability that the value is below the number.
+Cost below_cost(double u, double s) {
+  // Mills' ratio by its continued fraction where the normal distribution vanishes.
+  double ratio = 0, cost = 0;  // density / probability
+  if (u < -8) {
+    ratio = -u + 1 / (-u + 2 / (-u + 3 / (-u)));
+    cost = 0.5 * u * u + 0.5 * std::log(2 * std::numbers::pi) + std::log(ratio);
+  } else {
+    const double probability = 0.5 * std::erfc(-u / std::numbers::sqrt2);
+    ratio = std::exp(-0.5 * u * u) / std::sqrt(2 * std::numbers::pi) / probability;
+    cost = -std::log(probability);
+  }
+  return {cost, ratio / s, std::max(0.0, ratio * (ratio + u)) / (s * s)};
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Fit {
+ public:
+  Fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start)
+      : problem_(problem), model_(model), size_(problem.priors.size() + problem.offsets) {
+    out_.theta = std::move(start);
+    const std::vector<double>& values = model_.values(out_.theta);
+    for (size_t i = 0; i < problem.data.size(); ++i)
+      if (takes[i] && std::isfinite(values[i])) used_.push_back(i);
+    out_.used = used_.size();
+    start_offsets(values);
+  }
+
+  FitResult operator()() {
+    double damping = 1e-3;
+    for (; out_.iterations < most_iterations && !out_.converged; ++out_.iterations) {
+      find_deviations();
+      Eigen::MatrixXd curvature;
+      Eigen::VectorXd slope;
+      const double now = linearize(curvature, slope);
+      out_.converged = !take_step(now, curvature, slope, damping);
+    }
+    find_objective();
+    find_errors();
+    return std::move(out_);
+  }
+
+  // The objective at the start.
+  double at_start() {
+    find_objective();
+    return out_.objective;
+  }
+
+ private:
+  double residual(const std::vector<double>& values, size_t i) const {
+    const Datum& datum = problem_.data[i];
+    return datum.value - values[i] - (datum.offset ? out_.offsets[*datum.offset] : 0);
+  }
+
+  // Offsets begin as medians, which no outlier moves.
+  void start_offsets(const std::vector<double>& values) {
+    out_.offsets.assign(problem_.offsets, 0);
+    std::vector<std::vector<double>> of(problem_.offsets);
+    for (const size_t i : used_)
+      if (const Datum& datum = problem_.data[i]; datum.offset && !datum.below)
+        of[*datum.offset].push_back(datum.value - values[i]);
+    for (size_t i = 0; i < of.size(); ++i) out_.offsets[i] = median(std::move(of[i]));
+  }
+
+  // 1.4826 times the median of |r| is the deviation of normal residuals; few outliers hardly change it.
+  void find_deviations() {
+    const std::vector<double>& values = model_.values(out_.theta);
+    std::vector<std::vector<double>> of(problem_.kinds);
+    for (const size_t i : used_)
+      if (!problem_.data[i].below) of[problem_.data[i].kind].push_back(std::abs(residual(values, i)));
+    out_.deviations.clear();
+    for (std::vector<double>& sizes : of)
+      out_.deviations.push_back(std::max(least_deviation, 1.4826 * median(std::move(sizes))));
+  }
+
+  void find_objective() {
+    find_deviations();
+    const std::vector<double>& values = model_.values(out_.theta);
+    out_.objective = cost();
+    for (const size_t i : used_)
+      if (!problem_.data[i].below && std::isfinite(values[i]))
+        out_.objective += std::log(out_.deviations[problem_.data[i].kind]);
+  }
+
+  Cost cost_of(const std::vector<double>& values, size_t i) const {
+    const Datum& datum = problem_.data[i];
+    const double s = out_.deviations[datum.kind], u = residual(values, i) / s;
+    return datum.below ? below_cost(u, s) : normal_cost(u, s);
+  }
+
+  double prior_cost() const {
+    double sum = 0;
+    for (size_t p = 0; p < out_.theta.size(); ++p) sum += 0.5 * std::pow(out_.theta[p] / problem_.priors[p], 2);
+    return sum;
+  }
+
+  double cost() {
+    double sum = prior_cost();
+    const std::vector<double>& values = model_.values(out_.theta);
+    for (const size_t i : used_) {
+      if (!std::isfinite(values[i])) return INFINITY;
+      sum += cost_of(values, i).cost;
+    }
+    return sum;
+  }
+
+  // Returns the cost, and its slope and approximate curvature (Gauss and Newton) in theta and offsets.
+  double linearize(Eigen::MatrixXd& curvature, Eigen::VectorXd& slope) {
+    const std::vector<std::vector<double>>& slopes = model_.slopes(out_.theta);
+    const std::vector<double>& values = model_.values(out_.theta);
+    const auto size = static_cast<Eigen::Index>(size_);
+    curvature = Eigen::MatrixXd::Zero(size, size);
+    slope = Eigen::VectorXd::Zero(size);
+    double sum = prior_cost();
+    Eigen::VectorXd row(size);
+    for (const size_t i : used_) {
+      row.setZero();
+      for (size_t p = 0; p < slopes.size(); ++p) row[static_cast<Eigen::Index>(p)] = slopes[p][i];
+      if (const auto offset = problem_.data[i].offset) row[static_cast<Eigen::Index>(slopes.size() + *offset)] = 1;
+      const Cost cost = cost_of(values, i);
+      sum += cost.cost;
+      slope += cost.slope * row;
+      curvature.selfadjointView<Eigen::Lower>().rankUpdate(row, cost.curvature);
+    }
+    for (size_t p = 0; p < out_.theta.size(); ++p) {
+      const auto at = static_cast<Eigen::Index>(p);
+      const double weight = 1 / (problem_.priors[p] * problem_.priors[p]);
+      slope[at] += weight * out_.theta[p];
+      curvature(at, at) += weight;
+    }
+    curvature.triangularView<Eigen::StrictlyUpper>() = curvature.transpose();
+    return sum;
+  }
+
+  // Goes to a place of lower cost, with more and more damping. Returns false if there is none, or if it is hardly
+  // lower.
+  bool take_step(double now, const Eigen::MatrixXd& curvature, const Eigen::VectorXd& slope, double& damping) {
+    const std::vector<double> theta = out_.theta, offsets = out_.offsets;
+    for (int tries = 0; tries < 12; ++tries) {
+      Eigen::MatrixXd damped = curvature;
+      damped.diagonal() *= 1 + damping;
+      Eigen::VectorXd step = damped.ldlt().solve(-slope);
+      double longest = 0;
+      for (size_t p = 0; p < theta.size(); ++p)
+        longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(p)]));
+      if (longest > 1) step /= longest;  // no property changes by more than a factor of e at once
+      for (size_t p = 0; p < theta.size(); ++p) out_.theta[p] = theta[p] + step[static_cast<Eigen::Index>(p)];
+      for (size_t k = 0; k < offsets.size(); ++k)
+        out_.offsets[k] = offsets[k] + step[static_cast<Eigen::Index>(theta.size() + k)];
+      const double then = cost();
+      if (then <= now) {
+        damping = std::max(1e-9, damping / 10);
+        return now - then > least_gain;
+      }
+      damping *= 10;
+    }
+    out_.theta = theta;
+    out_.offsets = offsets;
+    return false;
+  }
+
+  void find_errors() {
+    Eigen::MatrixXd curvature;
+    Eigen::VectorXd slope;
+    linearize(curvature, slope);
+    const auto size = static_cast<Eigen::Index>(size_);
+    const Eigen::MatrixXd covariance = curvature.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+    out_.errors.resize(size_);
+    out_.correlation.resize(size_ * size_);
+    for (size_t i = 0; i < size_; ++i) {
+      const auto a = static_cast<Eigen::Index>(i);
+      out_.errors[i] = std::sqrt(std::max(0.0, covariance(a, a)));
+      for (size_t j = 0; j < size_; ++j) {
+        const auto b = static_cast<Eigen::Index>(j);
+        out_.correlation[i * size_ + j] = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
+      }
+    }
+    for (size_t p = 0; p < out_.theta.size(); ++p)
+      out_.told.push_back(std::clamp(1 - std::pow(out_.errors[p] / problem_.priors[p], 2), 0.0, 1.0));
+  }
+
+  const Problem& problem_;
+  Linearized& model_;
+  const size_t size_;
+  std::vector<size_t> used_;  // data that are fitted and have a value
+  FitResult out_;
+};
+
+}  // namespace
+
+std::vector<double> Linearized::evaluate(const std::vector<double>& theta) {
+  ++evaluations_;
+  return problem_.model(theta);
+}
+
+Linearized::Known& Linearized::known(const std::vector<double>& theta) {
+  const auto found = std::ranges::find(kept_, theta, &Known::theta);
+  if (found != kept_.end()) return *found;
+  // The first one, at the start, serves every fit.
+  if (kept_.size() > kept_results) kept_.erase(kept_.begin() + 1);
+  kept_.push_back({theta, evaluate(theta), {}});
+  return kept_.back();
+}
+
+std::vector<double> Linearized::slope(std::vector<double> theta, size_t parameter) {
+  const double here = theta[parameter];
+  theta[parameter] = here + step_of_slopes;
+  std::vector<double> out = evaluate(theta);
+  theta[parameter] = here - step_of_slopes;
+  const std::vector<double> before = evaluate(theta);
+  for (size_t i = 0; i < out.size(); ++i) {
+    out[i] = (out[i] - before[i]) / (2 * step_of_slopes);
+    if (!std::isfinite(out[i])) out[i] = 0;
+  }
+  return out;
+}
+
+const std::vector<std::vector<double>>& Linearized::slopes(const std::vector<double>& theta) {
+  Known& here = known(theta);
+  if (!here.slopes.empty() || theta.empty()) return here.slopes;
+  const bool first = idle_.empty();
+  for (size_t p = 0; p < theta.size(); ++p) {
+    const bool idle = !first && idle_[p];
+    here.slopes.push_back(idle ? std::vector<double>(here.values.size(), 0) : slope(theta, p));
+    if (first) idle_.push_back(std::ranges::all_of(here.slopes[p], [](double s) { return s == 0; }));
+  }
+  return here.slopes;
+}
+
+FitResult fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start) {
+  return Fit(problem, model, takes, std::move(start))();
+}
+
+FitResult fit_from_best(const Problem& problem, Linearized& model, const std::vector<bool>& takes,
+                        const std::vector<std::vector<double>>& starts) {
+  std::vector<std::pair<double, size_t>> best;
+  for (size_t i = 0; i < starts.size(); ++i) best.emplace_back(Fit(problem, model, takes, starts[i]).at_start(), i);
+  std::ranges::sort(best);
+  FitResult out;
+  for (size_t i = 0; i < std::min(best.size(), followed_starts); ++i) {
+    FitResult found = fit(problem, model, takes, starts[best[i].second]);
+    if (i == 0 || found.objective < out.objective) out = std::move(found);
+  }
+  return out;
+}
+
+}  // namespace wavetracer::calibration

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places that several points share are one receiver.
+#include "calibration/measured_world.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <utility>
+#include "base/spelling.hpp"
+#include "calibration/fitted_config.hpp"
+#include "radio/links.hpp"
+#include "radio/path_power.hpp"
+#include "wavetracer/config_file.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer::calibration {
+namespace {
+
+// Returns the configuration without what measured places take the part of.
+Config config_for_places(const std::string& file, const std::vector<std::string>& sets) {
+  Config config = config_of_places(file, sets);
+  if (config.transmitters.empty()) throw ConfigError(file + ": a [[transmitter]] is needed, whose level was measured");
+  if (config.receivers.size() > 1)
+    throw ConfigError(fmt::format(
+        "{}: it has {} [[receiver]] tables; measured places take the antenna of a single one, so keep one of them",
+        file, config.receivers.size()));
+  if (!config.receiver_grids.empty() || !config.stations.empty() || !config.mounts.empty())
+    throw ConfigError(file +
+                      ": measured places are the only receivers; remove [[receiver_grid]], [[station]] and [[mount]] "
+                      "tables");
+  if (config.trace.by_spheres()) throw ConfigError(file + ": trace.reception = \"sphere\" has no exact paths to fit");
+  config.cache.kind = "none";
+  config.output.waypoints = 0;
+  config.output.paths = true;
+  return config;
+}
+
+// Returns the receiver at a measured place. pattern: the receiver that gives its antenna and height, or nullptr.
+RadioEnd receiver_at(const MeasuredFile& file, const MeasuredPoint& point, const RadioEnd* pattern) {
+  RadioEnd out = pattern ? *pattern : RadioEnd{};
+  std::array<double, 3> place = point.position;
+  if (!file.has_z) {
+    const bool geographic = pattern && pattern->position_wgs84;
+    if (!pattern || geographic != file.degrees)
+      throw InputError(fmt::format(
+          "{}: there is no column {}: add it, or give the height by a [[receiver]] of the configuration with {}",
+          file.file, file.degrees ? "height_m" : "z_m", file.degrees ? "position_wgs84" : "position_m"));
+    place[2] = geographic ? (*pattern->position_wgs84)[2] : pattern->position_m[2];
+  }
+  out.position_wgs84.reset();
+  if (file.degrees)
+    out.position_wgs84 = place;
+  else
+    out.position_m = place;
+  return out;
+}
+
+uint32_t transmitter_of(const MeasuredFile& file, const MeasuredPoint& point, const Config& config) {
+  std::vector<std::string> names;
+  for (const RadioEnd& end : config.transmitters) names.push_back(end.name);
+  if (point.tx.empty()) {
+    if (names.size() == 1) return 0;
+    throw InputError(
+        fmt::format("{}:{}: the configuration has {} transmitters: name the one of each row in a column tx", file.file,
+                    point.line, names.size()));
+  }
+  const auto found = std::ranges::find(names, point.tx);
+  if (found == names.end())
+    throw InputError(fmt::format("{}:{}: tx = '{}' is no transmitter of the configuration{}", file.file, point.line,
+                                 point.tx, spelling_hint(point.tx, names)));
+  return static_cast<uint32_t>(found - names.begin());
+}
+
+// Replaces the receivers by the measured places, and returns the link of each point.
+std::vector<Link> place_receivers(Config& config, const std::vector<MeasuredFile>& files) {
+  const std::optional<RadioEnd> pattern =
+      config.receivers.empty() ? std::nullopt : std::optional(std::as_const(config.receivers)[0]);
+  std::vector<RadioEnd> ends;
+  std::vector<Link> links;
+  std::map<std::pair<bool, std::array<double, 3>>, uint32_t> known;
+  for (const MeasuredFile& file : files)
+    for (const MeasuredPoint& point : file.points) {
+      RadioEnd end = receiver_at(file, point, pattern ? &*pattern : nullptr);
+      const auto [at, added] = known.try_emplace({file.degrees, end.position_wgs84.value_or(end.position_m)},
+                                                 static_cast<uint32_t>(ends.size()));
+      if (added) {
+        end.name = fmt::format("{}:{}", file.file, point.line);
+        ends.push_back(std::move(end));
+      }
+      links.push_back({transmitter_of(file, point, config), at->second});
+    }
+  config.receivers = std::move(ends);
+  return links;
+}
+
+Config with_places(const std::string& file, const std::vector<std::string>& sets,
+                   const std::vector<MeasuredFile>& files, std::vector<Link>& links) {
+  Config config = config_for_places(file, sets);
+  links = place_receivers(config, files);
+  config.text = echoed_config(config);
+  return config;
+}
+
+constexpr double share_left_out = 1e-4;
+
+double power_of_db(double gain_db) { return std::pow(10, gain_db / 10); }
+
+template <class Value>
+std::vector<Value> chosen_values(const std::vector<Value>& values, const std::vector<uint32_t>& rows) {
+  std::vector<Value> out;
+  if (values.empty()) return out;
+  for (const uint32_t row : rows) out.push_back(values[row]);
+  return out;
+}
+
+// Returns these rows without their vertices.
+Paths chosen_paths(const Paths& paths, const std::vector<uint32_t>& rows) {
+  Paths out;
+  out.rx_ports = paths.rx_ports;
+  out.tx_ports = paths.tx_ports;
+  const auto choose = [&](auto column) { out.*column = chosen_values(paths.*column, rows); };
+  for (const auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth}) choose(column);
+  for (const auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::doppler_hz}) choose(column);
+  choose(&Paths::a);
+  choose(&Paths::group);
+  choose(&Paths::group_weight);
+  out.vertex_offset.assign(rows.size() + 1, 0);
+  return out;
+}
+
+NamedRecords named_records(const RunPlan& plan) {
+  NamedRecords out;
+  const auto add = [&](const Scene& scene) {
+    for (const Material& material : scene.materials) out.names.push_back(material.name);
+  };
+  add(plan.scene);
+  for (const Scene& model : plan.world.fleet.models) add(model);
+  out.records =
+      make_field_tables(plan.scene, plan.asked, plan.world.fleet.models, plan.world.fleet.instances).materials;
+  if (out.names.size() != out.records.size())
+    throw std::logic_error("materials of the world and their names are of different numbers");
+  out.frequency_hz = plan.asked.radio.frequency_hz;
+  out.scatters = plan.asked.trace.scattering;
+  return out;
+}
+
+}  // namespace
+
+MeasuredWorld::MeasuredWorld(const std::string& config_file, const std::vector<std::string>& sets,
+                             const std::vector<MeasuredFile>& files, const std::string& device)
+    : config_(with_places(config_file, sets, files, links_)),
+      setup_(make_setup(config_, device)),
+      frames_(setup_),
+      frame_(frames_.run(FrameTask::of_drive({.frame = 0,
+                                              .pose = [this] { return setup_.plan->world.state(0); },
+                                              .names = FrameNames::of(setup_.plan->asked),
+                                              .timed = false}))),
+      materials_(named_records(*setup_.plan)) {
+  for (size_t i = 0; i < links_.size(); ++i)
+    if (!std::ranges::binary_search(frame_.world.links, links_[i]))
+      throw ConfigError(fmt::format("{}: [links] leaves out the link from {} to the place of {}", config_file,
+                                    std::as_const(config_.transmitters)[links_[i].tx].name,
+                                    std::as_const(config_.receivers)[links_[i].rx].name));
+}
+
+std::vector<glm::dvec3> MeasuredWorld::places() const {
+  std::vector<glm::dvec3> out;
+  for (const Link& link : links_)
+    out.push_back(std::as_const(frame_.world.receivers)[link.rx].position_m + setup_.plan->scene.origin_m);
+  return out;
+}
+
+std::vector<std::string> MeasuredWorld::transmitters() const {
+  std::vector<std::string> out;
+  for (const Link& link : links_) out.push_back(config_.transmitters[link.tx].name);
+  return out;
+}
+
+std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(
+    const RowChoice& rows, const std::vector<device::wt_material>& materials) {
+  setup_.finish.set_materials(materials);
+  return frames_.fields_again(rows, frame_).a;
+}
+
+std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vector<double>& rest) const {
+  const std::vector<Link>& all = frame_.world.links;
+  const std::vector<LinkFigures> figures =
+      link_figures(paths, frame_.frame, all, setup_.plan->asked.radio.frequency_hz);
+  std::vector<Computed> out;
+  for (const Link& link : links_) {
+    const auto i = static_cast<size_t>(std::ranges::lower_bound(all, link) - all.begin());
+    const double power = power_of_db(figures[i].path_gain_db) + (rest.empty() ? 0 : rest[i]);
+    out.push_back({10 * std::log10(power), 1e9 * figures[i].rms_delay_spread_s});
+  }
+  return out;
+}
+
+std::vector<Computed> MeasuredWorld::weigh(const std::vector<device::wt_material>& materials) {
+  std::vector<uint32_t> all(frame_.paths.size());
+  std::iota(all.begin(), all.end(), 0u);
+  frame_.paths.a = fields(frames_.choose_rows(all), materials);
+  keep_strong();
+  base_ = materials;
+  dependents_.clear();
+  return computed(frame_.paths, {});
+}
+
+void MeasuredWorld::keep_strong() {
+  const Paths& paths = frame_.paths;
+  kept_.clear();
+  for (size_t first = 0; first < paths.size();) {
+    const size_t end = end_of_link(paths, first);
+    std::vector<std::pair<double, uint32_t>> weakest;  // power and row
+    double power = 0;
+    for (size_t row = first; row < end; ++row) {
+      weakest.emplace_back(power_of(paths, row), static_cast<uint32_t>(row));
+      power += weakest.back().first;
+    }
+    std::ranges::sort(weakest);
+    double left_out = 0;
+    for (const auto& [of_path, row] : weakest)
+      if ((left_out += of_path) > share_left_out * power) kept_.push_back(row);
+    first = end;
+  }
+  std::ranges::sort(kept_);
+  strong_rows_ = frames_.choose_rows(kept_);
+  strong_ = chosen_paths(paths, kept_);
+  const double frequency_hz = setup_.plan->asked.radio.frequency_hz;
+  const auto all = link_figures(paths, frame_.frame, frame_.world.links, frequency_hz);
+  const auto strong = link_figures(strong_, frame_.frame, frame_.world.links, frequency_hz);
+  rest_.clear();
+  for (size_t i = 0; i < all.size(); ++i)
+    rest_.push_back(std::max(0.0, power_of_db(all[i].path_gain_db) - power_of_db(strong[i].path_gain_db)));
+}
+
+// Paths that depend on a material are found by changing all its properties.
+const MeasuredWorld::Dependent& MeasuredWorld::dependent(size_t material) {
+  const auto found = dependents_.find(material);
+  if (found != dependents_.end()) return found->second;
+  std::vector<device::wt_material> changed = base_;
+  changed[material].permittivity[0] = 1 + 1.5 * (changed[material].permittivity[0] - 1);
+  changed[material].permittivity[1] = 1.5 * changed[material].permittivity[1] - 0.01;
+  changed[material].thickness_m *= 1.1;
+  changed[material].scattering = 0.5 * changed[material].scattering + 0.1;
+  const auto now = fields(strong_rows_, changed);
+  Dependent out;
+  std::vector<uint32_t> rows;
+  for (uint32_t i = 0; i < kept_.size(); ++i)
+    if (now[i] != strong_.a[i]) {
+      out.places.push_back(i);
+      rows.push_back(kept_[i]);
+    }
+  out.rows = frames_.choose_rows(rows);
+  return dependents_.emplace(material, std::move(out)).first->second;
+}
+
+// If a single material differs from those of the last evaluation of all strong paths, only the paths that depend on it
+// are evaluated: so derivatives take little.
+std::vector<Computed> MeasuredWorld::values(const std::vector<device::wt_material>& materials) {
+  std::vector<size_t> changed;
+  for (size_t i = 0; i < materials.size(); ++i)
+    if (std::memcmp(&materials[i], &base_[i], sizeof materials[i]) != 0) changed.push_back(i);
+  if (changed.size() > 1) {
+    strong_.a = fields(strong_rows_, materials);
+    base_ = materials;
+  }
+  if (changed.size() != 1) return computed(strong_, rest_);
+  const Dependent& on = dependent(changed[0]);
+  const auto now = fields(on.rows, materials);
+  Paths paths = strong_;
+  for (size_t i = 0; i < on.places.size(); ++i) paths.a[on.places[i]] = now[i];
+  return computed(paths, rest_);
+}
+
+}  // namespace wavetracer::calibration

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paths of all measured links, found and solved once; then only their fields are evaluated, for one set of
+// materials after the other.
+#pragma once
+#include <array>
+#include <complex>
+#include <map>
+#include <string>
+#include <vector>
+#include "calibration/computed.hpp"
+#include "calibration/measured.hpp"
+#include "calibration/parameters.hpp"
+#include "simulation/frame.hpp"
+#include "wavetracer/config.hpp"
+
+namespace wavetracer::calibration {
+
+class MeasuredWorld {
+ public:
+  // config_file: describes the world, the carrier and the transmitters; a single [[receiver]] in it gives the measured
+  // places its antenna, orientation, and its height where files have none. Finds the paths. Throws ConfigError or
+  // InputError for a world that does not fit the files.
+  MeasuredWorld(const std::string& config_file, const std::vector<std::string>& sets,
+                const std::vector<MeasuredFile>& files, const std::string& device);
+
+  const Config& config() const { return config_; }
+  const NamedRecords& materials() const { return materials_; }
+  // Positions of the points of all files, in file coordinates of the scene, one file after the other.
+  std::vector<glm::dvec3> places() const;
+  // Names of the transmitters of the points.
+  std::vector<std::string> transmitters() const;
+  // Evaluates the fields of all paths with these materials, and returns the values of the points. From now on, values()
+  // evaluates those paths alone that make all but 1e-4 of the power of their link; the others keep their power.
+  std::vector<Computed> weigh(const std::vector<device::wt_material>& materials);
+  // Values of the points with these materials, after weigh().
+  std::vector<Computed> values(const std::vector<device::wt_material>& materials);
+  size_t paths() const { return frame_.paths.size(); }
+  size_t paths_that_matter() const { return kept_.size(); }
+  const std::vector<std::string>& warnings() const { return frame_.warnings; }
+  const DeviceSummary& device() const { return setup_.device; }
+
+ private:
+  std::vector<Link> links_;  // a link for each point; config_ is made together with it
+  Config config_;
+  Setup setup_;
+  FrameLoop frames_;
+  FrameResult frame_;
+  NamedRecords materials_;
+  std::vector<uint32_t> kept_;  // rows of frame_.paths that matter
+  Paths strong_;                // their columns, with the fields of base_
+  RowChoice strong_rows_;
+  std::vector<device::wt_material> base_;
+  std::vector<double> rest_;  // for each link of the frame the power of its other paths
+  // For a material, the places in strong_ of the paths that depend on it, and their rows.
+  struct Dependent {
+    std::vector<uint32_t> places;
+    RowChoice rows;
+  };
+  std::map<size_t, Dependent> dependents_;
+
+  void keep_strong();
+  std::vector<std::array<std::complex<double>, 4>> fields(const RowChoice& rows,
+                                                          const std::vector<device::wt_material>& materials);
+  const Dependent& dependent(size_t material);
+  std::vector<Computed> computed(const Paths& paths, const std::vector<double>& rest) const;
+};
+
+}  // namespace wavetracer::calibration

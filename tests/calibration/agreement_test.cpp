@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statistics of a few pairs, worked out by hand, and blocks of random places.
+#include "calibration/agreement.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace wavetracer::calibration;
+
+TEST_CASE("equal values share the mean of their ranks") {
+  CHECK(ranks_of(std::vector<double>{3, 1, 2}) == std::vector<double>{3, 1, 2});
+  CHECK(ranks_of(std::vector<double>{5, 5, 1, 5}) == std::vector<double>{3, 3, 1, 3});
+}
+
+TEST_CASE("statistics leave points without a path out, and count them") {
+  const std::vector<LevelPair> pairs{{-80, -83}, {-90, -91}, {-100, -101}, {-95, -INFINITY}};
+  const Statistics of = statistics_of(pairs);
+  CHECK(of.points == 4);
+  CHECK(of.with_a_path == 3);
+  CHECK(of.offset_db == doctest::Approx(5.0 / 3));
+  CHECK(of.sigma_db == doctest::Approx(std::sqrt(4.0 / 3)));  // 3, 1 and 1 about 5/3
+  CHECK(of.spearman == doctest::Approx(1));
+  const Statistics reversed = statistics_of(std::vector<LevelPair>{{1, 3}, {2, 2}, {3, 1}});
+  CHECK(reversed.spearman == doctest::Approx(-1));
+  const Statistics one = statistics_of(std::vector<LevelPair>{{1, 3}});
+  CHECK(std::isnan(one.sigma_db));
+  CHECK(std::isnan(statistics_of(std::vector<LevelPair>{{1, 3}, {2, 3}}).spearman));
+}
+
+TEST_CASE("blocks have the same number of places, and no two of them overlap along a street") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> along(0, 100), across(0, 5);
+  std::vector<double> x, y;
+  for (int i = 0; i < 103; ++i) {
+    x.push_back(along(random));
+    y.push_back(across(random));
+  }
+  const std::vector<unsigned> blocks = spatial_blocks(x, y, 4);
+  std::vector<double> least(4, INFINITY), most(4, -INFINITY);
+  std::vector<int> count(4);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    REQUIRE(blocks[i] < 4);
+    ++count[blocks[i]];
+    least[blocks[i]] = std::min(least[blocks[i]], x[i]);
+    most[blocks[i]] = std::max(most[blocks[i]], x[i]);
+  }
+  for (int block = 0; block < 4; ++block) {
+    CHECK(count[block] >= 25);
+    CHECK(count[block] <= 26);
+    if (block > 0) CHECK(most[block - 1] <= least[block]);
+  }
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `wavetracer calibrate` in free space, where levels have a closed form, and its refusals. Cases that need
+// a device are skipped with a message if there is none.
+#include <filesystem>
+
+#include "app/program.hpp"
+#include "check_contains.hpp"
+#include "radio/constants.hpp"
+#include "simulation/run.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// A small surface that is far away, so that all is free space.
+SceneFile nothing() { return SceneFile({Quad{{-900, -900, -400}, {2, 0, 0}, {0, 2, 0}}}); }
+
+std::string text_of(const SceneFile& scene, const std::string& more) {
+  return fmt::format("scene.file = \"{}\"\n[radio]\nfrequency_hz = 1e9\n[trace]\nrays = 1000\nmax_depth = 1\n",
+                     scene.path().string()) +
+         "[[transmitter]]\nname = \"a\"\nposition_m = [0, 0, 10]\n" + more;
+}
+
+double loss_db(double distance_m) {
+  return 20 * std::log10(4 * std::acos(-1.0) * distance_m * 1e9 / speed_of_light_m_s);
+}
+
+void check_refused(const Outcome& outcome, int code, const std::string& words) {
+  CHECK(outcome.code == code);
+  check_contains(outcome.err, words);
+}
+
+}  // namespace
+
+TEST_CASE("calibrate: only an offset is left in free space, and all files are written") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = nothing();
+  const std::string config =
+      folder.file("c.toml", text_of(scene, "[[receiver]]\nname = \"r\"\nposition_m = [0, 0, 10]\n"));
+  std::string rows = "x,y,path_loss_db,group,note\n";
+  for (int i = 1; i <= 20; ++i)
+    rows += fmt::format("{},0,{:.12f},{},n\n", 10 * i, loss_db(10 * i) - 3, i % 2 ? "odd" : "even");
+  const std::string measured = folder.file("m.csv", rows), out = folder.path("out");
+  const Outcome outcome = run_program({"calibrate", "-c", config, "--measured", measured, "-o", out, "--fit", "none"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  check_contains(outcome.out, "20 points, 20 paths found");
+  check_contains(outcome.out, "offset of all points  -       3.00 dB");
+  check_contains(outcome.out, "these columns are not used: note");
+  check_contains(outcome.out, "odd (10)");
+  for (const char* name : {"calibration.csv", "calibration.gp", "parameters.csv", "fitted.toml", "calibration.html"})
+    CHECK(std::filesystem::exists(out + "/" + name));
+  CHECK(lines_of(out + "/calibration.csv") == 21);
+  check_contains(contents(out + "/calibration.html"), "offset of all points");
+  const Outcome valid = run_program({"validate", "-c", out + "/fitted.toml"});
+  CAPTURE(valid.err);
+  CHECK(valid.code == 0);
+}
+
+TEST_CASE("calibrate refuses what does not fit together, and says what to do") {
+  const Folder folder;
+  const SceneFile scene = nothing();
+  const std::string config = folder.file("c.toml", text_of(scene, ""));
+  const std::string flat = folder.file("flat.csv", "x,y,path_gain_db\n1,2,-80\n");
+  const std::string named = folder.file("named.csv", "x,y,z,path_gain_db,tx\n1,2,3,-80,b\n");
+  const auto run = [&](const std::string& with, const std::string& file) {
+    return run_program({"calibrate", "-c", with, "--measured", file, "-o", folder.path("no")});
+  };
+  check_refused(run_program({"calibrate", "-c", config}), 2, "--measured");
+  check_refused(run(config, folder.path("missing.csv")), 3, "missing.csv");
+  check_refused(run(config, flat), 3, "there is no column z_m: add it, or give the height by a [[receiver]]");
+  check_refused(run(config, named), 3, "named.csv:2: tx = 'b' is no transmitter of the configuration");
+  const std::string two =
+      "[[receiver]]\nname = \"r\"\nposition_m = [1, 0, 0]\n[[receiver]]\nname = \"s\"\nposition_m = [2, 0, 0]\n";
+  check_refused(run(folder.file("two.toml", text_of(scene, two)), flat), 2, "it has 2 [[receiver]] tables");
+  const std::string grid = "[[receiver_grid]]\nname = \"g\"\nx_min_m = 0\nx_max_m = 9\ny_min_m = 0\ny_max_m = 9\n";
+  check_refused(run(folder.file("grid.toml", text_of(scene, grid)), flat), 2, "measured places are the only receivers");
+  CHECK_FALSE(std::filesystem::exists(folder.path("no")));
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits of models whose answers are known: lines, whose least squares have closed forms, and an exponential.
+#include "calibration/fit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace wavetracer::calibration;
+
+namespace {
+
+constexpr double no_prior = 1e9;
+
+FitResult fitted(const Problem& problem) {
+  Linearized model(problem);
+  return fit(problem, model, std::vector<bool>(problem.data.size(), true),
+             std::vector<double>(problem.priors.size(), 0));
+}
+
+// A line theta x over x = 0, 0.1, 0.2, ..., with data of noise of this deviation, and an offset.
+struct Line {
+  std::vector<double> x;
+  Problem problem;
+
+  Line(size_t count, double slope, double offset, double deviation, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> noise(0, 1);
+    for (size_t i = 0; i < count; ++i) {
+      x.push_back(0.1 * static_cast<double>(i));
+      problem.data.push_back({.value = slope * x[i] + offset + deviation * noise(random), .offset = 0});
+    }
+    problem.priors = {no_prior};
+    problem.offsets = 1;
+    problem.model = [this](std::span<const double> theta) {
+      std::vector<double> out;
+      for (const double at : x) out.push_back(theta[0] * at);
+      return out;
+    };
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a line without noise is found exactly") {
+  const Line line(20, 2.5, -7, 0, 1);
+  const FitResult found = fitted(line.problem);
+  CHECK(found.converged);
+  CHECK(found.theta[0] == doctest::Approx(2.5).epsilon(1e-9));
+  CHECK(found.offsets[0] == doctest::Approx(-7).epsilon(1e-9));
+}
+
+TEST_CASE("standard errors and correlations of a line are those of its closed form") {
+  const Line line(400, 1.5, 3, 0.5, 2);
+  const FitResult found = fitted(line.problem);
+  double sum = 0, square = 0;
+  for (const double x : line.x) {
+    sum += x;
+    square += x * x;
+  }
+  const double n = 400, determinant = n * square - sum * sum;
+  CHECK(found.deviations[0] == doctest::Approx(0.5).epsilon(0.1));
+  // A residual beyond two deviations counts less, which some 5% are.
+  CHECK(found.errors[0] == doctest::Approx(0.5 * std::sqrt(n / determinant)).epsilon(0.12));
+  CHECK(found.errors[1] == doctest::Approx(0.5 * std::sqrt(square / determinant)).epsilon(0.12));
+  CHECK(found.correlation[1] == doctest::Approx(-sum / std::sqrt(n * square)).epsilon(0.02));
+  CHECK(std::abs(found.theta[0] - 1.5) < 4 * found.errors[0]);
+  CHECK(found.told[0] == doctest::Approx(1));
+}
+
+TEST_CASE("errors of many fits are as large as their standard errors say") {
+  double sum = 0, said = 0;
+  constexpr unsigned fits = 200;
+  for (unsigned seed = 0; seed < fits; ++seed) {
+    const Line line(100, 1, 0, 1, 100 + seed);
+    const FitResult found = fitted(line.problem);
+    sum += std::pow(found.theta[0] - 1, 2);
+    said += std::pow(found.errors[0], 2);
+  }
+  // The bound of Cramer and Rao is 1 / (n times the variance of x): Huber's function costs some 1% of it.
+  const double bound = 1 / (100 * (0.01 * (100.0 * 100 - 1) / 12));
+  CHECK(sum / fits < 1.2 * 1.2 * bound);
+  CHECK(sum / said == doctest::Approx(1).epsilon(0.25));
+}
+
+TEST_CASE("a tenth of outliers hardly moves a fit") {
+  Line line(200, 2, 1, 0.1, 5);
+  for (size_t i = 0; i < line.problem.data.size(); i += 10) line.problem.data[i].value += 50;
+  const FitResult found = fitted(line.problem);
+  CHECK(found.theta[0] == doctest::Approx(2).epsilon(0.01));
+  CHECK(std::abs(found.offsets[0] - 1) < 0.1);
+}
+
+TEST_CASE("a prior holds what the data do not tell") {
+  Line line(50, 2, 0, 0.1, 6);
+  line.problem.priors = {no_prior, 0.3};
+  const auto alone = line.problem.model;
+  line.problem.model = [&](std::span<const double> theta) { return alone(theta.first(1)); };
+  Linearized model(line.problem);
+  const FitResult found = fit(line.problem, model, std::vector<bool>(50, true), {0, 0});
+  CHECK(found.theta[0] == doctest::Approx(2).epsilon(0.05));
+  CHECK(found.theta[1] == 0);
+  CHECK(found.errors[1] == doctest::Approx(0.3));
+  CHECK(found.told[1] == doctest::Approx(0));
+  CHECK(model.depends_on(0));
+  CHECK_FALSE(model.depends_on(1));
+}
+
+TEST_CASE("levels below the noise count as such: without them the slope is wrong") {
+  Line line(200, -1, 0, 0.2, 7);  // from 0 down to -20
+  constexpr double floor = -10;
+  std::vector<bool> above;
+  for (Datum& datum : line.problem.data) {
+    above.push_back(datum.value > floor);
+    if (!above.back()) datum = {.value = floor, .below = true, .offset = 0};
+  }
+  const FitResult found = fitted(line.problem);
+  CHECK(found.theta[0] == doctest::Approx(-1).epsilon(0.02));
+  Problem as_levels = line.problem;
+  for (Datum& datum : as_levels.data) datum.below = false;
+  CHECK(fitted(as_levels).theta[0] > -0.9);
+}
+
+TEST_CASE("the probability of being below a number has the right slope far below and far above it") {
+  // One datum that is below 0, a prior of 1 and a model theta: the posterior's mode solves theta = -density /
+  // probability.
+  Problem problem;
+  problem.data = {{.value = -3, .below = true}, {.value = 5}, {.value = -5}};  // deviation 1.4826 * 5 about 0
+  problem.priors = {1};
+  problem.model = [](std::span<const double> theta) { return std::vector<double>{theta[0], 0, 0}; };
+  Linearized model(problem);
+  const FitResult found = fit(problem, model, {true, true, true}, {0});
+  const double s = 1.4826 * 5, u = (-3 - found.theta[0]) / s;
+  const double ratio = std::exp(-0.5 * u * u) / std::sqrt(2 * std::acos(-1.0)) / (0.5 * std::erfc(-u / std::sqrt(2.0)));
+  CHECK(found.theta[0] == doctest::Approx(-ratio / s).epsilon(1e-2));
+}
+
+TEST_CASE("a curved model is found from afar, and data without a value are left out") {
+  Problem problem;
+  for (int i = 0; i < 30; ++i) problem.data.push_back({.value = 10 * std::exp(0.2 * i * 0.7)});
+  problem.priors = {no_prior};
+  problem.model = [](std::span<const double> theta) {
+    std::vector<double> out;
+    for (int i = 0; i < 30; ++i) out.push_back(i == 7 ? -INFINITY : 10 * std::exp(0.2 * i * theta[0]));
+    return out;
+  };
+  const FitResult found = fitted(problem);
+  CHECK(found.used == 29);
+  CHECK(found.theta[0] == doctest::Approx(0.7).epsilon(1e-6));
+}
+
+TEST_CASE("held-out data have no effect") {
+  const Line line(40, 2, 0, 0, 8);
+  Problem problem = line.problem;
+  std::vector<bool> takes(40, true);
+  for (size_t i = 0; i < 10; ++i) {
+    takes[i] = false;
+    problem.data[i].value = 1e6;
+  }
+  Linearized model(problem);
+  const FitResult found = fit(problem, model, takes, {0});
+  CHECK(found.used == 30);
+  CHECK(found.theta[0] == doctest::Approx(2).epsilon(1e-9));
+}
