@@ -19,6 +19,7 @@ import pathlib as _pathlib
 import typing as _typing
 
 if _typing.TYPE_CHECKING:
+    from ._calibration import Calibration, calibrate
     from ._coverage import coverage
     from ._library import Counts, columns, devices, version
     from ._page import Page, view
@@ -33,14 +34,15 @@ if _typing.TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopped", "InputError", "Links", "Page",
-           "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "columns", "configs", "coverage",
-           "devices", "from_sionna", "version", "view"]
+__all__ = ["Calibration", "ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopped", "InputError", "Links",
+           "Page", "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "calibrate", "columns", "configs",
+           "coverage", "devices", "from_sionna", "version", "view"]
 
 # The module of each name. Modules are imported when a name is asked for: the command `wavetracer` needs neither the
 # library in this process nor NumPy, and does not wait for them.
 _MODULES = {
-    "_coverage": ("coverage",), "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
+    "_calibration": ("Calibration", "calibrate"), "_coverage": ("coverage",),
+    "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
     "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
     "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
     "simulation": ("Simulation",), "sionna": ("from_sionna",)}

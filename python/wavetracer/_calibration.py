@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measured levels beside computed ones, and materials that fit them: `wavetracer calibrate`."""
+from __future__ import annotations
+
+import csv
+import os
+import pathlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _program
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass
+class Parameter:
+    """A fitted property of a material, or an offset. told_share: the share of the prior variance that the data
+    removed."""
+
+    unit: str
+    before: float
+    fitted: float
+    standard_error: float
+    told_share: float
+
+
+@dataclass
+class Calibration:
+    """The result of wt.calibrate: columns of calibration.csv by name, an entry for each measured point; parameters by
+    name; the text that the program prints; and the folder, which has the fitted configuration and a page."""
+
+    points: dict[str, NDArray[np.generic]]
+    parameters: dict[str, Parameter]
+    text: str
+    folder: pathlib.Path
+
+    @property
+    def fitted(self) -> pathlib.Path:
+        """The file of the fitted configuration."""
+        return self.folder / "fitted.toml"
+
+
+_TEXTS = ("file", "tx", "group")
+
+
+def _columns(file: pathlib.Path) -> dict[str, NDArray[np.generic]]:
+    with open(file, encoding="utf-8", newline="") as source:
+        rows = list(csv.DictReader(source))
+    names = list(rows[0]) if rows else []
+    return {name: np.array([row[name] for row in rows]) if name in _TEXTS
+            else np.array([float(row[name]) for row in rows]) for name in names}
+
+
+def _parameters(file: pathlib.Path) -> dict[str, Parameter]:
+    with open(file, encoding="utf-8", newline="") as source:
+        return {row["parameter"]: Parameter(row["unit"], *(float(row[name]) for name in (
+            "before", "fitted", "standard_error", "told_share"))) for row in csv.DictReader(source)}
+
+
+def calibrate(config: Path, measured: Path | Iterable[Path], folder: Path, *, fit: str | Iterable[str] = "*",
+              offset: str = "all", prior: float = 1.0, folds: int = 4, level: str | None = None,
+              device: str | None = None, sets: Mapping[str, object] | None = None) -> Calibration:
+    """Compares the levels of a configuration with those of tables of measured values, and fits its materials to them.
+    The arguments are the options of `wavetracer calibrate`; docs/calibration.md describes them and the tables. folder:
+    gets the files. fit: parameters in a list, or in a text with commas. sets: keys of the configuration."""
+    files = [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
+    options = ["-c", os.fspath(config), "-o", os.fspath(folder), "--fit", fit if isinstance(fit, str) else ",".join(fit),
+               "--offset", offset, "--prior", repr(float(prior)), "--folds", str(int(folds))]
+    for file in files:
+        options += ["--measured", os.fspath(file)]
+    if level is not None:
+        options += ["--level", level]
+    if device is not None:
+        options += ["--device", device]
+    for key, value in (sets or {}).items():
+        options += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+    text = _program.call("calibrate", *options)
+    place = pathlib.Path(folder)
+    return Calibration(_columns(place / "calibration.csv"), _parameters(place / "parameters.csv"), text, place)
