@@ -193,6 +193,15 @@ Table material_table() {
                           "and so is a slab thicker than 2^44 radians. "
                           "Not given: the thickness in the scene file, or 0.1 m if it has none.",
                    .example = "0.3"},
+                  {.name = "layers",
+                   .slot = m(&MaterialConfig::layers),
+                   .range = {0, infinity, true},
+                   .doc = "A wall of several layers, from its outer side inwards, instead of a law and a thickness: "
+                          "for each layer a material without layers, by its name here or in ITU-R P.2040, and its "
+                          "thickness in m. The outer side of a closed body is its outside; that of an open sheet is "
+                          "the side from which the corners of its triangles run counter-clockwise.",
+                   .example = "[{ material = \"brick\", thickness_m = 0.12 }, "
+                              "{ material = \"concrete\", thickness_m = 0.2 }]"},
                   {.name = "scattering",
                    .slot = m(&MaterialConfig::scattering),
                    .range = {0, 1},
