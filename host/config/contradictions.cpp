@@ -232,16 +232,6 @@ std::set<std::string> check_names(const std::string& table, const std::string& k
   return seen;
 }
 
-void check_materials(const std::vector<MaterialConfig>& materials, Found& out) {
-  for (size_t i = 0; i < materials.size(); ++i) {
-    const MaterialConfig& m = materials[i];
-    if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
-      out.push_back({{fmt::format("material.{}", i)},
-                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: "
-                     "give either the first four or the last two"});
-  }
-}
-
 void check_ends(const Config& config, Found& out) {
   const auto check = [&](MountRole role, bool (*has)(MountRole), bool none) {
     if (none && std::ranges::none_of(config.mounts, has, &MountConfig::role))

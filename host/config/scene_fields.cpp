@@ -136,115 +136,127 @@ Table scene_table() {
 
 Table material_table() {
   const auto m = [](auto member) { return at(&Config::materials, member); };
-  return {.name = "material",
-          .doc =
-              "A radio material, which replaces one of ITU-R P.2040 or is added to them. Give either a, b, "
-              "c and d, or permittivity and conductivity_s_m.",
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = m(&MaterialConfig::name),
-                   .required = true,
-                   .doc = "The name that the scene uses, or that scene.material_alias gives.",
-                   .example = "\"concrete\""},
-                  {.name = "library",
-                   .slot = m(&MaterialConfig::library),
-                   .doc = "The material of ITU-R P.2040 that it is based on, under a name of your own: its law "
-                          "and range hold, except for what the other keys say. Not given: the one of its own name, "
-                          "if there is one.",
-                   .example = "\"concrete\""},
-                  {.name = "a",
-                   .slot = m(&MaterialConfig::a),
-                   .range = {0, 1e6, true},
-                   .doc = "Factor of the relative permittivity a f^b, with f in GHz (ITU-R P.2040, Table 3).",
-                   .example = "5.24"},
-                  {.name = "b",
-                   .slot = m(&MaterialConfig::b),
-                   .range = {-10, 10},
-                   .doc = "Exponent of the relative permittivity a f^b.",
-                   .example = "0.0"},
-                  {.name = "c",
-                   .slot = m(&MaterialConfig::c),
-                   .unit = "S/m",
-                   .range = {0, 1e12},
-                   .doc = "Factor of the conductivity c f^d, with f in GHz (ITU-R P.2040, Table 3).",
-                   .example = "0.0462"},
-                  {.name = "d",
-                   .slot = m(&MaterialConfig::d),
-                   .range = {-10, 10},
-                   .doc = "Exponent of the conductivity c f^d.",
-                   .example = "0.7822"},
-                  {.name = "permittivity",
-                   .slot = m(&MaterialConfig::permittivity),
-                   .range = {1, 1e6},
-                   .doc = "Relative permittivity at every frequency, instead of a and b.",
-                   .example = "5.24"},
-                  {.name = "conductivity_s_m",
-                   .slot = m(&MaterialConfig::conductivity_s_m),
-                   .unit = "S/m",
-                   .range = {0, 1e12},
-                   .doc = "Conductivity at every frequency, instead of c and d.",
-                   .example = "0.185"},
-                  {.name = "thickness_m",
-                   .slot = m(&MaterialConfig::thickness_m),
-                   .unit = "m",
-                   .range = {0, infinity, true},
-                   .doc = "Thickness of the slab; inf is a half space, "
-                          "and so is a slab thicker than 2^44 radians. "
-                          "Not given: the thickness in the scene file, or 0.1 m if it has none.",
-                   .example = "0.3"},
-                  {.name = "scattering",
-                   .slot = m(&MaterialConfig::scattering),
-                   .range = {0, 1},
-                   .doc = "Scattering coefficient S, used with trace.scattering: "
-                          "the share S^2 of the reflected power is scattered in all directions, "
-                          "and the specular reflection keeps the rest (Degli-Esposti et al., 2007). "
-                          "Vegetation scatters the share S^2 of the power that it absorbs, "
-                          "evenly over all directions. Not given: 0.",
-                   .example = "0.4"},
-                  {.name = "scattering_lobe",
-                   .slot = m(&MaterialConfig::scattering_lobe),
-                   .range = {0, 50},
-                   .doc = "Exponent of the scattering lobe around the specular direction, an integer; "
-                          "4 is usual for walls. 0: no lobe, scattering by Lambert's law, "
-                          "which sends all of the share S^2. A lobe sends less of it, so that both directions "
-                          "of a path are alike: with 4 it sends 77, 80, 82 and 91 % at 0, 45, "
-                          "60 and 80 degrees of incidence (docs/limits.md).",
-                   .example = "4"},
-                  {.name = "scattering_cross_polar",
-                   .slot = m(&MaterialConfig::scattering_cross_polar),
-                   .range = {0, 1},
-                   .doc = "Share of the scattered power that is in the other (cross) polarisation.",
-                   .example = "0.1"},
-                  {.name = "vegetation",
-                   .slot = m(&MaterialConfig::vegetation),
-                   .doc = "Leaves and twigs instead of a surface: closed meshes of this material are volumes "
-                          "that take power per metre inside, A_m (1 - exp(-g d / A_m)) "
-                          "dB on d metres (ITU-R P.833-10, "
-                          "equation 1). mixed, deciduous: the wood in which A_m was measured. "
-                          "The keys about permittivity, thickness and scattering_lobe do not apply.",
-                   .example = "\"mixed\""},
-                  {.name = "in_leaf",
-                   .slot = m(&MaterialConfig::in_leaf),
-                   .doc = "Only for vegetation: with leaves. Without them it takes a sixth less per metre."},
-                  {.name = "attenuation_db_m",
-                   .slot = m(&MaterialConfig::attenuation_db_m),
-                   .unit = "dB/m",
-                   .range = {0, 100},
-                   .doc = "Only for vegetation: g. Not given: 0.2 dB/m at 1 GHz, "
-                          "in proportion to the frequency (read off Figure 2 of ITU-R P.833-10, 30 MHz to 30 GHz).",
-                   .example = "1.0"},
-                  {.name = "max_attenuation_db",
-                   .slot = m(&MaterialConfig::max_attenuation_db),
-                   .unit = "dB",
-                   .range = {0, infinity},
-                   .doc = "Only for vegetation: A_m, the most that a path loses in this material; inf: no maximum. "
-                          "Not given: 1.37 f^0.42 (mixed) or 0.18 f^0.752 (deciduous), f in MHz.",
-                   .example = "30.0"},
-              },
-          .append = append<&Config::materials>,
-          .count = count<&Config::materials>,
-          .optional = true};
+  return {
+      .name = "material",
+      .doc =
+          "A radio material, which replaces one of ITU-R P.2040 or is added to them. Give either a, b, "
+          "c and d, or permittivity and conductivity_s_m.",
+      .fields =
+          {
+              {.name = "name",
+               .slot = m(&MaterialConfig::name),
+               .required = true,
+               .doc = "The name that the scene uses, or that scene.material_alias gives.",
+               .example = "\"concrete\""},
+              {.name = "library",
+               .slot = m(&MaterialConfig::library),
+               .doc = "The material of ITU-R P.2040 that it is based on, under a name of your own: its law "
+                      "and range hold, except for what the other keys say. Not given: the one of its own name, "
+                      "if there is one.",
+               .example = "\"concrete\""},
+              {.name = "a",
+               .slot = m(&MaterialConfig::a),
+               .range = {0, 1e6, true},
+               .doc = "Factor of the relative permittivity a f^b, with f in GHz (ITU-R P.2040, Table 3).",
+               .example = "5.24"},
+              {.name = "b",
+               .slot = m(&MaterialConfig::b),
+               .range = {-10, 10},
+               .doc = "Exponent of the relative permittivity a f^b.",
+               .example = "0.0"},
+              {.name = "c",
+               .slot = m(&MaterialConfig::c),
+               .unit = "S/m",
+               .range = {0, 1e12},
+               .doc = "Factor of the conductivity c f^d, with f in GHz (ITU-R P.2040, Table 3).",
+               .example = "0.0462"},
+              {.name = "d",
+               .slot = m(&MaterialConfig::d),
+               .range = {-10, 10},
+               .doc = "Exponent of the conductivity c f^d.",
+               .example = "0.7822"},
+              {.name = "permittivity",
+               .slot = m(&MaterialConfig::permittivity),
+               .range = {1, 1e6},
+               .doc = "Relative permittivity at every frequency, instead of a and b.",
+               .example = "5.24"},
+              {.name = "conductivity_s_m",
+               .slot = m(&MaterialConfig::conductivity_s_m),
+               .unit = "S/m",
+               .range = {0, 1e12},
+               .doc = "Conductivity at every frequency, instead of c and d.",
+               .example = "0.185"},
+              {.name = "thickness_m",
+               .slot = m(&MaterialConfig::thickness_m),
+               .unit = "m",
+               .range = {0, infinity, true},
+               .doc = "Thickness of the slab; inf is a half space, "
+                      "and so is a slab thicker than 2^44 radians. "
+                      "Not given: the thickness in the scene file, or 0.1 m if it has none.",
+               .example = "0.3"},
+              {.name = "layers",
+               .slot = m(&MaterialConfig::layers),
+               .range = {0, infinity, true},
+               .doc = "A wall of several layers, from its outer side inwards, instead of a law and a thickness: "
+                      "for each layer a material without layers, by its name here or in ITU-R P.2040, and its "
+                      "thickness in m. The outer side of a closed body is its outside; that of an open sheet is "
+                      "the side from which the corners of its triangles run counter-clockwise.",
+               .example = "[{ material = \"brick\", thickness_m = 0.12 }, "
+                          "{ material = \"concrete\", thickness_m = 0.2 }]"},
+              {.name = "scattering",
+               .slot = m(&MaterialConfig::scattering),
+               .range = {0, 1},
+               .doc = "Scattering coefficient S, used with trace.scattering: "
+                      "the share S^2 of the reflected power is scattered in all directions, "
+                      "and the specular reflection keeps the rest (Degli-Esposti et al., 2007). "
+                      "Vegetation scatters the share S^2 of the power that it absorbs, "
+                      "evenly over all directions. Not given: 0.",
+               .example = "0.4"},
+              {.name = "scattering_lobe",
+               .slot = m(&MaterialConfig::scattering_lobe),
+               .range = {0, 50},
+               .doc = "Exponent of the scattering lobe around the specular direction, an integer; "
+                      "4 is usual for walls. 0: no lobe, scattering by Lambert's law, "
+                      "which sends all of the share S^2. A lobe sends less of it, so that both directions "
+                      "of a path are alike: with 4 it sends 77, 80, 82 and 91 % at 0, 45, "
+                      "60 and 80 degrees of incidence (docs/limits.md).",
+               .example = "4"},
+              {.name = "scattering_cross_polar",
+               .slot = m(&MaterialConfig::scattering_cross_polar),
+               .range = {0, 1},
+               .doc = "Share of the scattered power that is in the other (cross) polarisation.",
+               .example = "0.1"},
+              {.name = "vegetation",
+               .slot = m(&MaterialConfig::vegetation),
+               .doc = "Leaves and twigs instead of a surface: closed meshes of this material are volumes "
+                      "that take power per metre inside, A_m (1 - exp(-g d / A_m)) "
+                      "dB on d metres (ITU-R P.833-10, "
+                      "equation 1). mixed, deciduous: the wood in which A_m was measured. "
+                      "The keys about permittivity, thickness and scattering_lobe do not apply.",
+               .example = "\"mixed\""},
+              {.name = "in_leaf",
+               .slot = m(&MaterialConfig::in_leaf),
+               .doc =
+                   "Only for vegetation: with leaves. Without them it takes less per metre: a sixth less up to 1 GHz, "
+                   "63% less at 5.9 GHz and 76% less at 30 GHz."},
+              {.name = "attenuation_db_m",
+               .slot = m(&MaterialConfig::attenuation_db_m),
+               .unit = "dB/m",
+               .range = {0, 100},
+               .doc = "Only for vegetation: g. Not given: 0.2 dB/m at 1 GHz, "
+                      "in proportion to the frequency (read off Figure 2 of ITU-R P.833-10, 30 MHz to 30 GHz).",
+               .example = "1.0"},
+              {.name = "max_attenuation_db",
+               .slot = m(&MaterialConfig::max_attenuation_db),
+               .unit = "dB",
+               .range = {0, infinity},
+               .doc = "Only for vegetation: A_m, the most that a path loses in this material; inf: no maximum. "
+                      "Not given: 1.37 f^0.42 (mixed) or 0.18 f^0.752 (deciduous), f in MHz.",
+               .example = "30.0"},
+          },
+      .append = append<&Config::materials>,
+      .count = count<&Config::materials>,
+      .optional = true};
 }
 
 Table transmitter_table() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks of tables that need the whole configuration: of arrays and carriers, names that nothing has and keys that
 // exclude each other; of vehicles, their sources, antennas and times; of places, degrees and air whose models are valid
-// at each carrier.
+// at each carrier; of materials.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -188,6 +188,34 @@ void check_degrees(const Config& config, std::vector<Contradiction>& out) {
       check(fmt::format("receiver_grid.{}.south_west_wgs84", i), (*p)[0], (*p)[1]);
     if (const auto& p = grid.north_east_wgs84)
       check(fmt::format("receiver_grid.{}.north_east_wgs84", i), (*p)[0], (*p)[1]);
+  }
+}
+
+// The same holds for tables that a user of the library makes, see host/scene/material_checks.hpp.
+void check_materials(const std::vector<MaterialConfig>& materials, std::vector<Contradiction>& out) {
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const MaterialConfig& m = materials[i];
+    if ((m.a || m.b || m.c || m.d) && (m.permittivity || m.conductivity_s_m))
+      out.push_back({{fmt::format("material.{}", i)},
+                     "[[material]] has both a, b, c, d and permittivity or conductivity_s_m: "
+                     "give either the first four or the last two"});
+    if (m.layers.empty()) continue;
+    const auto refuse = [&](bool given, const char* key) {
+      if (given)
+        out.push_back({{fmt::format("material.{}.layers", i), fmt::format("material.{}.{}", i, key)},
+                       fmt::format("[[material]] has both layers and {0}: remove {0}, since the layers say what the "
+                                   "wall is made of",
+                                   key)});
+    };
+    refuse(!m.library.empty(), "library");
+    refuse(m.a.has_value(), "a");
+    refuse(m.b.has_value(), "b");
+    refuse(m.c.has_value(), "c");
+    refuse(m.d.has_value(), "d");
+    refuse(m.permittivity.has_value(), "permittivity");
+    refuse(m.conductivity_s_m.has_value(), "conductivity_s_m");
+    refuse(m.thickness_m.has_value(), "thickness_m");
+    refuse(is_vegetation(m.vegetation), "vegetation");
   }
 }
 

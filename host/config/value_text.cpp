@@ -69,6 +69,12 @@ std::string literal(const Field& field, const Slot& slot) {
           [&]<size_t N>(const std::vector<std::array<double, N>>* rows) {
             return list(*rows, [&](const auto& row) { return list(row, number_text); });
           },
+          [&](const std::vector<LayerConfig>* layers) {
+            return layers->empty() ? "" : list(*layers, [](const LayerConfig& layer) {
+              return fmt::format("{{ material = {}, thickness_m = {} }}", toml_string(layer.material),
+                                 number_text(layer.thickness_m));
+            });
+          },
           [](const Aliases* aliases) {
             std::string out;
             for (const auto& [from, to] : *aliases)
@@ -122,6 +128,9 @@ std::string accepted(const Field& field) {
           [&](const std::optional<std::array<double, 3>>*) -> std::string { return range("three numbers"); },
           [&](const Aliases*) -> std::string { return "a table of strings"; },
           [&](const std::vector<std::string>*) -> std::string { return "a string or an array of strings"; },
+          [&](const std::vector<LayerConfig>*) -> std::string {
+            return fmt::format("an array of 1 to {} tables with material and thickness_m", most_layers);
+          },
           [&](const std::vector<double>*) -> std::string { return range("an array of numbers"); },
           [&](const std::vector<std::array<double, 3>>*) -> std::string { return range("an array of [x, y, z]"); },
           [&](const std::vector<std::array<double, 4>>*) -> std::string {

@@ -167,6 +167,42 @@ std::string assign_numbers(const Field& field, const std::string& key, std::vect
   return {};
 }
 
+// Reads one layer of a wall; key: that of the layer.
+std::string assign_layer(const Field& field, const std::string& key, LayerConfig& to, const toml::node& value) {
+  const auto* table = value.as_table();
+  if (!table) return fmt::format("{} must be a table with material and thickness_m, not {}", key, kind_of(value));
+  for (const auto& [name, node] : *table)
+    if (name != "material" && name != "thickness_m")
+      return fmt::format("{} has an unknown key \"{}\": a layer has material and thickness_m", key, name.str());
+  for (const char* name : {"material", "thickness_m"})
+    if (!table->contains(name)) return fmt::format("{} has no {}: a layer has material and thickness_m", key, name);
+  const toml::node &material = *table->get("material"), &thickness = *table->get("thickness_m");
+  const std::string name_key = key + ".material", thickness_key = key + ".thickness_m";
+  if (!material.is_string()) return fmt::format("{} must be a string, not {}", name_key, kind_of(material));
+  to.material = material.as_string()->get();
+  if (to.material.empty()) return name_key + " is empty: give the name of a material";
+  if (!thickness.is_number()) return fmt::format("{} must be a number, not {}", thickness_key, kind_of(thickness));
+  to.thickness_m = *thickness.value<double>();
+  if (inside(to.thickness_m, field.range)) return {};
+  return fmt::format("{} = {} is out of range: it must be {}", thickness_key, unquoted(thickness),
+                     number_of(field.range));
+}
+
+std::string assign_layers(const Field& field, const std::string& key, std::vector<LayerConfig>& to,
+                          const toml::node& value) {
+  const auto* array = value.as_array();
+  if (!array) return wrong_type(field, key, value);
+  if (array->empty()) return key + " is empty: give at least one layer";
+  if (array->size() > most_layers)
+    return fmt::format("{} has {} layers: a wall may have {} at most", key, array->size(), most_layers);
+  to.resize(array->size());
+  for (size_t i = 0; i < to.size(); ++i)
+    if (const std::string problem = assign_layer(field, fmt::format("{}[{}]", key, i), to[i], (*array)[i]);
+        !problem.empty())
+      return problem;
+  return {};
+}
+
 // Reads rows of N numbers; the list may be empty if the field is not required.
 template <size_t N>
 std::string assign_rows(const Field& field, const std::string& key, std::vector<std::array<double, N>>& to,
@@ -203,6 +239,7 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
             return assign_vector(field, key, to->emplace(), value, accepted(field));
           },
           [&](std::vector<std::string>* to) { return assign_words(field, key, *to, value); },
+          [&](std::vector<LayerConfig>* to) { return assign_layers(field, key, *to, value); },
           [&](std::vector<double>* to) { return assign_numbers(field, key, *to, value); },
           [&](std::vector<std::array<double, 3>>* to) {
             return assign_rows(field, key, *to, value, "three", "position");

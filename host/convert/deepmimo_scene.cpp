@@ -35,6 +35,14 @@ struct Meshes {
   }
 };
 
+void warn_of_layers(const Scene& scene, Warnings& warnings) {
+  for (const Material& material : scene.materials)
+    if (!material.layers.empty())
+      warnings.push_back(
+          fmt::format("deepmimo: the material \"{}\" has {} layers, of which the scene that is written has the first",
+                      material.name, material.layers.size()));
+}
+
 void add_scene(Meshes& meshes, const Scene& scene, uint32_t first_material) {
   const uint32_t base = meshes.add_vertices(scene, [](const glm::dvec3& p) { return p; });
   std::vector<std::vector<uint32_t>> triangles(scene.objects.size()), materials(scene.objects.size());
@@ -68,6 +76,8 @@ DeepmimoScene::DeepmimoScene(const SavedRun& run, Warnings& warnings)
   if (const size_t volumes = world_.scene.volumes.size(); volumes > 0)
     warnings.push_back(
         fmt::format("deepmimo: {} volumes of vegetation are no objects of the scene that is written", volumes));
+  warn_of_layers(world_.scene, warnings);
+  for (const Scene& model : world_.models) warn_of_layers(model, warnings);
   first_material_.push_back(0);
   auto next = static_cast<uint32_t>(world_.scene.materials.size());
   for (const Scene& model : world_.models) {
@@ -91,7 +101,8 @@ nlohmann::ordered_json DeepmimoScene::materials() const {
            {"scattering_coefficient", m.scattering},
            {"cross_polarization_coefficient", m.scattering_cross_polar}};
     if (m.scattering_lobe > 0) out["alpha_r"] = m.scattering_lobe;
-    if (std::isfinite(m.thickness_m)) out["thickness"] = m.thickness_m;
+    const double thickness_m = m.layers.empty() ? m.thickness_m : m.layers.front().thickness_m;
+    if (std::isfinite(thickness_m)) out["thickness"] = thickness_m;
   };
   for (const Material& material : world_.scene.materials) add(material);
   for (const Scene& model : world_.models)

@@ -134,9 +134,27 @@ void GlbFile::write(const std::filesystem::path& path) {
   file.commit();
 }
 
-json glb_material(const Material& material) {
+namespace {
+
+json law_of_surface(const Material& material) {
   json law{{"a", material.a}, {"b", material.b}, {"c", material.c}, {"d", material.d}};
   if (std::isfinite(material.thickness_m)) law["thickness_m"] = material.thickness_m;
+  return law;
+}
+
+json law_of_wall(const Material& material) {
+  json layers = json::array();
+  for (const Material& layer : material.layers) {
+    layers.push_back(law_of_surface(layer));
+    layers.back()["name"] = layer.name;
+  }
+  return {{"layers", std::move(layers)}};
+}
+
+}  // namespace
+
+json glb_material(const Material& material) {
+  json law = material.layers.empty() ? law_of_surface(material) : law_of_wall(material);
   if (material.vegetation) law = law_of(*material.vegetation);
   if (material.scattering > 0) law["scattering"] = material.scattering;
   json element{{"name", material.name},

@@ -24,6 +24,7 @@ gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows r
           {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
           {"WT_SCATTERS", tables.scatters ? "1" : "0"},
           {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
+          {"WT_LAYERS", tables.layered() ? "1" : "0"},
           {"WT_LOSSES", tables.loses() ? "1" : "0"}};
 }
 

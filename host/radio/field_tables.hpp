@@ -2,6 +2,7 @@
 // The data of a world and its radio ends that fields need, as the tables that wavetracer/device/path_field.h reads:
 // they are made once, and the same for every frame, except for the places of the ends.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,10 @@ struct FieldTables {
   VolumeTable volumes;                       // volumes of vegetation
   std::vector<device::wt_foliage> foliages;  // kinds of vegetation
   device::wt_air air{};
+  // Does a surface have several layers?
+  bool layered() const {
+    return std::ranges::any_of(materials, [](const device::wt_material& material) { return material.layers != 0; });
+  }
   // Do air or vegetation take power from paths, besides distance, surfaces and edges?
   bool loses() const { return air.loss_np_m > 0 || air.rains || !foliages.empty(); }
 };

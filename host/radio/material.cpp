@@ -5,21 +5,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "radio/constants.hpp"
 #include "scene/material_laws.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
+
+// Returns the materials without layers, and the layers of the others.
+std::vector<Material> plain_materials(std::span<const Material> materials) {
+  std::vector<Material> out;
+  for (const Material& material : materials) {
+    if (material.layers.empty()) out.push_back(material);
+    out.insert(out.end(), material.layers.begin(), material.layers.end());
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string range_problem(std::span<const Material> materials, double frequency_hz) {
   const double ghz = frequency_hz / 1e9;
   std::string unknown, first, newer;
   bool measured = false;  // one of them has a measured range, not a limit
-  for (const Material& material : materials) {
+  std::vector<std::string> named;
+  for (const Material& material : plain_materials(materials)) {
     if (ghz >= material.min_ghz && ghz <= material.max_ghz) continue;
+    if (std::ranges::find(named, material.name) != named.end()) continue;
+    named.push_back(material.name);
     unknown += fmt::format("{}the material \"{}\" is only known from {}", unknown.empty() ? "" : ", ", material.name,
                            range_in_words(material));
     if (first.empty()) first = material.name;

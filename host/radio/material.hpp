@@ -11,7 +11,7 @@
 namespace wavetracer {
 
 // eta = a f^b - j c f^d / (2 pi f eps0), f in GHz inside the powers; frequency_hz > 0.
-// Throws ConfigError if the frequency lies outside the range that the material is known in.
+// Throws ConfigError if the frequency lies outside the range that the material is known in. The material has no layers.
 std::complex<double> complex_permittivity(const Material& material, double frequency_hz);
 
 // Returns an empty text if all materials are known at the frequency; else a text that names those that are not, with

@@ -8,22 +8,42 @@
 namespace wavetracer {
 namespace {
 
-std::vector<device::wt_material> materials_at(const Scene& scene, double frequency_hz) {
+static_assert(WT_MOST_LAYERS == most_layers && WT_MOST_LAYERS <= WT_LAYER_COUNT);
+
+device::wt_material record_of(const Material& material, double frequency_hz) {
+  const Material& met = material.layers.empty() ? material : material.layers.front();
+  const std::complex<double> permittivity = complex_permittivity(met, frequency_hz);
+  return {.permittivity = {permittivity.real(), permittivity.imag()},
+          .thickness_m = material.thickness_m,
+          .scattering = material.scattering,
+          .cross_polar = material.scattering_cross_polar,
+          .lobe = static_cast<uint32_t>(material.scattering_lobe),
+          .layers = 0};
+}
+
+// Adds the materials of a part to the table: a record for each, then for walls of layers their layers and a second
+// record, for surfaces whose outer side is below. Returns the record of each material for such a surface.
+std::vector<uint32_t> add_materials(std::vector<device::wt_material>& table, const Scene& scene, double frequency_hz) {
   std::vector<bool> is_used(scene.materials.size());
   for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
-  std::vector<device::wt_material> records(scene.materials.size());
-  for (size_t i = 0; i < is_used.size(); ++i) {
+  const auto first = static_cast<uint32_t>(table.size());
+  table.resize(first + scene.materials.size());
+  std::vector<uint32_t> below;
+  for (uint32_t i = 0; i < scene.materials.size(); ++i) {
+    below.push_back(first + i);
     if (!is_used[i]) continue;
     const Material& material = scene.materials[i];
-    const std::complex<double> permittivity = complex_permittivity(material, frequency_hz);
-    records[i] = {.permittivity = {permittivity.real(), permittivity.imag()},
-                  .thickness_m = material.thickness_m,
-                  .scattering = material.scattering,
-                  .cross_polar = material.scattering_cross_polar,
-                  .lobe = static_cast<uint32_t>(material.scattering_lobe),
-                  .padding = 0};
+    device::wt_material record = record_of(material, frequency_hz);
+    if (!material.layers.empty()) {
+      record.layers = static_cast<uint32_t>(table.size() << WT_LAYER_SHIFT | material.layers.size());
+      for (const Material& layer : material.layers) table.push_back(record_of(layer, frequency_hz));
+      below.back() = static_cast<uint32_t>(table.size());
+      table.push_back(record);
+      table.back().layers |= WT_LAYERS_REVERSED;
+    }
+    table[first + i] = record;
   }
-  return records;
+  return below;
 }
 
 }  // namespace
@@ -31,19 +51,21 @@ std::vector<device::wt_material> materials_at(const Scene& scene, double frequen
 MaterialTable make_material_table(const Scene& scene, std::span<const Scene> models,
                                   std::span<const Instance> instances, double frequency_hz) {
   MaterialTable out;
-  std::vector<uint32_t> first;  // start of each part's materials
+  std::vector<uint32_t> first;               // start of each part's materials
+  std::vector<std::vector<uint32_t>> below;  // for each part, see add_materials
   const auto add_part = [&](const Scene& part) {
     first.push_back(static_cast<uint32_t>(out.materials.size()));
-    const auto records = materials_at(part, frequency_hz);
-    out.materials.insert(out.materials.end(), records.begin(), records.end());
+    below.push_back(add_materials(out.materials, part, frequency_hz));
   };
-  const auto add_surfaces = [&](const Scene& part, uint32_t first_material) {
-    for (const Surface& surface : part.surfaces) out.materials_of.push_back(first_material + surface.material);
+  const auto add_surfaces = [&](const Scene& part, uint32_t number) {
+    for (const Surface& surface : part.surfaces)
+      out.materials_of.push_back(surface.outer_is_below ? below[number][surface.material]
+                                                        : first[number] + surface.material);
   };
   add_part(scene);
   for (const Scene& model : models) add_part(model);
-  add_surfaces(scene, first[0]);
-  for (const Instance& instance : instances) add_surfaces(models[instance.model], first[1 + instance.model]);
+  add_surfaces(scene, 0);
+  for (const Instance& instance : instances) add_surfaces(models[instance.model], 1 + instance.model);
   return out;
 }
 

@@ -12,8 +12,10 @@
 namespace wavetracer {
 
 struct MaterialTable {
-  std::vector<device::wt_material> materials;  // at one frequency; those that no surface uses are all zeros
-  std::vector<uint32_t> materials_of;          // the material of each surface of the world
+  // At one frequency; those that no surface uses are all zeros. Layers of walls are records among them, and a wall of
+  // layers has a second record for surfaces whose outer side is below.
+  std::vector<device::wt_material> materials;
+  std::vector<uint32_t> materials_of;  // the material of each surface of the world
 };
 
 // Throws ConfigError for a material that some surface uses and that is not known at this frequency.

@@ -2,6 +2,7 @@
 // A wave loses least straight through a slab. Materials that no surface uses are not asked for.
 #include "radio/opacity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,8 @@
 namespace wavetracer {
 
 bool is_opaque(const Material& material, double frequency_hz) {
+  if (!material.layers.empty())
+    return std::ranges::any_of(material.layers, [&](const Material& layer) { return is_opaque(layer, frequency_hz); });
   const SlabCoefficients slab = slab_coefficients(complex_permittivity(material, frequency_hz), 1, material.thickness_m,
                                                   speed_of_light_m_s / frequency_hz);
   return std::abs(slab.transmission_te) < least_transmission;

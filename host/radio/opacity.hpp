@@ -13,7 +13,8 @@ namespace wavetracer {
 // A wave that has passed and is weaker than this counts as none: 200 dB, too weak for every receiver.
 constexpr double least_transmission = 1e-10;
 
-// Throws ConfigError for a material that is not known at this frequency.
+// A wall of layers is opaque if one of them is. Two layers that are not may resonate, and let waves of some angle pass
+// that they hold back at others. Throws ConfigError for a material that is not known at this frequency.
 bool is_opaque(const Material& material, double frequency_hz);
 
 // Returns a flag for every surface of the world, by its number; see SurfaceTable.

@@ -14,10 +14,11 @@ namespace wavetracer {
 // One bound for each of WT_COSINES equal ranges of the cosine of incidence, from grazing to normal.
 using CosineBounds = std::array<float, WT_COSINES>;
 
-// Bounds of |R|^2 of a slab, of the polarisation that it reflects better, at most 1. They are the largest of samples
-// that are so dense that the phase of the wave inside changes by less than 0.05 rad from one to the next, and 1% more.
-// Where this takes more than 4096 samples, and for good conductors, the bounds are 1.
-CosineBounds reflectance_bounds(const device::wt_material& material, double wavelength_m);
+// Bounds of |R|^2 of material `index`, of the polarisation that it reflects better, at most 1. They are the largest of
+// samples that are so dense that the phase of the wave inside changes by less than 0.05 rad from one to the next, and
+// 1% more. Where this takes more than 4096 samples, and for good conductors, the bounds are 1. table: its layers are in
+// it, where it has any; the bounds then hold on both sides of the wall.
+CosineBounds reflectance_bounds(std::span<const device::wt_material> table, size_t index, double wavelength_m);
 
 struct ReflectanceBounds {
   std::vector<float> bounds;           // WT_COSINES for each material

@@ -20,8 +20,9 @@ ScatteredWave scatter(const Material& material, std::complex<double> permittivit
                                    .scattering = material.scattering,
                                    .cross_polar = material.scattering_cross_polar,
                                    .lobe = static_cast<uint32_t>(material.scattering_lobe),
-                                   .padding = 0};
-  const device::wt_wave_map wave = device::wt_scatter(&record, wavelength_m, k_in, k_out, normal, area_m2, seed, tile);
+                                   .layers = 0};
+  const device::wt_wave_map wave =
+      device::wt_scatter(&record, device::wt_no_layers(), wavelength_m, k_in, k_out, normal, area_m2, seed, tile);
   return {{wave.from.first, wave.from.second}, {wave.to.first, wave.to.second}, matrix_of(wave.matrix)};
 }
 

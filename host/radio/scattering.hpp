@@ -41,6 +41,7 @@ double scattering_pattern(uint32_t alpha, double cos_in, double cos_out, double 
 // 0.99, 2.38, 0.67 (TM, whose |R|^2 at 60 degrees is 0.01) times that power by Lambert's law at 0, 45, 60 and 80
 // degrees. Phases are uniform, one for each of TE-TE, TM-TM and TE-TM, and depend on (seed, tile) alone. It is
 // reciprocal: the dyad of -k_out to -k_in is the transpose of that of k_in to k_out.
+// The material has no layers.
 ScatteredWave scatter(const Material& material, std::complex<double> permittivity, double wavelength_m,
                       const glm::dvec3& k_in, const glm::dvec3& k_out, const glm::dvec3& normal, double area_m2,
                       uint64_t seed, uint32_t tile);

@@ -3,6 +3,7 @@
 // TE: the electric field is normal to the plane of incidence; TM: it lies in that plane.
 #pragma once
 #include <complex>
+#include <span>
 
 namespace wavetracer {
 
@@ -19,5 +20,14 @@ struct SlabCoefficients {
 // input: a metal, a resonant slab, exact grazing incidence.
 SlabCoefficients slab_coefficients(std::complex<double> permittivity, double cos_theta, double thickness_m,
                                    double wavelength_m);
+
+struct WallLayer {
+  std::complex<double> permittivity;
+  double thickness_m;
+};
+
+// The same of a wall of one layer or more, met on the side of the first one; transmission is that from the first to the
+// last, which is the same the other way.
+SlabCoefficients wall_coefficients(std::span<const WallLayer> layers, double cos_theta, double wavelength_m);
 
 }  // namespace wavetracer

@@ -13,7 +13,8 @@ Diffraction diffract(const WedgeFrame& wedge, const std::array<WedgeFace, 2>& fa
   for (size_t face = 0; face < 2; ++face)
     records[face] = {{faces[face].permittivity.real(), faces[face].permittivity.imag()},
                      faces[face].thickness_m,
-                     0.0};  // waves are plane
+                     0.0,  // waves are plane
+                     device::wt_no_layers()};
   const device::wt_wedge_frame frame{wedge.along, wedge.face, wedge.normal, wedge.exterior_rad};
   const device::wt_turn turn = device::wt_turn_at(&frame, k_in, k_out);
   device::wt_known_waves known = device::wt_nothing_known();

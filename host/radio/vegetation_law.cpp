@@ -29,12 +29,25 @@ uint32_t kind_of(VolumeTable& table, uint32_t material) {
   return static_cast<uint32_t>(table.material.size() - 1);
 }
 
+constexpr double ratio_at_1_ghz = 1 / 1.2, first_ghz = 9.6, last_ghz = 57.6;
+
+// The laws of COST 235 are 26.6 f^-0.2 d^0.5 dB without leaves and 15.6 f^-0.009 d^0.26 dB in leaf, f in MHz; this is
+// their ratio at d = 1 m.
+double cost_235_ratio(double ghz) { return 26.6 / 15.6 * std::pow(1000 * ghz, 0.009 - 0.2); }
+
 }  // namespace
 
+double leafless_share(double frequency_hz) {
+  const double ghz = frequency_hz / 1e9;
+  if (ghz <= 1) return ratio_at_1_ghz;
+  if (ghz >= first_ghz) return cost_235_ratio(std::min(ghz, last_ghz));
+  return ratio_at_1_ghz * std::pow(cost_235_ratio(first_ghz) / ratio_at_1_ghz, std::log(ghz) / std::log(first_ghz));
+}
+
 VegetationLoss vegetation_loss(const VegetationLaw& law, double frequency_hz) {
-  const double ghz = frequency_hz / 1e9, leafless = 1 / 1.2;
+  const double ghz = frequency_hz / 1e9;
   const double most_db = law.deciduous ? 0.18 * std::pow(1000 * ghz, 0.752) : 1.37 * std::pow(1000 * ghz, 0.42);
-  return {law.attenuation_db_m.value_or(0.2 * ghz * (law.in_leaf ? 1 : leafless)),
+  return {law.attenuation_db_m.value_or(0.2 * ghz * (law.in_leaf ? 1 : leafless_share(frequency_hz))),
           law.max_attenuation_db.value_or(most_db)};
 }
 

@@ -20,6 +20,7 @@
 #include "scene/topology.hpp"
 #include "scene/volume_overlaps.hpp"
 #include "scene/volumes.hpp"
+#include "scene/wall_sides.hpp"
 #include "scene/weld.hpp"
 #include "wavetracer/error.hpp"
 
@@ -238,6 +239,7 @@ Scene build_scene(const RawScene& raw, ResolvedMaterials resolved, EdgeSearch ed
   const auto triangle_edges = find_edges(scene);
   const Flattened flat = flatten_scene(scene, triangle_edges, tolerance_m, left_rounding_m);
   find_surfaces(scene, triangle_material, triangle_edges, flat);
+  find_outer_sides(scene, triangle_edges);
   cut_covered_faces(scene, triangle_edges);
   find_flat_edges(scene);
   find_wedges(scene, edges);

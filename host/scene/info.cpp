@@ -41,6 +41,10 @@ std::string electrical(const Material& m) {
   return fmt::format("permittivity {} f^{}, conductivity {} f^{} S/m (f in GHz)", m.a, m.b, m.c, m.d);
 }
 
+std::string thickness(const Material& m) {
+  return std::isinf(m.thickness_m) ? "half space" : fmt::format("{} m thick", m.thickness_m);
+}
+
 std::string range(const Material& m) {
   return std::isinf(m.max_ghz) ? std::string("any frequency") : fmt::format("{} to {} GHz", m.min_ghz, m.max_ghz);
 }
@@ -108,9 +112,12 @@ std::string describe_scene(const Scene& scene) {
       out += fmt::format("  {:<20} vegetation; {} volumes\n", m.name, volumes);
       continue;
     }
-    const std::string thickness = std::isinf(m.thickness_m) ? "half space" : fmt::format("{} m thick", m.thickness_m);
-    out += fmt::format("  {:<20} {}, {}, {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, thickness, electrical(m),
-                       range(m), use[i].triangles, use[i].surfaces, use[i].area_m2);
+    const std::string law = m.layers.empty() ? fmt::format("{}, {}, {}", thickness(m), electrical(m), range(m))
+                                             : fmt::format("{} layers", m.layers.size());
+    out += fmt::format("  {:<20} {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, law, use[i].triangles,
+                       use[i].surfaces, use[i].area_m2);
+    for (const Material& layer : m.layers)
+      out += fmt::format("    {:<18} {}, {}, {}\n", layer.name, thickness(layer), electrical(layer), range(layer));
   }
   out += fmt::format("dropped    {} degenerate and {} duplicate triangles; {} vertices welded into others\n",
                      report.degenerate_triangles, report.duplicate_triangles, report.welded_vertices);

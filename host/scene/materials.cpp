@@ -10,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "scene/material_checks.hpp"
 #include "scene/material_laws.hpp"
 #include "wavetracer/error.hpp"
 
@@ -17,24 +18,6 @@ namespace wavetracer {
 namespace {
 
 constexpr std::string_view unused = ": no mesh has this material";
-
-std::string_view without_prefix(std::string_view text, std::string_view prefix) {
-  if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
-  return text;
-}
-
-// Returns the name as written, without "mat-", and without "mat-" and "itu_".
-std::array<std::string, 3> spellings(std::string_view name) {
-  const std::string_view bare = without_prefix(name, "mat-");
-  return {std::string(name), std::string(bare), std::string(without_prefix(bare, "itu_"))};
-}
-
-// Returns the kind of woodland of a name that needs no [[material]].
-Woodland woodland_named(std::string_view name) {
-  if (name == "vegetation") return "mixed";
-  if (name == "deciduous_vegetation") return "deciduous";
-  return "none";
-}
 
 class Resolver {
  public:
@@ -46,8 +29,9 @@ class Resolver {
       if (!names.insert(m.name).second) {
         throw ConfigError(fmt::format("[[material]] '{}' is defined twice: keep one", m.name));
       }
-      check(m);
+      check_material(m);
     }
+    for (const MaterialConfig& m : overrides) check_layers_of(m);
   }
 
   // definition: the file's own definition, or null if the file only gives a name.
@@ -62,7 +46,9 @@ class Resolver {
                       "{}; define others with [[material]]",
                       spelling, alias->second, itu_names(scene_.itu_edition)));
     }
-    if (definition && (definition->itu_type || definition->permittivity)) return defined(*definition);
+    const MaterialConfig* const over = override_of(name);
+    const bool is_defined = definition && (definition->itu_type || definition->permittivity);
+    if (is_defined && !(over && !over->layers.empty())) return defined(*definition);
     if (const auto material = known(name)) return *material;
     throw InputError(fmt::format(
         "{}: the material '{}' is not known{}; known ITU materials: {}; of vehicles: {}. Map it in the configuration:\n"
@@ -89,29 +75,6 @@ class Resolver {
   }
 
  private:
-  static void check(const MaterialConfig& m) {
-    const auto fail = [&m](const char* what) { throw ConfigError(fmt::format("[[material]] '{}': {}", m.name, what)); };
-    const bool law = m.a || m.b || m.c || m.d, fixed = m.permittivity || m.conductivity_s_m;
-    if (law && fixed) fail("give either a, b, c, d or permittivity and conductivity_s_m, not both");
-    for (const auto& value : {m.a, m.b, m.c, m.d, m.permittivity, m.conductivity_s_m}) {
-      if (value && !std::isfinite(*value)) fail("its coefficients must be finite");
-    }
-    if ((m.permittivity && *m.permittivity < 1) || (m.a && *m.a <= 0))
-      fail("permittivity must be 1 or more, a positive");
-    if ((m.conductivity_s_m && *m.conductivity_s_m < 0) || (m.c && *m.c < 0)) fail("conductivity_s_m or c is negative");
-    if (m.scattering_lobe && *m.scattering_lobe != std::floor(*m.scattering_lobe))
-      fail("scattering_lobe must be an integer");
-    if (m.thickness_m && !(*m.thickness_m > 0)) fail("thickness_m must be positive (inf: a half space)");
-    const bool surface = law || fixed || m.thickness_m || m.scattering_lobe || !m.library.empty();
-    if (is_vegetation(m.vegetation) && surface)
-      fail(
-          "vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
-          "remove those keys");
-    const bool leaves = m.attenuation_db_m || m.max_attenuation_db || !m.in_leaf;
-    if (leaves && (surface || (!is_vegetation(m.vegetation) && !is_vegetation(woodland_named(spellings(m.name)[2])))))
-      fail("attenuation_db_m, max_attenuation_db and in_leaf need vegetation = \"mixed\" or \"deciduous\"");
-  }
-
   // Returns "", or a note that the newest edition knows the name.
   std::string newer_edition(const std::string& name) const {
     constexpr ItuEdition newest = "P.2040-4";
@@ -122,10 +85,6 @@ class Resolver {
   std::string not_in_library(const std::string& name, const std::string& who) const {
     return fmt::format("{}: library = '{}' is not a material{}; known: {}", who, name,
                        newer_edition(spellings(name)[2]), itu_names(scene_.itu_edition));
-  }
-
-  static bool gives_law(const MaterialConfig& m) {
-    return m.a || m.b || m.c || m.d || m.permittivity || m.conductivity_s_m;
   }
 
   // Writes the configuration's fields over base. Coefficients that the user gave are not bound to the table's range.
@@ -176,9 +135,7 @@ class Resolver {
 
   // Returns leaves and twigs if the name stands for them.
   std::optional<Material> leaves(std::string_view name, const MaterialConfig* over) {
-    Woodland woodland = over ? over->vegetation : "none";
-    if (!is_vegetation(woodland) && over && (gives_law(*over) || !over->library.empty())) return std::nullopt;
-    if (!is_vegetation(woodland)) woodland = woodland_named(spellings(name)[2]);
+    const Woodland woodland = woodland_of(name, over);
     if (!is_vegetation(woodland)) return std::nullopt;
     if (over) used_.insert("material " + over->name);
     Material out{.name = spellings(over ? over->name : name)[2]};
@@ -192,9 +149,47 @@ class Resolver {
     return out;
   }
 
+  // Throws if a layer has a name that nothing has, or that is no plain material.
+  void check_layers_of(const MaterialConfig& wall) const {
+    const auto fail = [&](const LayerConfig& layer, const std::string& what) {
+      throw ConfigError(fmt::format("[[material]] '{}': its layer '{}' {}", wall.name, layer.material, what));
+    };
+    for (const LayerConfig& layer : wall.layers) {
+      const MaterialConfig* const over = override_of(layer.material);
+      if (over && !over->layers.empty()) fail(layer, "has layers itself: list those layers here");
+      if (is_vegetation(woodland_of(layer.material, over))) fail(layer, "is vegetation, which is no layer of a wall");
+      const std::string name = spellings(layer.material)[2];
+      if (over || find_itu_law(scene_.itu_edition, name, frequency_ghz_) || find_vehicle_law(name, frequency_ghz_))
+        continue;
+      fail(layer, fmt::format("is not a known material{}; known: {}, {}; define others with [[material]]",
+                              newer_edition(name), itu_names(scene_.itu_edition), vehicle_material_names()));
+    }
+  }
+
+  // Makes a wall of its layers; that of one layer is a slab. check_layers_of() has checked their names.
+  Material wall_of(const MaterialConfig& over) {
+    used_.insert("material " + over.name);
+    std::vector<Material> layers;
+    double thickness_m = 0;
+    for (const LayerConfig& layer : over.layers) {
+      layers.push_back(known(layer.material).value());
+      layers.back().thickness_m = layer.thickness_m;
+      thickness_m += layer.thickness_m;
+    }
+    Material out = layers.front();
+    out.name = spellings(over.name)[2];
+    out.thickness_m = thickness_m;
+    out.scattering = over.scattering.value_or(0);
+    out.scattering_lobe = over.scattering_lobe.value_or(0);
+    out.scattering_cross_polar = over.scattering_cross_polar.value_or(0);
+    if (layers.size() > 1) out.layers = std::move(layers);
+    return out;
+  }
+
   // Returns what the configuration and the table know about a name.
   std::optional<Material> known(std::string_view name) {
     const MaterialConfig* over = override_of(name);
+    if (over && !over->layers.empty()) return wall_of(*over);
     if (const auto vegetation = leaves(name, over)) return vegetation;
     const bool made_of = over && !over->library.empty();
     std::optional<Material> material = itu(spellings(made_of ? over->library : name)[2], over && gives_law(*over));
@@ -227,7 +222,8 @@ class Resolver {
       }
       material = *base;
       const MaterialConfig* over = override_of(*definition.itu_type);
-      if (definition.thickness_m && !(over && over->thickness_m)) material.thickness_m = *definition.thickness_m;
+      if (definition.thickness_m && !(over && over->thickness_m) && material.layers.empty())
+        material.thickness_m = *definition.thickness_m;
     } else {
       material.a = *definition.permittivity;
       material.c = definition.conductivity_s_m.value_or(0);

@@ -34,6 +34,9 @@ struct Material {
   double scattering_lobe = 0;                    // exponent of the directive lobe; 0: Lambertian
   double scattering_cross_polar = 0;             // share of the scattered power in the other polarisation, 0 to 1
   std::optional<VegetationLaw> vegetation = {};  // if set, its meshes are volumes, and only its name counts besides
+  // The layers of a wall from its outer side inwards, two or more, which have no layers themselves. The law is then
+  // that of the first one, and thickness_m the sum of theirs; both are for exports alone.
+  std::vector<Material> layers = {};
   bool operator==(const Material&) const = default;
 };
 
@@ -47,6 +50,7 @@ struct Surface {
   uint32_t object = 0;            // index into Scene::objects: the object of its largest triangle
   uint32_t first_triangle = 0;    // into Scene::surface_triangles
   uint32_t triangle_count = 0;
+  bool outer_is_below = false;  // for a wall of layers: its normal points away from the outer side (wall_sides.hpp)
 };
 
 // An edge of the welded mesh. Faces are triangle indices in Scene::edge_faces.

@@ -149,3 +149,39 @@ TEST_CASE("chances: over ground a sample is a run with the antenna and the permi
     CHECK(map.chances[k].path_gain == share_from(gains[k], -75));
   }
 }
+
+TEST_CASE("chances: a sample of a ground of layers is a run with the permittivity of each layer in that sample") {
+  if (!device_present()) return;
+  const Folder folder;
+  for (const bool turned : {false, true}) {  // the layers then begin above the ground, or below it
+    const glm::dvec3 first(200, 0, 0), second(0, 100, 0);
+    const SceneFile scene(
+        std::vector<Part>{{{Quad{{-50, -50, 0}, turned ? second : first, turned ? first : second}}, "ground"}});
+    const auto text = [&](double sand, double stone) {  // factors of an error
+      const auto table = [](const char* name, double permittivity, double factor) {
+        return fmt::format("[[material]]\nname = \"{}\"\npermittivity = {}\nconductivity_s_m = {}\n", name,
+                           1 + (permittivity - 1) * factor, 0.01 * factor);
+      };
+      return head(scene, "max_depth = 1\nrays = 20000\n") + table("sand", 3, sand) + table("stone", 5, stone) +
+             "[[material]]\nname = \"ground\"\nlayers = [{ material = \"sand\", thickness_m = 0.02 }, "
+             "{ material = \"stone\", thickness_m = 0.05 }]\n" +
+             antenna("mast", {0, 0, 10}) + grid("g", 10, 40, 5);
+    };
+    const coverage::Map map =
+        studied(folder.file("layers.toml", text(1, 1)), {"path_gain_db=-75"}, 3, {0, 0, 0.1, 0}).maps.at(0);
+    std::vector<std::vector<double>> gains(map.columns);
+    // Three columns of the mast, then the ground, its two layers, and the ground for surfaces that are turned.
+    for (const std::vector<double>& row : accuracy::normal_hypercube(3, 3 + 4, 7)) {
+      const std::string at = text(std::exp(0.1 * row[4]), std::exp(0.1 * row[5]));
+      Simulation simulation(load_config(folder.file("at.toml", at)));
+      simulation.sum_links(true);
+      const FrameResult result = simulation.run_frame(0);
+      REQUIRE(result.summed->links.size() == map.columns);
+      for (size_t k = 0; k < map.columns; ++k) gains[k].push_back(result.summed->links[k].path_gain_db);
+    }
+    for (size_t k = 0; k < map.columns; ++k) {
+      CHECK(map.chances[k].path_gain_mean_db == doctest::Approx(mean_of(gains[k])).epsilon(1e-9));
+      CHECK(map.chances[k].path_gain_deviation_db == doctest::Approx(deviation_of(gains[k])).epsilon(1e-6));
+    }
+  }
+}

@@ -12,6 +12,7 @@
 #include "base/file.hpp"
 #include "base/xml_text.hpp"
 #include "convert/convert.hpp"
+#include "convert/glb_file.hpp"
 #include "folders.hpp"
 #include "results/saved_world.hpp"
 #include "scene/load.hpp"
@@ -116,6 +117,18 @@ TEST_CASE("DeepMIMO's scene has no vegetation, and the export says so") {
   export_deepmimo(run(), one, warnings);
   CHECK(std::ranges::count(warnings, "deepmimo: 3 volumes of vegetation are no objects of the scene that is written") ==
         1);
+}
+
+TEST_CASE("materials of walls have their layers in a GLB file, in their order") {
+  Material wall{"facade", 3.91, 0, 0.0238, 0.16, 1, 40, 0.32};
+  CHECK(glb_material(wall).at("extras").at("thickness_m") == 0.32);
+  wall.layers = {{"brick", 3.91, 0, 0.0238, 0.16, 1, 40, 0.12}, {"concrete", 5.24, 0, 0.0462, 0.7822, 1, 100, 0.2}};
+  const nlohmann::json extras = glb_material(wall).at("extras");
+  REQUIRE(extras.at("layers").size() == 2);
+  CHECK(extras.at("layers")[0].at("name") == "brick");
+  CHECK(extras.at("layers")[1].at("a") == 5.24);
+  CHECK(extras.at("layers")[1].at("thickness_m") == 0.2);
+  CHECK_FALSE(extras.contains("a"));
 }
 
 TEST_CASE("a volume's triangles are closed, look outwards, and hold nearly all of it") {

@@ -155,7 +155,7 @@ inline const std::vector<Record> other_records{
     {"wt_material",
      sizeof(wt_material),
      {FIELD(wt_material, permittivity), FIELD(wt_material, thickness_m), FIELD(wt_material, scattering),
-      FIELD(wt_material, cross_polar), FIELD(wt_material, lobe), FIELD(wt_material, padding)}},
+      FIELD(wt_material, cross_polar), FIELD(wt_material, lobe), FIELD(wt_material, layers)}},
     {"wt_antenna",
      sizeof(wt_antenna),
      {FIELD(wt_antenna, pattern), FIELD(wt_antenna, ports), FIELD(wt_antenna, first_sample), FIELD(wt_antenna, rows),

@@ -117,6 +117,24 @@ Paths in_order(const FieldWorld& world) {
   return fields_of(world, numbers, alone, alone);
 }
 
+// The same rows by the host's evaluation of the same functions.
+Paths on_host(const FieldWorld& world) {
+  PathGeometry geometry;
+  for (uint32_t i = 0; i < world.rows.size(); ++i) {
+    const PathRow& row = world.rows[i];
+    geometry.tx.push_back(i);
+    geometry.rx.push_back(i);
+    geometry.quarters.push_back(WT_ALL_QUARTERS);
+    for (size_t k = 0; k < row.steps.size(); ++k) {
+      geometry.surface.push_back(row.steps[k] & ~WT_STEP_KIND);
+      geometry.interaction.push_back(static_cast<uint8_t>(WT_STEP_CODES >> 8 * (row.steps[k] >> WT_STEP_SHIFT)));
+      geometry.vertex.push_back(row.points[k]);
+    }
+    geometry.first.push_back(geometry.surface.size());
+  }
+  return FieldModel(world.scene, world.config).compute(5, geometry, world.state);
+}
+
 doctest::Approx within(double value, double relative) { return doctest::Approx(value).epsilon(relative).scale(0); }
 
 // Fresnel's coefficients of the ground for a wave that meets it at this angle from its normal: TE, TM.
@@ -178,24 +196,40 @@ TEST_CASE("fields: every column is the host's to the last bit, for each kind of 
   for (const std::string antenna : {"isotropic", "dipole", "tr38901"}) {
     CAPTURE(antenna);
     const FieldWorld world(path_of_each_kind(), antenna);
-    const Paths paths = in_order(world);
-    PathGeometry geometry;
-    for (uint32_t i = 0; i < world.rows.size(); ++i) {
-      const PathRow& row = world.rows[i];
-      geometry.tx.push_back(i);
-      geometry.rx.push_back(i);
-      geometry.quarters.push_back(WT_ALL_QUARTERS);
-      for (size_t k = 0; k < row.steps.size(); ++k) {
-        geometry.surface.push_back(row.steps[k] & ~WT_STEP_KIND);
-        geometry.interaction.push_back(static_cast<uint8_t>(WT_STEP_CODES >> 8 * (row.steps[k] >> WT_STEP_SHIFT)));
-        geometry.vertex.push_back(row.points[k]);
-      }
-      geometry.first.push_back(geometry.surface.size());
-    }
-    const Paths host = FieldModel(world.scene, world.config).compute(5, geometry, world.state);
-    REQUIRE(paths.size() == host.size());
-    CHECK(same_columns(paths, host));
+    CHECK(same_columns(in_order(world), on_host(world)));
   }
+}
+
+TEST_CASE("fields: walls of layers have the host's bits, and reflect by the side that a wave meets") {
+  const Material metal{.name = "metal", .a = 1, .c = 1e7, .thickness_m = 0.001},
+      wood{.name = "wood", .a = 1.99, .c = 0.03, .thickness_m = 0.03},
+      brick{.name = "brick", .a = 3.91, .c = 0.03, .thickness_m = 0.12};
+  std::vector<PathRow> rows = path_of_each_kind();
+  for (const double x : {-30.0, 50.0})  // off the screen, from both sides, and through it the other way
+    rows.push_back(field_row({x, -4, 1}, {x, 4, 2}, {WT_STEP_REFLECTION | screen}, {{10, 0, 1.5}}));
+  rows.push_back(field_row({20, 0, 2}, {0, 0, 2}, {WT_STEP_TRANSMISSION | screen}, {{10, 0, 2}}));
+  rows.push_back(field_row({0, 0, 1}, {20, 0, 2}, {WT_STEP_DIFFRACTION | 2}, {{10, 0, 3}}));
+  FieldWorld world(rows, "isotropic");
+  const auto layer = [&](uint32_t surface, std::vector<Material> layers) {
+    world.scene.materials[surface].layers = std::move(layers);
+  };
+  layer(screen, {wood, brick, wood, metal});
+  const Paths opaque = in_order(world);
+  CHECK(same_columns(opaque, on_host(world)));
+  CHECK(std::abs(opaque.gain_db[7] - opaque.gain_db[8]) > 0.5);  // wood, or bare metal
+  layer(screen, {brick, wood});
+  layer(ground, {wood, brick, metal});
+  layer(conducting_wall, {wood, metal});
+  world.scene.surfaces[screen].outer_is_below = true;
+  const Paths paths = in_order(world);
+  CHECK(same_columns(paths, on_host(world)));
+  CHECK(std::abs(paths.gain_db[7] - paths.gain_db[8]) > 0.5);
+  CHECK(paths.gain_db[4] == within(paths.gain_db[9], 1e-13));
+  world.scene.surfaces[screen].outer_is_below = false;
+  const Paths turned = in_order(world);
+  CHECK(turned.gain_db[7] == within(paths.gain_db[8], 1e-13));
+  CHECK(turned.gain_db[8] == within(paths.gain_db[7], 1e-13));
+  CHECK(std::abs(turned.gain_db[10] - paths.gain_db[10]) > 1e-4);  // over the edge of the screen
 }
 
 TEST_CASE("fields: many rows are read in parts, and each has the columns of its path") {

@@ -28,7 +28,7 @@ wt_corner corner_of(double exterior, const device::wt_wedge_face& face) {
 }
 
 device::wt_wedge_face face_of(double real, double imag, double thickness_m) {
-  device::wt_wedge_face face;
+  device::wt_wedge_face face{};
   face.permittivity = {real, imag};
   face.thickness_m = thickness_m;
   face.zone = 1e-3;

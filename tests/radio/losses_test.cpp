@@ -164,7 +164,22 @@ TEST_CASE("vegetation: A_m of the mixed wood of ITU-R P.833-10, Table 1, and its
   VegetationLaw bare;
   bare.in_leaf = false;
   CHECK(vegetation_loss(bare, 1e9).db_m == test::near(0.2 / 1.2, 1e-12));
+  CHECK(vegetation_loss(bare, 30e9).db_m == test::near(6 * leafless_share(30e9), 1e-12));
+  bare.attenuation_db_m = 1.5;
+  CHECK(vegetation_loss(bare, 30e9).db_m == 1.5);
   CHECK(vegetation_loss({.deciduous = true}, 1.8e9).most_db == test::near(0.18 * std::pow(1800, 0.752), 1e-12));
+}
+
+TEST_CASE("vegetation without leaves keeps less of its loss the higher the frequency is") {
+  // 26.6 f^-0.2 d^0.5 over 15.6 f^-0.009 d^0.26, at 1 m and f in MHz, to four digits.
+  for (const auto& [ghz, share] : {std::pair{9.6, 0.2959}, {12.5, 0.2814}, {30.0, 0.2380}, {57.6, 0.2101}})
+    CHECK(leafless_share(ghz * 1e9) == test::near(share, 3e-4));
+  CHECK(leafless_share(0.1e9) == test::near(1 / 1.2, 1e-15));
+  CHECK(leafless_share(1e9) == test::near(1 / 1.2, 1e-15));
+  CHECK(leafless_share(100e9) == leafless_share(57.6e9));
+  for (const double ghz : {1.0, 9.6, 57.6})  // no steps
+    CHECK(leafless_share(ghz * (1 + 1e-9) * 1e9) == test::near(leafless_share(ghz * (1 - 1e-9) * 1e9), 1e-8));
+  for (double ghz = 1; ghz < 57; ghz *= 1.1) CHECK(leafless_share(1.1 * ghz * 1e9) < leafless_share(ghz * 1e9));
 }
 
 TEST_CASE("what a path loses in vegetation: two kinds, all legs, there as back") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "radio/reflectance_bounds.hpp"
 #include "wavetracer/device/slab.h"
@@ -41,7 +42,7 @@ TEST_CASE("bounds of reflectances hold for half spaces and slabs, thin and thick
       CAPTURE(material.permittivity[0]);
       CAPTURE(material.thickness_m);
       CAPTURE(wavelength_m);
-      const CosineBounds bounds = reflectance_bounds(material, wavelength_m);
+      const CosineBounds bounds = reflectance_bounds(std::vector{material}, 0, wavelength_m);
       CosineBounds largest{};
       size_t broken = 0;
       for (int i = 0; i < 200000; ++i) {
@@ -58,6 +59,6 @@ TEST_CASE("bounds of reflectances hold for half spaces and slabs, thin and thick
 }
 
 TEST_CASE("conductors, and slabs of very many wavelengths, are bounded by 1") {
-  for (const float bound : reflectance_bounds(slab(1, -5e7, 0.1), 0.0857)) CHECK(bound == 1);
-  for (const float bound : reflectance_bounds(slab(5, -0.001, 1000), 0.0107)) CHECK(bound == 1);
+  for (const float bound : reflectance_bounds(std::vector{slab(1, -5e7, 0.1)}, 0, 0.0857)) CHECK(bound == 1);
+  for (const float bound : reflectance_bounds(std::vector{slab(5, -0.001, 1000)}, 0, 0.0107)) CHECK(bound == 1);
 }

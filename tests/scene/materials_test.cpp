@@ -226,8 +226,8 @@ TEST_CASE("vegetation is refused what only a surface has, and a surface what onl
     CHECK_THROWS_WITH_AS(resolve(named(material.name), {material}), message, ConfigError);
   };
   constexpr const char* no_surface =
-      "[[material]] 'hedge': vegetation is no surface, and has no permittivity, thickness, scattering_lobe or library: "
-      "remove those keys";
+      "[[material]] 'hedge': vegetation is no surface, and has no permittivity, thickness, scattering_lobe, "
+      "library or layers: remove those keys";
   for (const Field field : {&MaterialConfig::scattering_lobe, &MaterialConfig::thickness_m,
                             &MaterialConfig::permittivity, &MaterialConfig::conductivity_s_m, &MaterialConfig::a,
                             &MaterialConfig::b, &MaterialConfig::c, &MaterialConfig::d})

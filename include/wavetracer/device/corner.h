@@ -3,6 +3,7 @@
 // Local axes are x along face 0, y along its normal, and z along the edge.
 #ifndef WAVETRACER_DEVICE_CORNER_H
 #define WAVETRACER_DEVICE_CORNER_H
+#include "wavetracer/device/layers.h"
 #include "wavetracer/device/transfer.h"
 
 #ifndef __OPENCL_VERSION__
@@ -13,15 +14,28 @@ namespace wavetracer::device {
 
 // The material of a face. An infinite permittivity.x means a perfect conductor.
 typedef struct {
-  wt_double2 permittivity;
+  wt_double2 permittivity;  // with layers: that of the one that a wave meets first
   double thickness_m;
   double zone;  // wt_zone_cosine of the path
+#if WT_LAYERS
+  wt_layers layers;
+#endif
 } wt_wedge_face;
+
+inline wt_layers wt_face_layers(const wt_wedge_face* face) {
+#if WT_LAYERS
+  return face->layers;
+#else
+  return wt_no_layers();
+#endif
+}
 
 // Do two faces reflect alike?
 inline int wt_same_faces(const wt_wedge_face* a, const wt_wedge_face* b) {
+  const wt_layers one = wt_face_layers(a), other = wt_face_layers(b);
   return a->permittivity.x == b->permittivity.x && a->permittivity.y == b->permittivity.y &&
-         a->thickness_m == b->thickness_m && a->zone == b->zone;
+         a->thickness_m == b->thickness_m && a->zone == b->zone && one.first == other.first &&
+         one.count == other.count && one.from_last == other.from_last;
 }
 
 typedef struct {
@@ -71,8 +85,9 @@ inline wt_slab wt_face_slab(const wt_wedge_face* face, double cos_theta, double 
     out.transmission_te = out.transmission_tm = wt_real(0.0);
     return out;
   }
-  return wt_slab_coefficients(face->permittivity, wt_cosine_of_zone(face->permittivity, cos_theta, face->zone),
-                              face->thickness_m, wavelength_m);
+  return wt_wall_coefficients(wt_face_layers(face), face->permittivity,
+                              wt_cosine_of_zone(face->permittivity, cos_theta, face->zone), face->thickness_m,
+                              wavelength_m);
 }
 
 // turn: cosine and sine of the azimuth of the source; cosine: that of the angle between the wave and the edge; sine:

@@ -9,13 +9,20 @@
 namespace wavetracer::device {
 #endif
 
+// wt_material.layers has the number of layers in its low bits, then a bit that says that the first layer is on the side
+// that the normal of the surface does not point to, and from WT_LAYER_SHIFT on the place of the first layer.
+#define WT_MOST_LAYERS 8u
+#define WT_LAYER_COUNT 15u
+#define WT_LAYERS_REVERSED 16u
+#define WT_LAYER_SHIFT 5u
+
 // A radio material at the carrier's frequency.
 typedef struct {
-  double permittivity[2];  // relative, real and imaginary part
-  double thickness_m;
+  double permittivity[2];          // relative, real and imaginary part; with layers: that of the first one
+  double thickness_m;              // with layers: the sum of theirs
   double scattering, cross_polar;  // S and K
   wt_uint lobe;                    // alpha, 0: Lambert's law
-  wt_uint padding;
+  wt_uint layers;                  // 0: a slab; else its layers are records of the same table, side by side (layers.h)
 } wt_material;
 
 // Losses of a wave in the air at the carrier (host/radio/air.hpp).

@@ -127,7 +127,7 @@ inline wt_double3 wt_into_face(const wt_wedge_frame* frame, int face) {
   return frame->face * turn.x + frame->normal * turn.y;
 }
 
-// The surface of a face of the edge's wedge.
+// The surface of a face of the edge's wedge, as waves meet it from the free space around the edge.
 inline wt_wedge_face wt_face_of(const wt_field_world* world, const wt_edge* edge, int face) {
   const wt_uint surface = world->wedges[edge->number].surfaces[face];
   const WT_GLOBAL wt_material* material = world->materials + world->materials_of[surface];
@@ -135,6 +135,12 @@ inline wt_wedge_face wt_face_of(const wt_field_world* world, const wt_edge* edge
   out.permittivity = WT_DOUBLE2(material->permittivity[0], material->permittivity[1]);
   out.thickness_m = material->thickness_m;
   out.zone = wt_zone_cosine(edge->path_m, world->wavelength_m);
+#if WT_LAYERS
+  const wt_double3 normal = wt_face_normal(&edge->frame, face);
+  out.layers = wt_layers_of(world->materials, material->layers,
+                            wt_dot3(normal, wt_vector(world->surfaces[surface].normal)) < 0.0);
+  out.permittivity = wt_met_permittivity(out.layers, out.permittivity);
+#endif
   return out;
 }
 

@@ -3,6 +3,7 @@
 // in path_edges.h. wt_pass_surfaces (path_field.h) walks over the vertices.
 #ifndef WAVETRACER_DEVICE_PATH_VERTEX_H
 #define WAVETRACER_DEVICE_PATH_VERTEX_H
+#include "wavetracer/device/layers.h"
 #include "wavetracer/device/path_world.h"
 #include "wavetracer/device/scattering.h"
 #include "wavetracer/device/slab.h"
@@ -23,11 +24,18 @@ inline void wt_meet_surface(const wt_field_world* world, wt_uint step, wt_double
   const wt_uint surface = step & ~WT_STEP_KIND;
   const wt_double3 normal = wt_vector(world->surfaces[surface].normal);
   const wt_material material = world->materials[world->materials_of[surface]];
-  const wt_double2 permittivity = WT_DOUBLE2(material.permittivity[0], material.permittivity[1]);
+  const int passes = (step & WT_STEP_KIND) == WT_STEP_TRANSMISSION;
+  wt_double2 permittivity = WT_DOUBLE2(material.permittivity[0], material.permittivity[1]);
+  wt_layers layers = wt_no_layers();
+#if WT_LAYERS
+  // Both sides transmit alike, so one of them gives the same bits for both.
+  layers = wt_layers_of(world->materials, material.layers, !passes && wt_dot3(k_in, normal) > 0.0);
+  permittivity = wt_met_permittivity(layers, permittivity);
+#endif
   const double zone = wt_zone_cosine(path_m, world->wavelength_m);
   const double cosine = wt_cosine_of_zone(permittivity, fmin(fabs(wt_dot3(k_in, normal)), 1.0), zone);
-  const wt_slab slab = wt_slab_coefficients(permittivity, cosine, material.thickness_m, world->wavelength_m);
-  if ((step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) {
+  const wt_slab slab = wt_wall_coefficients(layers, permittivity, cosine, material.thickness_m, world->wavelength_m);
+  if (passes) {
     wt_meet(transfer, k_in, k_out, normal, slab.transmission_te, slab.transmission_tm);
   } else {
     const double share = world->scatters ? wt_specular_share(&material) : 1.0;
@@ -55,8 +63,13 @@ inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 
                           wt_transfer* transfer) {
   const wt_uint surface = world->surface_of_tile[tile];
   const wt_material material = world->materials[world->materials_of[surface]];
+  wt_layers layers = wt_no_layers();
+#if WT_LAYERS
+  layers =
+      wt_layers_of(world->materials, material.layers, wt_dot3(k_in, wt_vector(world->surfaces[surface].normal)) > 0.0);
+#endif
   const wt_wave_map wave =
-      wt_scatter(&material, world->wavelength_m, k_in, k_out, wt_vector(world->surfaces[surface].normal),
+      wt_scatter(&material, layers, world->wavelength_m, k_in, k_out, wt_vector(world->surfaces[surface].normal),
                  world->area_of_tile[tile], world->seed, tile);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }

@@ -4,6 +4,7 @@
 #ifndef WAVETRACER_DEVICE_SCATTERING_H
 #define WAVETRACER_DEVICE_SCATTERING_H
 #include "wavetracer/device/field_records.h"
+#include "wavetracer/device/layers.h"
 #include "wavetracer/device/utd.h"
 
 #ifndef __OPENCL_VERSION__
@@ -57,18 +58,20 @@ inline double wt_scattering_pattern(wt_uint alpha, double cos_in, double cos_out
 }
 
 // Square roots of |R|: x for TE, y for TM.
-inline wt_double2 wt_roots_of_reflection(const wt_material* material, double cos_theta, double wavelength_m) {
-  const wt_slab slab = wt_slab_coefficients(WT_DOUBLE2(material->permittivity[0], material->permittivity[1]), cos_theta,
-                                            material->thickness_m, wavelength_m);
+inline wt_double2 wt_roots_of_reflection(const wt_material* material, wt_layers layers, double cos_theta,
+                                         double wavelength_m) {
+  const wt_slab slab = wt_wall_coefficients(layers, WT_DOUBLE2(material->permittivity[0], material->permittivity[1]),
+                                            cos_theta, material->thickness_m, wavelength_m);
   return WT_DOUBLE2(sqrt(wt_size(slab.reflection_te)), sqrt(wt_size(slab.reflection_tm)));
 }
 
-// The matrix is in metres, see ScatteredWave in host/radio/scattering.hpp.
-inline wt_wave_map wt_scatter(const wt_material* material, double wavelength_m, wt_double3 k_in, wt_double3 k_out,
-                              wt_double3 normal, double area_m2, wt_ulong seed, wt_uint tile) {
+// The matrix is in metres, see ScatteredWave in host/radio/scattering.hpp. layers: those of the material, as both waves
+// meet them, which are on one side.
+inline wt_wave_map wt_scatter(const wt_material* material, wt_layers layers, double wavelength_m, wt_double3 k_in,
+                              wt_double3 k_out, wt_double3 normal, double area_m2, wt_ulong seed, wt_uint tile) {
   const double cos_in = fmin(fabs(wt_dot3(k_in, normal)), 1.0), cos_out = fmin(fabs(wt_dot3(k_out, normal)), 1.0);
-  const wt_double2 in = wt_roots_of_reflection(material, cos_in, wavelength_m);
-  const wt_double2 out = wt_roots_of_reflection(material, cos_out, wavelength_m);
+  const wt_double2 in = wt_roots_of_reflection(material, layers, cos_in, wavelength_m);
+  const wt_double2 out = wt_roots_of_reflection(material, layers, cos_out, wavelength_m);
   const double cos_psi = wt_dot3(wt_mirrored(k_in, normal), k_out);
   const double amplitude_m =
       material->scattering * sqrt(area_m2 * wt_scattering_pattern(material->lobe, cos_in, cos_out, cos_psi));
