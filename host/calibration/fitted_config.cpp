@@ -3,6 +3,7 @@
 #include "calibration/fitted_config.hpp"
 #include <fmt/format.h>
 #include <algorithm>
+#include <string_view>
 #include "base/file.hpp"
 #include "base/input_file.hpp"
 #include "wavetracer/config_file.hpp"
@@ -10,18 +11,38 @@
 namespace wavetracer::calibration {
 namespace {
 
-void set_property(MaterialConfig& material, Property property, double value) {
+// The name without the prefixes that may be left out.
+std::string_view bare(std::string_view name) {
+  for (const std::string_view prefix : {"mat-", "itu_"})
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  return name;
+}
+
+MaterialConfig& entry_of(Config& config, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(config.materials, [&](const MaterialConfig& each) { return bare(each.name) == bare(name); });
+  if (found != config.materials.end()) return *found;
+  config.materials.push_back({.name = name});
+  return config.materials.back();
+}
+
+// A wall of one layer is a slab, whose law is that of its layer.
+void set_property(Config& config, const std::string& name, Property property, double value) {
+  MaterialConfig& material = entry_of(config, name);
+  const bool layered = !material.layers.empty();
   switch (property) {
     case Property::permittivity:
+      if (layered) return set_property(config, material.layers[0].material, property, value);
       material.permittivity = value;
       material.a = material.b = {};
       break;
     case Property::conductivity:
+      if (layered) return set_property(config, material.layers[0].material, property, value);
       material.conductivity_s_m = value;
       material.c = material.d = {};
       break;
     case Property::thickness:
-      material.thickness_m = value;
+      (layered ? material.layers[0].thickness_m : material.thickness_m.emplace()) = value;
       break;
     default:
       material.scattering = value;
@@ -43,14 +64,8 @@ Config config_of_places(const std::string& file, const std::vector<std::string>&
 Config fitted_config(const std::string& file, const std::vector<std::string>& sets,
                      std::span<const Parameter> parameters, std::span<const double> theta) {
   Config config = config_of_places(file, sets);
-  for (size_t i = 0; i < parameters.size(); ++i) {
-    auto found = std::ranges::find(config.materials, parameters[i].material, &MaterialConfig::name);
-    if (found == config.materials.end()) {
-      config.materials.push_back({.name = parameters[i].material});
-      found = config.materials.end() - 1;
-    }
-    set_property(*found, parameters[i].property, parameters[i].value(theta[i]));
-  }
+  for (size_t i = 0; i < parameters.size(); ++i)
+    set_property(config, parameters[i].material, parameters[i].property, parameters[i].value(theta[i]));
   return config;
 }
 

@@ -10,6 +10,7 @@
 #include "base/spelling.hpp"
 #include "calibration/fitted_config.hpp"
 #include "radio/links.hpp"
+#include "radio/material_table.hpp"
 #include "radio/path_power.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
@@ -130,18 +131,14 @@ Paths chosen_paths(const Paths& paths, const std::vector<uint32_t>& rows) {
 }
 
 NamedRecords named_records(const RunPlan& plan) {
-  NamedRecords out;
-  const auto add = [&](const Scene& scene) {
-    for (const Material& material : scene.materials) out.names.push_back(material.name);
-  };
-  add(plan.scene);
-  for (const Scene& model : plan.world.fleet.models) add(model);
-  out.records =
-      make_field_tables(plan.scene, plan.asked, plan.world.fleet.models, plan.world.fleet.instances).materials;
-  if (out.names.size() != out.records.size())
-    throw std::logic_error("materials of the world and their names are of different numbers");
-  out.frequency_hz = plan.asked.radio.frequency_hz;
-  out.scatters = plan.asked.trace.scattering;
+  const double frequency_hz = plan.asked.radio.frequency_hz;
+  MaterialTable table =
+      make_material_table(plan.scene, plan.world.fleet.models, plan.world.fleet.instances, frequency_hz);
+  NamedRecords out{std::move(table.names), std::move(table.materials), {}, frequency_hz, plan.asked.trace.scattering};
+  out.in_walls.resize(out.records.size());
+  for (const device::wt_material& record : out.records)
+    for (uint32_t i = 0; i < (record.layers & WT_LAYER_COUNT); ++i)
+      out.in_walls[(record.layers >> WT_LAYER_SHIFT) + i] = true;
   return out;
 }
 

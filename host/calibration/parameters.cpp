@@ -114,15 +114,19 @@ std::vector<Parameter> chosen_parameters(const NamedRecords& world, const std::v
                                          double prior, std::vector<std::string>& notes) {
   std::map<std::string, std::vector<uint32_t>> records;
   for (size_t i = 0; i < world.names.size(); ++i)
-    if (!is_unused(world.records[i])) records[world.names[i]].push_back(static_cast<uint32_t>(i));
+    if (!is_unused(world.records[i]) && !world.names[i].empty())
+      records[world.names[i]].push_back(static_cast<uint32_t>(i));
   std::vector<Parameter> out;
-  const auto add = [&](const std::string& name, const std::vector<uint32_t>& of, Property property, bool asked) {
-    const device::wt_material& record = world.records[of.front()];
-    if (const std::string why = obstacle(record, property, world); !why.empty()) {
+  const auto add = [&](const std::string& name, std::vector<uint32_t> of, Property property, bool asked) {
+    if (property == Property::thickness || property == Property::scattering)
+      std::erase_if(of, [&](uint32_t record) { return world.in_walls[record]; });
+    const std::string why =
+        of.empty() ? "it belongs to the layers of walls" : obstacle(world.records[of.front()], property, world);
+    if (!why.empty()) {
       if (asked) notes.push_back(fmt::format("{}.{} is not fitted: {}", name, name_of(property), why));
       return;
     }
-    Parameter made{name, property, value_in(record, property, world.frequency_hz),
+    Parameter made{name, property, value_in(world.records[of.front()], property, world.frequency_hz),
                    prior * priors[static_cast<size_t>(property)], of};
     for (const Parameter& other : out)
       if (other.name() == made.name()) return;

@@ -31,8 +31,9 @@ struct Parameter {
 
 // A material of the world: names, in the order of the records that fields use.
 struct NamedRecords {
-  std::vector<std::string> names;
+  std::vector<std::string> names;            // empty for walls of layers: their layers are fitted
   std::vector<device::wt_material> records;  // those that no surface uses are all zeros
+  std::vector<bool> in_walls;                // layers of walls, whose thickness is not that of their material
   double frequency_hz = 0;
   bool scatters = false;  // trace.scattering is on
 };

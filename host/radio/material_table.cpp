@@ -23,11 +23,13 @@ device::wt_material record_of(const Material& material, double frequency_hz) {
 
 // Adds the materials of a part to the table: a record for each, then for walls of layers their layers and a second
 // record, for surfaces whose outer side is below. Returns the record of each material for such a surface.
-std::vector<uint32_t> add_materials(std::vector<device::wt_material>& table, const Scene& scene, double frequency_hz) {
+std::vector<uint32_t> add_materials(MaterialTable& all, const Scene& scene, double frequency_hz) {
+  std::vector<device::wt_material>& table = all.materials;
   std::vector<bool> is_used(scene.materials.size());
   for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
   const auto first = static_cast<uint32_t>(table.size());
   table.resize(first + scene.materials.size());
+  for (const Material& material : scene.materials) all.names.push_back(material.layers.empty() ? material.name : "");
   std::vector<uint32_t> below;
   for (uint32_t i = 0; i < scene.materials.size(); ++i) {
     below.push_back(first + i);
@@ -36,8 +38,12 @@ std::vector<uint32_t> add_materials(std::vector<device::wt_material>& table, con
     device::wt_material record = record_of(material, frequency_hz);
     if (!material.layers.empty()) {
       record.layers = static_cast<uint32_t>(table.size() << WT_LAYER_SHIFT | material.layers.size());
-      for (const Material& layer : material.layers) table.push_back(record_of(layer, frequency_hz));
+      for (const Material& layer : material.layers) {
+        table.push_back(record_of(layer, frequency_hz));
+        all.names.push_back(layer.name);
+      }
       below.back() = static_cast<uint32_t>(table.size());
+      all.names.push_back("");
       table.push_back(record);
       table.back().layers |= WT_LAYERS_REVERSED;
     }
@@ -55,7 +61,7 @@ MaterialTable make_material_table(const Scene& scene, std::span<const Scene> mod
   std::vector<std::vector<uint32_t>> below;  // for each part, see add_materials
   const auto add_part = [&](const Scene& part) {
     first.push_back(static_cast<uint32_t>(out.materials.size()));
-    below.push_back(add_materials(out.materials, part, frequency_hz));
+    below.push_back(add_materials(out, part, frequency_hz));
   };
   const auto add_surfaces = [&](const Scene& part, uint32_t number) {
     for (const Surface& surface : part.surfaces)

@@ -27,11 +27,13 @@ device::wt_material material(double permittivity, double conductivity, double th
   return out;
 }
 
-// The second record is of a material that no surface uses; the last one is that of a vehicle.
+// The second record is of a material that no surface uses; the last ones are those of a vehicle and of
+// a layer of a wall.
 NamedRecords world() {
-  return {{"concrete", "unused", "metal", "air", "glass.clear", "concrete"},
+  return {{"concrete", "unused", "metal", "air", "glass.clear", "concrete", "concrete"},
           {material(5, 0.1, 0.2), device::wt_material{}, material(1, 1e7, 0.1), material(1, 0, 0.1),
-           material(6, 0, std::numeric_limits<double>::infinity()), material(5, 0.1, 0.2)},
+           material(6, 0, std::numeric_limits<double>::infinity()), material(5, 0.1, 0.2), material(5, 0.1, 0.03)},
+          {false, false, false, false, false, false, true},
           carrier_hz,
           true};
 }
@@ -80,7 +82,8 @@ TEST_CASE("a parameter changes all records of its material, and theta 0 changes 
   const std::vector<Parameter> parameters =
       chosen_parameters(all, {"concrete", "concrete.thickness", "concrete.scattering"}, 1, notes);
   REQUIRE(parameters.size() == 4);
-  CHECK(parameters[0].records == std::vector<uint32_t>{0, 5});
+  CHECK(parameters[0].records == std::vector<uint32_t>{0, 5, 6});
+  CHECK(parameters[2].records == std::vector<uint32_t>{0, 5});  // a layer of a wall has a thickness of its own
   const std::vector<double> theta{0.3, -0.2, 0.1, 0.5};
   const auto records = with_parameters(all, parameters, theta);
   for (const size_t i : {0, 5}) {
