@@ -14,8 +14,9 @@ import sys
 PLAIN = {"types.h", "records.h", "lanes.h"}
 # These have counterparts that are written by hand.
 BY_HAND = {"vector.h": "gradient/tangent_vector.hpp", "elementary.h": "gradient/tangent_elementary.hpp"}
-# So have these functions, which have no derivative by their operations where a number is 0 or too large.
-FUNCTIONS_BY_HAND = {"complex.h": ["wt_over", "wt_size", "wt_root"]}
+# So have these functions: some have no derivative by their operations where a number is 0 or too large, and the
+# transition function takes most of the time.
+FUNCTIONS_BY_HAND = {"complex.h": ["wt_over", "wt_size", "wt_root"], "transition.h": ["wt_transition_over_root"]}
 # Numbers in tables with these names, and in lists, are never differentiated.
 PLAIN_TABLES = r"(?:samples|s|area_of_tile|delays|triangles|triangle|own)"
 
@@ -94,7 +95,7 @@ void copy_member(To& to, const From& from) {
 
 
 def write(path, text):
-    if not path.exists() or path.read_text() != text:  # what includes it is compiled again only if it changes
+    if not path.exists() or path.read_text() != text:  # so sources are compiled again only if a header changes
         path.write_text(text)
 
 

@@ -198,8 +198,10 @@ MovedVertices moved_vertices(const device::wt_field_world& world, const device::
     const tangent::wt_double3 from = moved_point(anchors[i], edges, rates);
     const tangent::wt_double3 to = moved_point(anchors[i + 1], edges, rates);
     if (i == 0) out.from = from;
-    if (i + 2 == anchors.size()) out.to = to;
-    else out.vertices[anchors[i + 1].vertex] = to;
+    if (i + 2 == anchors.size())
+      out.to = to;
+    else
+      out.vertices[anchors[i + 1].vertex] = to;
     const double error =
         place_between(world, path, begin_after(anchors, i), anchors[i + 1].vertex, from, to, out.vertices);
     out.solved = out.solved && error <= most_vertex_error_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the vertices of a path move with its ends. Reflections and transmissions are where the image method puts them;
+// The vertices of a path as functions of its ends. Reflections and transmissions are where the image method puts them;
 // edges are where the way is the shortest one (the implicit function theorem); scattering points stay.
 #pragma once
 #include <vector>

@@ -46,9 +46,10 @@ void check_values(const PathColumns& columns, const Paths& paths, size_t row) {
                           paths.aoa_theta_rad[row], paths.aoa_phi_rad[row]};
   for (size_t i = 0; i < 5; ++i) compare(columns.real[i], real[i]);
   if (!same)
-    throw std::logic_error(fmt::format("path {}: the code of its derivatives gives another field than that of fields; "
-                                       "cmake/tangent_headers.py must know the headers of the device",
-                                       row));
+    throw std::logic_error(
+        fmt::format("path {}: the code of its derivatives gives another field than that of fields; "
+                    "cmake/tangent_headers.py must know the headers of the device",
+                    row));
 }
 
 // The entries of one path.
@@ -63,10 +64,9 @@ struct PathEntries {
     std::array<double, 5> slopes;
     for (size_t i = 0; i < 4; ++i) slopes_a[i] = {columns.a[i].first.d[lane], columns.a[i].second.d[lane]};
     for (size_t i = 0; i < 5; ++i) slopes[i] = columns.real[i].d[lane];
-    const bool finite = std::ranges::all_of(slopes, [](double d) { return std::isfinite(d); }) &&
-                        std::ranges::all_of(slopes_a, [](const auto& d) {
-                          return std::isfinite(d.real()) && std::isfinite(d.imag());
-                        });
+    const bool finite =
+        std::ranges::all_of(slopes, [](double d) { return std::isfinite(d); }) &&
+        std::ranges::all_of(slopes_a, [](const auto& d) { return std::isfinite(d.real()) && std::isfinite(d.imag()); });
     const GradientGap why = known_gap != GradientGap::none ? known_gap
                             : finite                       ? GradientGap::none
                                                            : GradientGap::singular;
@@ -130,7 +130,9 @@ PathGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometr
       const tangent::wt_path_field field = path.fields(directions, frequency_hz_, delay);
       const PathColumns columns = columns_of_field(field, delay, tables_.ports);
       check_values(columns, out.paths, row);
-      for (size_t lane = 0; lane < directions.size(); ++lane) entries[row].add(directions[lane], columns, lane, gap);
+      for (size_t lane = 0; lane < directions.size(); ++lane)
+        entries[row].add(directions[lane], columns, lane,
+                         path.is_singular(directions[lane]) ? GradientGap::singular : gap);
     };
     const GradientGap pole = path.is_at_pole() ? GradientGap::pole : GradientGap::none;
     if (choice.materials) {
@@ -139,8 +141,7 @@ PathGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometr
         add(std::span(directions).subspan(i, std::min<size_t>(tangent::lanes, directions.size() - i)),
             GradientGap::none);
     }
-    if (choice.positions)
-      add(end_directions(PathParameter::tx_x), path.is_solved() ? pole : GradientGap::not_solved);
+    if (choice.positions) add(end_directions(PathParameter::tx_x), path.is_solved() ? pole : GradientGap::not_solved);
     if (choice.orientations) add(end_directions(PathParameter::tx_turn_x), pole);
   });
   for (const PathEntries& of_path : entries) append(out, of_path);

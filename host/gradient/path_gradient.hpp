@@ -67,7 +67,8 @@ struct PathGradients {
   Paths paths;  // those of FieldModel, bit for bit
   std::vector<uint64_t> first{0};
   std::vector<PathParameter> parameter;
-  // The material: its number among those of the scene, then those of each model in turn. No material: no_material_number.
+  // The material: its number among those of the scene, then those of each model in turn. No material:
+  // no_material_number.
   std::vector<uint32_t> material;
   // Derivatives of the columns of this name by the parameter: column's unit per parameter's unit. Where there is a gap
   // they are NaN.

@@ -78,9 +78,8 @@ std::vector<PathDirection> PathTables::material_directions() const {
   std::vector<PathDirection> out;
   const auto add = [&](uint32_t material, std::initializer_list<PathParameter> parameters) {
     for (const PathParameter parameter : parameters)
-      if (std::ranges::none_of(out, [&](const PathDirection& d) {
-            return d.material == material && d.parameter == parameter;
-          }))
+      if (std::ranges::none_of(
+              out, [&](const PathDirection& d) { return d.material == material && d.parameter == parameter; }))
         out.push_back({parameter, material});
   };
   const auto add_surface = [&](uint32_t surface) {
@@ -92,7 +91,8 @@ std::vector<PathDirection> PathTables::material_directions() const {
     const uint32_t step = device::wt_step(&path_, k), number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
     if (device::wt_is_cell(&plain_, step)) {
       const uint32_t leaves = tables_.surface_of_tile[number] >> WT_CELL_KIND_SHIFT & (WT_MOST_KINDS - 1);
-      add(tables_.volumes.material[leaves], {PathParameter::scattering, PathParameter::attenuation});
+      add(tables_.volumes.material[leaves],
+          {PathParameter::scattering, PathParameter::attenuation, PathParameter::most_attenuation});
     } else if (kind == WT_STEP_DIFFRACTION) {
       for (const uint32_t surface : frame_.wedges[number].surfaces) add_surface(surface);
     } else {
@@ -140,6 +140,13 @@ void PathTables::seed_material(const PathDirection& direction, int lane, double 
   }
 }
 
+bool PathTables::is_singular(const PathDirection& direction) const {
+  if (direction.parameter != PathParameter::most_attenuation) return false;
+  for (size_t kind = 0; kind < tables_.foliages.size(); ++kind)
+    if (tables_.volumes.material[kind] == direction.material && tables_.foliages[kind].most_np == 0) return true;
+  return false;
+}
+
 void PathTables::set_positions(bool moves) {
   const auto set = [&](Tangent* to, const tangent::wt_double3& p) {
     const Tangent axes[3] = {p.x, p.y, p.z};
@@ -149,8 +156,7 @@ void PathTables::set_positions(bool moves) {
   set(to_, moved_.to);
   set(transmitter_.position_m, moved_.from);
   set(receiver_.position_m, moved_.to);
-  for (uint32_t k = 0; k < path_.depth; ++k)
-    set(&vertices_[3 * device::wt_entry(&path_, k)], moved_.vertices[k]);
+  for (uint32_t k = 0; k < path_.depth; ++k) set(&vertices_[3 * device::wt_entry(&path_, k)], moved_.vertices[k]);
   const size_t kinds = foliages_.size(), solved = frame_.rows[row_] / 2;
   inside_.assign(kinds, 0.0);
   for (size_t kind = 0; kind < kinds; ++kind) inside_[kind] = frame_.inside[solved * kinds + kind];
@@ -200,8 +206,8 @@ tangent::wt_path_field PathTables::fields(std::span<const PathDirection> directi
   if (!moves && !turns)
     for (size_t lane = 0; lane < directions.size(); ++lane)
       seed_material(directions[lane], static_cast<int>(lane), frequency_hz);
-  const tangent::wt_path_list list{solved_.data(), vertices_.data(), steps_.data(), from_, to_, nullptr, nullptr,
-                                   max_depth_};
+  const tangent::wt_path_list list{solved_.data(), vertices_.data(), steps_.data(), from_, to_,
+                                   nullptr,        nullptr,          max_depth_};
   const tangent::wt_ordered_rows ordered{&list, rows_.data(), delays_.data(), static_cast<uint32_t>(rows_.size())};
   const tangent::wt_field_world world{plain_.surfaces,
                                       plain_.materials_of,

@@ -42,6 +42,8 @@ class PathTables {
   tangent::wt_path_field fields(std::span<const PathDirection> directions, double frequency_hz,
                                 tangent::Tangent& delay);
 
+  // Is the path at the end of the range of a parameter, where its columns begin to change?
+  bool is_singular(const PathDirection& direction) const;
   // Do the vertices say how they move with the ends?
   bool is_solved() const { return moved_.solved; }
   // Does an antenna, or a leg at a cell of vegetation, point to a pole?

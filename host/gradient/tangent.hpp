@@ -22,10 +22,7 @@ struct Tangent {
   constexpr Tangent(T v) : Tangent(static_cast<double>(v)) {}
 
   template <std::integral T>
-    requires(!std::same_as<T, bool>)
-  explicit constexpr operator T() const {
-    return static_cast<T>(value);
-  }
+  requires(!std::same_as<T, bool>) explicit constexpr operator T() const { return static_cast<T>(value); }
 };
 
 // The function value of x, whose derivative by x is slope.

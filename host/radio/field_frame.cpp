@@ -128,14 +128,8 @@ std::vector<double> lengths_inside(const VolumeTable& table, const device::wt_pa
 }  // namespace
 
 device::wt_path_list FieldFrame::list() const {
-  return {solved.data(),
-          vertices.data(),
-          steps.data(),
-          transmitter_positions.data(),
-          receiver_positions.data(),
-          nullptr,
-          nullptr,
-          max_depth};
+  return {solved.data(), vertices.data(), steps.data(), transmitter_positions.data(), receiver_positions.data(),
+          nullptr,       nullptr,         max_depth};
 }
 
 device::wt_field_world FieldFrame::world(const FieldTables& tables) const {

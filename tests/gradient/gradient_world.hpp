@@ -9,13 +9,16 @@
 
 #include "gradient/path_gradient.hpp"
 #include "radio/antenna.hpp"
+#include "radio/cells.hpp"
 #include "radio/world.hpp"
-#include "radio/world_records.hpp"
 #include "scene/tiles.hpp"
 #include "scene/wedge_check.hpp"
-#include "wavetracer/device/edge_turn.h"
+#include "wavetracer/device/records.h"
 
 namespace wavetracer::test {
+
+// The kinds of interactions of a sequence, in letters.
+inline constexpr uint8_t R = reflection, T = transmission, D = diffraction, S = scattering;
 
 struct GradientStep {
   uint8_t kind;
@@ -36,8 +39,11 @@ struct GradientWorld {
   Scene scene;
   Config config;
   std::vector<Tile> tiles;
-  std::vector<GradientSequence> sequences;  // of path i, from transmitter i to receiver i
+  std::vector<Cell> cells;                  // numbered after the tiles
+  std::vector<GradientSequence> sequences;  // one for each path; path i goes from transmitter i to receiver i
   WorldState state;
+  std::vector<std::string> antennas{"isotropic", "dipole", "tr38901", "short-dipole"};
+  bool one_link = false;  // all paths are of link 0
 
   static Scene boxes(std::mt19937_64& random) {
     const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -57,7 +63,7 @@ struct GradientWorld {
     }
     // A corner of less than a half space, a slight bend between two screens, and their free edges.
     RawMesh building = l_building();
-    for (dvec3& p : building.vertices) p += dvec3{-10, 25, 0};
+    for (dvec3& p : building.vertices) p += dvec3{0.4 * p.y - 10, 25, 0};  // a right angle would not diffract
     add(std::move(building), 0);
     const double rise = between(0.2, 1);
     add(mesh({{15, 20, 4}, {15, 32, 4}, {20, 20, 4 + rise}, {20, 32, 4 + rise}, {25, 20, 4}, {25, 32, 4}},
@@ -78,10 +84,9 @@ struct GradientWorld {
   }
 
   void add(const GradientSequence& sequence, const dvec3& tx, const dvec3& rx, std::mt19937_64& random) {
-    const char* const antennas[] = {"isotropic", "dipole", "tr38901", "short-dipole"};
     const auto turn = [&] { return std::uniform_real_distribution(-60.0, 60.0)(random); };
     const auto end = [&](const dvec3& place, SharedList<EndState>& states) {
-      const RadioEnd out = World::end(place, antennas[random() % 4], "VH", {turn(), turn(), turn()});
+      const RadioEnd out = World::end(place, antennas[random() % antennas.size()], "VH", {turn(), turn(), turn()});
       states.push_back({.position_m = place, .rotation = rotation_of(out.orientation_deg)});
       return out;
     };
@@ -90,15 +95,17 @@ struct GradientWorld {
     sequences.push_back(sequence);
   }
 
-  // The vertices of a sequence; nothing where a plane or an edge is not met as it should be.
-  std::optional<std::vector<dvec3>> solve(const GradientSequence& sequence, const dvec3& tx, const dvec3& rx) const {
+  // The vertices of a sequence. with_room: nothing where a plane or an edge is not met as it should be, or hardly so.
+  std::optional<std::vector<dvec3>> solve(const GradientSequence& sequence, const dvec3& tx, const dvec3& rx,
+                                          bool with_room = true) const {
     const size_t depth = sequence.size();
     std::vector<dvec3> points(depth + 2, tx);
     points.back() = rx;
     std::vector<size_t> fixed{0};
     for (size_t k = 0; k < depth; ++k) {
       const auto [kind, number] = sequence[k];
-      if (kind == scattering) points[k + 1] = tiles[number].centre_m;
+      if (kind == scattering)
+        points[k + 1] = number < tiles.size() ? tiles[number].centre_m : cells[number - tiles.size()].centre_m;
       if (kind == diffraction) points[k + 1] = scene.wedges[number].start;
       if (kind == scattering || kind == diffraction) fixed.push_back(k + 1);
     }
@@ -112,25 +119,26 @@ struct GradientWorld {
         const dvec3 b = image(sequence, points[fixed[i + 1]], fixed[i], fixed[i + 1], true) - wedge.start;
         const double p = glm::dot(a, wedge.along), q = glm::dot(b, wedge.along);
         const double from = glm::length(a - p * wedge.along), to = glm::length(b - q * wedge.along);
-        const dvec3 next = wedge.start + wedge.along * ((p * to + q * from) / (from + to));
+        const double place = on_edge(wedge, fixed.size() == 3, (p * to + q * from) / (from + to));
+        const dvec3 next = wedge.start + wedge.along * place;
         moved = std::max(moved, glm::length(next - points[fixed[i]]));
         points[fixed[i]] = next;
       }
       if (moved < 1e-14) break;
     }
     for (size_t i = 0; i + 1 < fixed.size(); ++i)
-      if (!place_between(sequence, points, fixed[i], fixed[i + 1])) return {};
-    if (!turns_well(sequence, points)) return {};
+      if (!place_between(sequence, points, fixed[i], fixed[i + 1]) && with_room) return {};
+    if (with_room && !turns_well(sequence, points)) return {};
     return std::vector<dvec3>(points.begin() + 1, points.end() - 1);
   }
 
   PathGeometry geometry(const WorldState& at) const {
     PathGeometry out;
     for (uint32_t i = 0; i < sequences.size(); ++i) {
-      const auto vertices = solve(sequences[i], at.transmitters[i].position_m, at.receivers[i].position_m);
-      REQUIRE(vertices.has_value());
-      out.tx.push_back(i);
-      out.rx.push_back(i);
+      const uint32_t link = one_link ? 0 : i;
+      const auto vertices = solve(sequences[i], at.transmitters[link].position_m, at.receivers[link].position_m, false);
+      out.tx.push_back(link);
+      out.rx.push_back(link);
       for (size_t k = 0; k < vertices->size(); ++k) {
         out.surface.push_back(sequences[i][k].number);
         out.interaction.push_back(sequences[i][k].kind);
@@ -142,6 +150,13 @@ struct GradientWorld {
   }
 
  private:
+  // The place on an edge next to the shortest way: on its line, but for free ends of a path's only edge.
+  static double on_edge(const Wedge& wedge, bool only, double place) {
+    if (only && (wedge.free_ends & WT_FREE_START)) place = std::max(place, WT_END_INSET_M);
+    if (only && (wedge.free_ends & WT_FREE_END)) place = std::min(place, wedge.length_m - WT_END_INSET_M);
+    return place;
+  }
+
   double height(const GradientStep& step, const dvec3& p) const {
     const Surface& s = scene.surfaces[step.number];
     return glm::dot(s.normal, p) - s.offset_m;
@@ -157,14 +172,15 @@ struct GradientWorld {
   }
 
   bool place_between(const GradientSequence& sequence, std::vector<dvec3>& points, size_t begin, size_t end) const {
+    bool has_room = true;
     for (size_t at = end - 1; at > begin; --at) {
       const GradientStep& step = sequence[at - 1];
       const dvec3 from = image(sequence, points[begin], begin, at + 1, false), to = points[at + 1];
       const double a = height(step, from), b = height(step, to);
-      if (a * b > -0.01) return false;
+      has_room = has_room && a * b < -0.01;
       points[at] = from + (to - from) * (a / (a - b));
     }
-    return true;
+    return has_room;
   }
 
   // Do legs have a length, and are both ends of an edge's legs in free space and off its boundaries?
@@ -173,43 +189,63 @@ struct GradientWorld {
       if (!(glm::length(points[k + 1] - points[k]) > 0.3)) return false;  // the shortest way may go over a corner
     for (size_t k = 0; k < sequence.size(); ++k) {
       const dvec3 in = points[k] - points[k + 1], out = points[k + 2] - points[k + 1];
-      if (sequence[k].kind == scattering) {
+      if (sequence[k].kind == scattering && sequence[k].number < tiles.size()) {
         const dvec3 n = scene.surfaces[tiles[sequence[k].number].surface].normal;
         if (glm::dot(in, n) * glm::dot(out, n) < 0.1) return false;
       }
       if (sequence[k].kind == reflection && height(sequence[k], points[k]) * height(sequence[k], points[k + 2]) < 0.01)
         return false;
-      if (sequence[k].kind != diffraction) continue;
-      const Wedge& wedge = scene.wedges[sequence[k].number];
-      double azimuth[2];
-      for (int side = 0; side < 2; ++side) {
-        const dvec3 away = side == 0 ? in : out;
-        azimuth[side] = std::atan2(glm::dot(away, wedge.normal), glm::dot(away, wedge.face));
-        if (azimuth[side] < 0) azimuth[side] += 2 * pi;
-        if (azimuth[side] < 0.05 || azimuth[side] > wedge.exterior_rad - 0.05) return false;
-        if (glm::length(glm::cross(away, wedge.along)) < 0.1 * glm::length(away)) return false;
-      }
-      for (const double turn : {azimuth[1] - azimuth[0], azimuth[1] + azimuth[0]})
-        for (const double boundary : {-pi, pi, 2 * wedge.exterior_rad - pi})
-          if (std::abs(turn - boundary) < 0.02) return false;
+      if (sequence[k].kind == diffraction && !bends_well(sequence, k, in, out)) return false;
     }
+    return true;
+  }
+
+  // Does the leg between edges k and k + 1 run along a plane that both bound?
+  bool runs_along(const GradientSequence& sequence, size_t k) const {
+    if (k + 1 >= sequence.size() || sequence[k].kind != diffraction || sequence[k + 1].kind != diffraction)
+      return false;
+    for (const uint32_t v : scene.wedges[sequence[k].number].plane)
+      for (const uint32_t w : scene.wedges[sequence[k + 1].number].plane)
+        if (v == w) return true;
+    return false;
+  }
+
+  bool bends_well(const GradientSequence& sequence, size_t k, const dvec3& in, const dvec3& out) const {
+    const Wedge& wedge = scene.wedges[sequence[k].number];
+    double azimuth[2];
+    for (int side = 0; side < 2; ++side) {
+      const dvec3 away = side == 0 ? in : out;
+      azimuth[side] = std::atan2(glm::dot(away, wedge.normal), glm::dot(away, wedge.face));
+      if (azimuth[side] < 0) azimuth[side] += 2 * pi;
+      const double inside = std::min(azimuth[side], wedge.exterior_rad - azimuth[side]);
+      const bool along = side == 0 ? k > 0 && runs_along(sequence, k - 1) : runs_along(sequence, k);
+      if (inside < 0.05 && !(along && (std::abs(inside) < 1e-9 || std::abs(azimuth[side] - 2 * pi) < 1e-9)))
+        return false;
+      if (glm::length(glm::cross(away, wedge.along)) < 0.1 * glm::length(away)) return false;
+    }
+    for (const double turn : {std::abs(azimuth[1] - azimuth[0]), azimuth[1] + azimuth[0]})
+      for (const double boundary : {pi, 2 * wedge.exterior_rad - pi})
+        if (std::abs(turn - boundary) < 0.02) return false;
     return true;
   }
 };
 
-// Adds `count` paths with these kinds of interactions, at random surfaces, edges or tiles and between random ends.
-inline void add_random(GradientWorld& world, const std::vector<uint8_t>& kinds, int count, std::mt19937_64& random) {
+// Adds `count` paths with these kinds of interactions, at random surfaces, edges or tiles (or those of a list, if it is
+// not empty) and between random ends.
+inline void add_random(GradientWorld& world, const std::vector<uint8_t>& kinds, int count, std::mt19937_64& random,
+                       const std::vector<uint32_t>& wedges = {}, const std::vector<uint32_t>& tiles = {}) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-  for (int tries = 0; count > 0 && tries < 200000; ++tries) {
+  const auto any = [&](size_t all, const std::vector<uint32_t>& list) {
+    return list.empty() ? static_cast<uint32_t>(random() % all) : list[random() % list.size()];
+  };
+  for (int tries = 0; count > 0 && tries < 400000; ++tries) {
     const dvec3 tx{between(-40, 40), between(-25, 25), between(1, 25)};
     const dvec3 rx{between(-40, 40), between(-25, 25), between(1, 25)};
     GradientSequence sequence;
-    for (const uint8_t kind : kinds) {
-      const size_t size = kind == diffraction  ? world.scene.wedges.size()
-                          : kind == scattering ? world.tiles.size()
-                                               : world.scene.surfaces.size();
-      sequence.push_back({kind, static_cast<uint32_t>(random() % size)});
-    }
+    for (const uint8_t kind : kinds)
+      sequence.push_back({kind, kind == diffraction  ? any(world.scene.wedges.size(), wedges)
+                                : kind == scattering ? any(world.tiles.size(), tiles)
+                                                     : any(world.scene.surfaces.size(), {})});
     bool repeats = false;
     for (size_t k = 1; k < sequence.size(); ++k)
       repeats = repeats || (sequence[k].kind == sequence[k - 1].kind && sequence[k].number == sequence[k - 1].number);
@@ -218,6 +254,16 @@ inline void add_random(GradientWorld& world, const std::vector<uint8_t>& kinds, 
     --count;
   }
   REQUIRE(count == 0);
+}
+
+// The edges for which a test of the wedge is true.
+template <class Test>
+std::vector<uint32_t> edges_where(const GradientWorld& world, Test test) {
+  std::vector<uint32_t> out;
+  for (uint32_t i = 0; i < world.scene.wedges.size(); ++i)
+    if (test(world.scene.wedges[i])) out.push_back(i);
+  REQUIRE(!out.empty());
+  return out;
 }
 
 }  // namespace wavetracer::test
