@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes copies of the headers of the device that compute with tangents instead of doubles (docs/design/gradients.md).
 
-tangent_headers.py DEVICE OUTPUT HEADER...: the named headers of the folder DEVICE and those that they include are
-written to OUTPUT, in the namespace wavetracer::tangent. A copy has the code of its header line by line; only the type
-of its numbers is another one. records.hpp there turns records of the device into those of the copies.
+tangent_headers.py DEVICE OUTPUT: the headers of the folder DEVICE are written to OUTPUT, in the namespace
+wavetracer::tangent. A copy has the code of its header line by line; only the type of its numbers is another one.
+records.hpp there turns records of the device into those of the copies.
 """
 import pathlib
 import re
 import sys
 
-# These headers have no numbers that are differentiated.
+# These headers have no numbers that are differentiated; host/gradient/CMakeLists.txt lists all that are not copied.
 PLAIN = {"types.h", "records.h", "lanes.h"}
 # These have counterparts that are written by hand.
 BY_HAND = {"vector.h": "gradient/tangent_vector.hpp", "elementary.h": "gradient/tangent_elementary.hpp"}
@@ -102,16 +102,10 @@ def write(path, text):
 def main():
     device, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     output.mkdir(parents=True, exist_ok=True)
-    waiting, seen = list(sys.argv[3:]), set()
-    while waiting:
-        name = waiting.pop()
-        if name in seen or name in PLAIN or name in BY_HAND:
-            continue
-        seen.add(name)
-        text = (device / name).read_text()
-        waiting += included(text)
-        note = f"// This file is made by cmake/tangent_headers.py from wavetracer/device/{name}.\n"
-        write(output / name, note + copied(name, text))
+    for header in sorted(device.glob("*.h")):
+        if header.name not in PLAIN and header.name not in BY_HAND:
+            note = f"// This file is made by cmake/tangent_headers.py from wavetracer/device/{header.name}.\n"
+            write(output / header.name, note + copied(header.name, header.read_text()))
     records = converters((device / "field_records.h").read_text())
     write(output / "records.hpp", RECORDS + records + "\n}  // namespace wavetracer::tangent\n")
 
