@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "gradient/path_gaps.hpp"
 #include "gradient/path_tables.hpp"
 #include "radio/field_frame.hpp"
 
@@ -82,7 +83,7 @@ struct PathEntries {
   }
 };
 
-std::vector<PathDirection> end_directions(PathParameter first) {
+std::vector<PathDirection> six_from(PathParameter first) {
   std::vector<PathDirection> out;
   for (int i = 0; i < tangent::lanes; ++i)
     out.push_back({static_cast<PathParameter>(static_cast<int>(first) + i), no_material_number});
@@ -134,15 +135,16 @@ PathGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometr
         entries[row].add(directions[lane], columns, lane,
                          path.is_singular(directions[lane]) ? GradientGap::singular : gap);
     };
-    const GradientGap pole = path.is_at_pole() ? GradientGap::pole : GradientGap::none;
     if (choice.materials) {
       const std::vector<PathDirection> directions = path.material_directions();
       for (size_t i = 0; i < directions.size(); i += tangent::lanes)
         add(std::span(directions).subspan(i, std::min<size_t>(tangent::lanes, directions.size() - i)),
             GradientGap::none);
     }
-    if (choice.positions) add(end_directions(PathParameter::tx_x), path.is_solved() ? pole : GradientGap::not_solved);
-    if (choice.orientations) add(end_directions(PathParameter::tx_turn_x), pole);
+    if (choice.positions)
+      add(six_from(PathParameter::tx_x),
+          path.is_solved() ? gap_of_positions(world, path.path()) : GradientGap::not_solved);
+    if (choice.orientations) add(six_from(PathParameter::tx_turn_x), gap_of_turns(world, path.path()));
   });
   for (const PathEntries& of_path : entries) append(out, of_path);
   return out;

@@ -51,7 +51,8 @@ enum class GradientGap : uint8_t {
   not_solved,
   // A leg or an antenna points exactly to a pole, where angles and the antenna's polarizations jump.
   pole,
-  // The derivative is infinite or does not exist, as that of sqrt(1 - S^2) at S = 1.
+  // The derivative is infinite or does not exist: that of sqrt(1 - S^2) at S = 1, or that by positions where a leg from
+  // an end to an edge runs exactly along a face of the edge.
   singular
 };
 

@@ -234,30 +234,4 @@ tangent::wt_path_field PathTables::fields(std::span<const PathDirection> directi
   return tangent::wt_field_of(&world, &ordered, place_);
 }
 
-bool PathTables::points_to_pole(const glm::dvec3& direction) const {
-  return direction.x * direction.x + direction.y * direction.y == 0;
-}
-
-bool PathTables::is_at_pole() const {
-  device::wt_walk_leg leg = device::wt_first_leg(&path_);
-  const auto own_axes = [&](const device::wt_field_end& end, const glm::dvec3& direction) {
-    glm::dvec3 out{0};
-    for (int column = 0; column < 3; ++column)
-      out[column] = end.rotation[column] * direction.x + end.rotation[3 + column] * direction.y +
-                    end.rotation[6 + column] * direction.z;
-    return out;
-  };
-  const auto at_end = [&](const device::wt_field_end& end, const glm::dvec3& direction) {
-    return points_to_pole(direction) || points_to_pole(own_axes(end, direction));
-  };
-  bool found = at_end(frame_.transmitters[path_.transmitter], leg.direction);
-  for (uint32_t k = 0; k < path_.depth; ++k) {
-    const device::wt_walk_leg next = device::wt_next_leg(&plain_, &path_, k, &leg);
-    if (device::wt_is_cell(&plain_, device::wt_step(&path_, k)))
-      found = found || points_to_pole(leg.direction) || points_to_pole(next.direction);
-    leg = next;
-  }
-  return found || at_end(frame_.receivers[path_.receiver], -leg.direction);
-}
-
 }  // namespace wavetracer

@@ -3,6 +3,7 @@
 // fields of the path from them.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gradient/moved_vertices.hpp"
@@ -46,8 +47,7 @@ class PathTables {
   bool is_singular(const PathDirection& direction) const;
   // Do the vertices say how they move with the ends?
   bool is_solved() const { return moved_.solved; }
-  // Does an antenna, or a leg at a cell of vegetation, point to a pole?
-  bool is_at_pole() const;
+  const device::wt_path& path() const { return path_; }
 
  private:
   void list_neighbours();
@@ -55,7 +55,6 @@ class PathTables {
   void move_ends();
   void turn_ends();
   void set_positions(bool moves);
-  bool points_to_pole(const glm::dvec3& direction) const;
 
   const FieldTables& tables_;
   const FieldFrame& frame_;

@@ -225,6 +225,17 @@ TEST_CASE("where no derivative exists, or none is known, there is a gap and no n
   const PathGradients moved = GradientModel(world.scene, world.config).compute(0, geometry, world.state);
   check_gap(moved, PathParameter::rx_z, GradientGap::not_solved);
   check_gap(moved, PathParameter::permittivity, GradientGap::none);
+  // It is not known on which side of a face an end in its plane will be.
+  GradientWorld roof(27);
+  const uint32_t edge = test::edges_where(roof, [](const Wedge& w) { return w.exterior_rad > 1.9 * test::pi; })[0];
+  const Wedge& wedge = roof.scene.wedges[edge];
+  const dvec3 middle = wedge.start + 0.5 * wedge.length_m * wedge.along;
+  std::mt19937_64 random(27);
+  roof.add({{D, edge}}, middle + 7.0 * wedge.face + 1.0 * wedge.along, middle + 5.0 * wedge.normal, random);
+  const PathGradients along = gradients_of(roof);
+  check_gap(along, PathParameter::tx_z, GradientGap::singular);
+  check_gap(along, PathParameter::tx_turn_z, GradientGap::none);
+  check_gap(along, PathParameter::permittivity, GradientGap::none);
   // Below its limit of 0 dB, vegetation takes nothing.
   GradientWorld leaves = over_ground({0, 0, 5}, {20, 3, 7}, 0.5);
   leaves.scene.materials.push_back({.name = "leaves"});
