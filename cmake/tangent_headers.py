@@ -15,8 +15,9 @@ PLAIN = {"types.h", "records.h", "lanes.h"}
 # These have counterparts that are written by hand.
 BY_HAND = {"vector.h": "gradient/tangent_vector.hpp", "elementary.h": "gradient/tangent_elementary.hpp"}
 # So have these functions: some have no derivative by their operations where a number is 0 or too large, and the
-# transition function takes most of the time.
-FUNCTIONS_BY_HAND = {"complex.h": ["wt_over", "wt_size", "wt_root"], "transition.h": ["wt_transition_over_root"]}
+# others take most of the time.
+FUNCTIONS_BY_HAND = {"complex.h": ["wt_times", "wt_over", "wt_size", "wt_root"],
+                     "transition.h": ["wt_transition_over_root"]}
 # Numbers in tables with these names, and in lists, are never differentiated.
 PLAIN_TABLES = r"(?:samples|s|area_of_tile|delays|triangles|triangle|own)"
 

@@ -45,6 +45,18 @@ inline wt_double2 chained_complex(device::wt_double2 value, const wt_double2& a,
   return {chained(value.x, a.x, slope.x, a.y, -slope.y), chained(value.y, a.x, slope.y, a.y, slope.x)};
 }
 
+inline wt_double2 wt_times(const wt_double2& a, const wt_double2& b) {
+  const device::wt_double2 value = device::wt_times(value_of(a), value_of(b));
+  wt_double2 out;
+  out.x.value = value.x;
+  out.y.value = value.y;
+  for (int i = 0; i < lanes; ++i) {
+    out.x.d[i] = a.x.value * b.x.d[i] + a.x.d[i] * b.x.value - (a.y.value * b.y.d[i] + a.y.d[i] * b.y.value);
+    out.y.d[i] = a.x.value * b.y.d[i] + a.x.d[i] * b.y.value + (a.y.value * b.x.d[i] + a.y.d[i] * b.x.value);
+  }
+  return out;
+}
+
 // a / b; its derivative is (a' - b' a / b) / b.
 inline wt_double2 wt_over(const wt_double2& a, const wt_double2& b) {
   const device::wt_double2 quotient = device::wt_over(value_of(a), value_of(b));

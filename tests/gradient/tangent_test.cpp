@@ -60,6 +60,8 @@ const std::vector<Function> functions{
     {"expm1", WT_BOTH(wt_expm1(x) + wt_exp_and_expm1(0.1 * x).x), -5, 5, 0, 1},
     {"log10", WT_BOTH(wt_log10(x)), 0.1, 9, 0, 1},
     {"atan2", WT_BOTH(wt_atan2(y, x)), -5, 5, -5, 5},
+    {"times, real", WT_BOTH(wt_times({x, y}, {y - 6.0, x}).x), -5, 5, -5, 5},
+    {"times, imaginary", WT_BOTH(wt_times({x, y}, {y - 6.0, x}).y), -5, 5, -5, 5},
     {"over, real", WT_BOTH(wt_over({x, y}, {y - 6.0, x}).x), -5, 5, -5, 5},
     {"over, imaginary", WT_BOTH(wt_over({x, y}, {y - 6.0, x}).y), -5, 5, -5, 5},
     {"size", WT_BOTH(wt_size({x, y})), -5, 5, -5, 5},
