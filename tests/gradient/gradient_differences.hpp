@@ -97,7 +97,8 @@ inline Paths moved_paths(const GradientWorld& world, PathParameter parameter, ui
   return FieldModel(world.scene, world.config).compute(0, world.geometry(state), state);
 }
 
-// Differences for three sizes of steps; a half space has no thickness, so there are none.
+// Differences for four sizes of steps, since a large one may go over a line of a pattern; a half space has no
+// thickness, so there are none.
 inline std::vector<std::vector<Columns>> all_differences(const GradientWorld& world, PathParameter parameter,
                                                          uint32_t material) {
   std::vector<std::vector<Columns>> out;
@@ -105,7 +106,7 @@ inline std::vector<std::vector<Columns>> all_differences(const GradientWorld& wo
   if (parameter == PathParameter::thickness) size = 1e-2;
   if (parameter == PathParameter::thickness && std::isinf(world.scene.materials[material].thickness_m)) return out;
   if (parameter == PathParameter::conductivity) size = 0.3 * world.scene.materials[material].c;
-  for (const double share : {1e-2, 1e-3, 1e-4})
+  for (const double share : {1e-2, 1e-3, 1e-4, 1e-5})
     out.push_back(
         differences([&](double step) { return moved_paths(world, parameter, material, step); }, size * share));
   return out;
@@ -130,7 +131,7 @@ inline std::vector<bool> jumping_rows(const GradientWorld& world) {
   return out;
 }
 
-// The worst error of each parameter over all rows of the world, each at the best of three steps. All rows have all
+// The worst error of each parameter over all rows of the world, each at the best of four steps. All rows have all
 // derivatives. jumps: the number of rows that are not compared.
 inline std::map<PathParameter, double> worst_errors(const GradientWorld& world, size_t& jumps) {
   const GradientModel model(world.scene, world.config);

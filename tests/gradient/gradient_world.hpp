@@ -2,9 +2,11 @@
 // Worlds of boxes with paths of random sequences between random ends, which can be solved anew when an end has moved.
 // Planes and edges are endless and nothing is hidden. Every path has a link of its own, so rows keep their order.
 #pragma once
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "gradient/path_gradient.hpp"
@@ -86,7 +88,9 @@ struct GradientWorld {
   void add(const GradientSequence& sequence, const dvec3& tx, const dvec3& rx, std::mt19937_64& random) {
     const auto turn = [&] { return std::uniform_real_distribution(-60.0, 60.0)(random); };
     const auto end = [&](const dvec3& place, SharedList<EndState>& states) {
-      const RadioEnd out = World::end(place, antennas[random() % antennas.size()], "VH", {turn(), turn(), turn()});
+      const std::string antenna = antennas[random() % antennas.size()];
+      const std::array<double, 3> turns{turn(), turn(), turn()};
+      const RadioEnd out = World::end(place, antenna, "VH", turns);
       states.push_back({.position_m = place, .rotation = rotation_of(out.orientation_deg)});
       return out;
     };
