@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Derivatives of paths that frames have found: their code has the fields' values for every path, also beside shadow
+// boundaries and in chains of edges; all vertices are those of solved paths; delays have the slopes of their closed
+// form.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+
+#include "base/stopwatch.hpp"
+#include "gradient/path_gradient.hpp"
+#include "radio/constants.hpp"
+#include "simulation/bends.hpp"
+#include "simulation/frame.hpp"
+#include "simulation/run.hpp"
+#include "simulation/visible_paths.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+glm::dvec3 unit(double theta, double phi) {
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+// The seconds that some work takes, and its result.
+template <class Work>
+auto timed(Work work) {
+  Stopwatch watch;
+  auto result = work();
+  return std::pair(watch.lap(), std::move(result));
+}
+
+// Checks the first frames of a configuration. Returns how many interactions of which kind they have.
+std::map<uint8_t, size_t> check_frames(const Config& config, uint32_t frames) {
+  Setup s = make_setup(config, "");
+  FrameLoop loop(s);
+  Config all = s.plan->asked;
+  all.trace = s.plan->trace;
+  const GradientModel model(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
+  const FieldModel fields(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
+  std::map<uint8_t, size_t> kinds;
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    const FrameResult found = loop.run(FrameTask::of_drive(
+        {.frame = frame, .pose = [&] { return s.plan->world.state(frame); }, .names = FrameNames::none()}));
+    const PathGeometry geometry = read_visible(s);
+    const auto [fields_s, paths] = timed([&] { return fields.compute(frame, geometry, found.world); });
+    const auto [ends_s, ends] =
+        timed([&] { return model.compute(frame, geometry, found.world, {.materials = false, .positions = true}); });
+    const auto [all_s, of] = timed([&] { return model.compute(frame, geometry, found.world, {.orientations = true}); });
+    MESSAGE(paths.size(), " paths: fields ", 1000 * fields_s, " ms, with their ", ends.size(),
+            " derivatives by positions ", 1000 * ends_s, " ms, with all ", of.size(), " derivatives ", 1000 * all_s,
+            " ms");
+    CHECK(of.paths.a == paths.a);
+    CHECK(of.paths.size() > 3);
+    size_t gaps = 0, wrong = 0, checked = 0;
+    for (size_t row = 0; row < of.paths.size(); ++row)
+      for (uint64_t entry = of.first[row]; entry < of.first[row + 1]; ++entry) {
+        gaps += of.gap[entry] != GradientGap::none;
+        const int axis = static_cast<int>(of.parameter[entry]) - static_cast<int>(PathParameter::tx_x);
+        if (axis < 0 || axis >= 6) continue;
+        const glm::dvec3 leg = axis < 3 ? unit(of.paths.aod_theta_rad[row], of.paths.aod_phi_rad[row])
+                                        : unit(of.paths.aoa_theta_rad[row], of.paths.aoa_phi_rad[row]);
+        ++checked;
+        wrong += !(std::abs(of.delay_s[entry] * speed_of_light_m_s + leg[axis % 3]) < 1e-9);
+      }
+    CHECK(gaps == 0);
+    CHECK(wrong == 0);
+    CHECK(checked == 6 * of.paths.size());
+    for (const uint8_t kind : of.paths.vertex_interaction) ++kinds[kind];
+  }
+  return kinds;
+}
+
+Config town(uint64_t rays, uint32_t max_depth) {
+  Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
+                            {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
+  config.scene.generate = "--blocks 4x4";
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of the paths of a town: reflections, walls that are passed, one edge and two") {
+  Config config = town(20000, 3);
+  config.trace.diffraction = true;
+  config.trace.transmission = true;
+  config.trace.max_diffractions = 2;
+  auto kinds = check_frames(config, 1);
+  CHECK(kinds[reflection] > 100);
+  CHECK(kinds[transmission] > 10);
+  CHECK(kinds[diffraction] > 100);
+}
+
+TEST_CASE("derivatives of the paths of a town: rough surfaces, leaves, and ends of edges") {
+  Config config = town(2000, 2);
+  config.trace.scattering = true;
+  config.trace.tile_m = 8;
+  config.trace.diffraction = true;
+  config.trace.edge_ends = true;
+  config.materials.emplace_back();
+  config.materials[0].name = "concrete";
+  config.materials[0].scattering = 0.3;
+  VegetationConfig& crown = config.vegetation.emplace_back();
+  crown.centre_m = {20, 1, 5};
+  crown.size_m = {9, 8, 9};
+  crown.material = "vegetation";
+  CHECK(check_frames(config, 1)[scattering] > 200);
+}
+
+TEST_CASE("derivatives of the paths of vehicles that drive, over two edges too") {
+  Config config = town(20000, 2);
+  config.receivers.clear();
+  config.trajectories.generate = "--seed 1 --vehicles 20 --seconds 1 --step 0.1";
+  for (const char* type : {"passenger", "delivery", "truck"})
+    config.mounts.push_back({.name = "roof", .on = type, .role = "receiver", .offset_m = {0, 0, 2}});
+  config.time.step_s = 0.1;
+  config.trace.diffraction = true;
+  config.trace.max_diffractions = 2;
+  CHECK(check_frames(config, 2)[diffraction] > 100);
+}
+
+TEST_CASE("derivatives of paths over a row of four screens") {
+  std::vector<Quad> quads{{{-40, -60, 0}, {140, 0, 0}, {0, 120, 0}}};
+  for (uint32_t i = 0; i < 4; ++i) {
+    const double x = 10.0 * (i + 1), from_middle = x - 25;
+    quads.push_back({{x, -50, 0}, {0, 100, 0}, {0, 0, 12 - 0.005 * from_middle * from_middle}});
+  }
+  const SceneFile file(quads);
+  Config config;
+  config.scene.file = file.path().string();
+  config.radio.frequency_hz = carrier_hz;
+  config.transmitters = {{"tx", {-9.3, 0.7, 2.1}}};
+  config.receivers = {{"rx", {59.1, -3.2, 1.7}}};
+  config.trace = diffracting(50000, 2);
+  config.trace.max_diffractions = 4;
+  CHECK(check_frames(config, 1)[diffraction] > 8);
+}
