@@ -2,14 +2,16 @@
 // Places that several points share are one receiver.
 #include "calibration/measured_world.hpp"
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <ranges>
 #include <utility>
 #include "base/spelling.hpp"
 #include "calibration/fitted_config.hpp"
-#include "radio/links.hpp"
+#include "radio/grouped_power.hpp"
 #include "radio/material_table.hpp"
 #include "radio/path_power.hpp"
 #include "wavetracer/config_file.hpp"
@@ -103,10 +105,6 @@ Config with_places(const std::string& file, const std::vector<std::string>& sets
   return config;
 }
 
-constexpr double share_left_out = 1e-4;
-
-double power_of_db(double gain_db) { return std::pow(10, gain_db / 10); }
-
 template <class Value>
 std::vector<Value> chosen_values(const std::vector<Value>& values, const std::vector<uint32_t>& rows) {
   std::vector<Value> out;
@@ -180,30 +178,46 @@ std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(
   return frames_.fields_again(rows, frame_).a;
 }
 
+// Power in the sense of path_gain_db, and rms delay spread, of the rows of a link.
+Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, double rest) const {
+  const double power = grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz) + rest;
+  double sum = 0, mean_s = 0, square = 0;
+  for (size_t row = first; row < end; ++row) {
+    const double own = power_of(paths, row);
+    sum += own;
+    mean_s += own * paths.delay_s[row];
+  }
+  mean_s /= sum;
+  for (size_t row = first; row < end; ++row) square += power_of(paths, row) * std::pow(paths.delay_s[row] - mean_s, 2);
+  return {10 * std::log10(power), 1e9 * std::sqrt(square / sum)};
+}
+
+// Links are sorted as rows are.
 std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vector<double>& rest) const {
   const std::vector<Link>& all = frame_.world.links;
-  const std::vector<LinkFigures> figures =
-      link_figures(paths, frame_.frame, all, setup_.plan->asked.radio.frequency_hz);
-  std::vector<Computed> out;
-  for (const Link& link : links_) {
-    const auto i = static_cast<size_t>(std::ranges::lower_bound(all, link) - all.begin());
-    const double power = power_of_db(figures[i].path_gain_db) + (rest.empty() ? 0 : rest[i]);
-    out.push_back({10 * std::log10(power), 1e9 * figures[i].rms_delay_spread_s});
-  }
+  std::vector<size_t> first(all.size() + 1, paths.size());
+  for (size_t row = paths.size(), link = all.size(); link-- > 0; first[link] = row)
+    while (row > 0 && Link{paths.tx[row - 1], paths.rx[row - 1]} >= all[link]) --row;
+  std::vector<Computed> of_links(all.size()), out;
+  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+    of_links[i] = of_link(paths, first[i], first[i + 1], rest.empty() ? 0 : rest[i]);
+  });
+  for (const Link& link : links_)
+    out.push_back(of_links[static_cast<size_t>(std::ranges::lower_bound(all, link) - all.begin())]);
   return out;
 }
 
-std::vector<Computed> MeasuredWorld::weigh(const std::vector<device::wt_material>& materials) {
+std::vector<Computed> MeasuredWorld::weigh(const std::vector<device::wt_material>& materials, double share_left_out) {
   std::vector<uint32_t> all(frame_.paths.size());
   std::iota(all.begin(), all.end(), 0u);
   frame_.paths.a = fields(frames_.choose_rows(all), materials);
-  keep_strong();
+  keep_strong(share_left_out);
   base_ = materials;
   dependents_.clear();
   return computed(frame_.paths, {});
 }
 
-void MeasuredWorld::keep_strong() {
+void MeasuredWorld::keep_strong(double share_left_out) {
   const Paths& paths = frame_.paths;
   kept_.clear();
   for (size_t first = 0; first < paths.size();) {
@@ -223,12 +237,17 @@ void MeasuredWorld::keep_strong() {
   std::ranges::sort(kept_);
   strong_rows_ = frames_.choose_rows(kept_);
   strong_ = chosen_paths(paths, kept_);
-  const double frequency_hz = setup_.plan->asked.radio.frequency_hz;
-  const auto all = link_figures(paths, frame_.frame, frame_.world.links, frequency_hz);
-  const auto strong = link_figures(strong_, frame_.frame, frame_.world.links, frequency_hz);
-  rest_.clear();
-  for (size_t i = 0; i < all.size(); ++i)
-    rest_.push_back(std::max(0.0, power_of_db(all[i].path_gain_db) - power_of_db(strong[i].path_gain_db)));
+  rest_.assign(frame_.world.links.size(), 0);
+  for (size_t i = 0; i < rest_.size(); ++i) {
+    const auto range = [&](const Paths& of) {
+      const auto [begin, end] =
+          std::ranges::equal_range(std::views::iota(size_t{0}, of.size()), frame_.world.links[i], {}, [&](size_t row) {
+            return Link{of.tx[row], of.rx[row]};
+          });
+      return grouped_power(of, *begin, *end, setup_.plan->asked.radio.frequency_hz);
+    };
+    rest_[i] = std::max(0.0, range(paths) - range(strong_));
+  }
 }
 
 // Paths that depend on a material are found by changing all its properties.
@@ -264,10 +283,14 @@ std::vector<Computed> MeasuredWorld::values(const std::vector<device::wt_materia
   }
   if (changed.size() != 1) return computed(strong_, rest_);
   const Dependent& on = dependent(changed[0]);
-  const auto now = fields(on.rows, materials);
-  Paths paths = strong_;
-  for (size_t i = 0; i < on.places.size(); ++i) paths.a[on.places[i]] = now[i];
-  return computed(paths, rest_);
+  auto now = fields(on.rows, materials);
+  const auto exchange = [&] {
+    for (size_t i = 0; i < on.places.size(); ++i) std::swap(strong_.a[on.places[i]], now[i]);
+  };
+  exchange();
+  std::vector<Computed> out = computed(strong_, rest_);
+  exchange();
+  return out;
 }
 
 }  // namespace wavetracer::calibration

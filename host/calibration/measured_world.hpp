@@ -30,8 +30,8 @@ class MeasuredWorld {
   // Names of the transmitters of the points.
   std::vector<std::string> transmitters() const;
   // Evaluates the fields of all paths with these materials, and returns the values of the points. From now on, values()
-  // evaluates those paths alone that make all but 1e-4 of the power of their link; the others keep their power.
-  std::vector<Computed> weigh(const std::vector<device::wt_material>& materials);
+  // evaluates those paths alone that make all but this share of the power of their link; the others keep their power.
+  std::vector<Computed> weigh(const std::vector<device::wt_material>& materials, double share_left_out);
   // Values of the points with these materials, after weigh().
   std::vector<Computed> values(const std::vector<device::wt_material>& materials);
   size_t paths() const { return frame_.paths.size(); }
@@ -58,10 +58,11 @@ class MeasuredWorld {
   };
   std::map<size_t, Dependent> dependents_;
 
-  void keep_strong();
+  void keep_strong(double share_left_out);
   std::vector<std::array<std::complex<double>, 4>> fields(const RowChoice& rows,
                                                           const std::vector<device::wt_material>& materials);
   const Dependent& dependent(size_t material);
+  Computed of_link(const Paths& paths, size_t first, size_t end, double rest) const;
   std::vector<Computed> computed(const Paths& paths, const std::vector<double>& rest) const;
 };
 

@@ -16,7 +16,7 @@ struct MaterialTable {
   // At one frequency; those that no surface uses are all zeros. Layers of walls are records among them, and a wall of
   // layers has a second record for surfaces whose outer side is below.
   std::vector<device::wt_material> materials;
-  std::vector<std::string> names;  // of each record its material; empty for walls of layers, whose layers have names
+  std::vector<std::string> names;  // the material of each record; empty for walls of layers, whose layers have names
   std::vector<uint32_t> materials_of;  // the material of each surface of the world
 };
 
