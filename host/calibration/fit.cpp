@@ -14,8 +14,8 @@ namespace {
 constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
 constexpr double least_deviation = 1e-6;  // data without noise
 constexpr double step_of_slopes = 1e-5;
-constexpr double least_gain = 1e-3;  // a smaller gain of the logarithm of the probability means nothing
-constexpr size_t most_iterations = 60, kept_results = 4, followed_starts = 3;
+constexpr double least_gain = 1e-2;  // a smaller gain of the logarithm of the probability means nothing
+constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
 
 struct Cost {
   double cost = 0, slope = 0, curvature = 0;  // the last two with respect to the model's value

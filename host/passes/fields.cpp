@@ -10,6 +10,7 @@
 #include "passes/advice.hpp"
 #include "passes/read_room.hpp"
 #include "passes/upload.hpp"
+#include "wavetracer/device/path_rows.h"
 
 namespace wavetracer {
 namespace {
