@@ -155,6 +155,10 @@ class Calibrating {
     const std::vector<double> start(problem_.priors.size(), 0);
     const std::vector<bool> takes(problem_.data.size(), true);
     const std::vector<Computed> before = world_->weigh(records(start), shares_left_out.front());
+    if (std::ranges::none_of(before, [](const Computed& point) { return std::isfinite(point.gain_db); }))
+      throw RuntimeError(fmt::format(
+          "none of the {} measured places has a path: look at their coordinates, and at [trace] of the configuration",
+          before.size()));
     out_.fit.theta = start;
     std::vector<Computed> after;
     for (int round = 0; round < most_rounds; ++round) {

@@ -164,6 +164,8 @@ class Fit {
       slope[at] += weight * out_.theta[p];
       curvature(at, at) += weight;
     }
+    for (auto at = static_cast<Eigen::Index>(out_.theta.size()); at < size; ++at)
+      if (curvature(at, at) == 0) curvature(at, at) = 1;  // no datum has this offset, which stays 0
     curvature.triangularView<Eigen::StrictlyUpper>() = curvature.transpose();
     return sum;
   }

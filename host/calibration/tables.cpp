@@ -7,7 +7,7 @@
 namespace wavetracer::calibration {
 namespace {
 
-constexpr double hardly_told = 0.5, strong_correlation = 0.9;
+constexpr double hardly_told = 0.5, far_from_prior = 2, strong_correlation = 0.9;
 
 std::string decibels(double value) { return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-"; }
 
@@ -74,10 +74,17 @@ study::NumberTable agreement_table(const Calibration& result) {
 std::vector<std::string> findings(const Calibration& result) {
   std::vector<std::string> out = result.notes;
   const FitResult& fit = result.fit;
-  for (size_t p = 0; p < result.parameters.size(); ++p)
-    if (fit.told[p] > 0 && fit.told[p] < hardly_told)
+  for (size_t p = 0; p < result.parameters.size(); ++p) {
+    const double moved = std::abs(fit.theta[p]) / result.parameters[p].prior;
+    if (moved > far_from_prior)
+      out.push_back(
+          fmt::format("the data move {} by {:.1f} standard deviations of its prior: look at the residuals, since the "
+                      "material may make up for something that the map lacks",
+                      result.parameters[p].name(), moved));
+    else if (fit.told[p] > 0 && fit.told[p] < hardly_told)
       out.push_back(fmt::format("the data hardly tell {}: its value is mostly that of the configuration",
                                 result.parameters[p].name()));
+  }
   const size_t size = fit.errors.size();
   for (size_t i = 0; i < size; ++i)
     for (size_t j = i + 1; j < size; ++j)

@@ -79,3 +79,14 @@ TEST_CASE("calibrate refuses what does not fit together, and says what to do") {
   check_refused(run(folder.file("grid.toml", text_of(scene, grid)), flat), 2, "measured places are the only receivers");
   CHECK_FALSE(std::filesystem::exists(folder.path("no")));
 }
+
+TEST_CASE("calibrate says where no measured place has a path") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile wall({Quad{{5, -900, -900}, {0, 1800, 0}, {0, 0, 1800}}});
+  const std::string measured = folder.file("m.csv", "x,y,z,path_gain_db\n9,0,10,-80\n9,1,10,-81\n");
+  const Outcome outcome = run_program(
+      {"calibrate", "-c", folder.file("c.toml", text_of(wall, "")), "--measured", measured, "-o", folder.path("no")});
+  check_refused(outcome, 1, "none of the 2 measured places has a path: look at their coordinates");
+  CHECK_FALSE(std::filesystem::exists(folder.path("no")));
+}

@@ -150,6 +150,15 @@ TEST_CASE("a curved model is found from afar, and data without a value are left 
   CHECK(found.theta[0] == doctest::Approx(0.7).epsilon(1e-6));
 }
 
+TEST_CASE("an offset that no datum has stays 0") {
+  Line line(30, 2, 1, 0.1, 11);
+  line.problem.offsets = 2;
+  const FitResult found = fitted(line.problem);
+  CHECK(found.theta[0] == doctest::Approx(2).epsilon(0.05));
+  CHECK(found.offsets[0] == doctest::Approx(1).epsilon(0.1));
+  CHECK(found.offsets[1] == 0);
+}
+
 TEST_CASE("held-out data have no effect") {
   const Line line(40, 2, 0, 0, 8);
   Problem problem = line.problem;
