@@ -159,8 +159,19 @@ def unmeasured(root):
     return faults
 
 
+# The files beside the folders of the project: compilers and tools leave others there.
+TOP_FILES = {".clang-format", ".gitignore", "CHANGELOG.md", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json", "CONTRIBUTING.md",
+             "LICENSE", "README.md", "SECURITY.md", "dev", "packages-test.txt", "packages.txt", "pyproject.toml"}
+
+
+def stray_files(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True)
+    strays = sorted(name for name in listed.stdout.splitlines() if "/" not in name and name not in TOP_FILES)
+    return [f"{name}: it is no file of the project's top folder (TOP_FILES in tests/house/house.py): remove it" for name in strays]
+
+
 def project_faults(root):
-    faults = []
+    faults = stray_files(root)
 
     def found(name, pattern):
         match = re.search(pattern, (root / name).read_text(), re.M)
