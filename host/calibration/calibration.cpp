@@ -180,6 +180,7 @@ class Calibrating {
       out_.points[i].offset_db = offset_of(i, out_.fit.offsets);
     }
     out_.paths_that_matter = world_->paths_that_matter();
+    if (folds_ > 0) world_->weigh(records(out_.fit.theta), shares_left_out[1]);  // 0.004 dB do not matter there
     model_.emplace(problem_);
     for (size_t fold = 0; fold < folds_; ++fold) {
       tell_fit(1 + fold);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
 constexpr double least_deviation = 1e-6;  // data without noise
-constexpr double step_of_slopes = 1e-5;
-constexpr double least_gain = 1e-2;  // a smaller gain of the logarithm of the probability means nothing
+constexpr double step_of_slopes = 1e-6;   // values are rounded to some 1e-14 of theirs
+constexpr double least_gain = 1e-2;       // a smaller gain of the logarithm of the probability means nothing
 constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
 
 struct Cost {
@@ -240,14 +240,11 @@ Linearized::Known& Linearized::known(const std::vector<double>& theta) {
   return kept_.back();
 }
 
-std::vector<double> Linearized::slope(std::vector<double> theta, size_t parameter) {
-  const double here = theta[parameter];
-  theta[parameter] = here + step_of_slopes;
+std::vector<double> Linearized::slope(std::vector<double> theta, size_t parameter, const std::vector<double>& here) {
+  theta[parameter] += step_of_slopes;
   std::vector<double> out = evaluate(theta);
-  theta[parameter] = here - step_of_slopes;
-  const std::vector<double> before = evaluate(theta);
   for (size_t i = 0; i < out.size(); ++i) {
-    out[i] = (out[i] - before[i]) / (2 * step_of_slopes);
+    out[i] = (out[i] - here[i]) / step_of_slopes;
     if (!std::isfinite(out[i])) out[i] = 0;
   }
   return out;
@@ -259,7 +256,7 @@ const std::vector<std::vector<double>>& Linearized::slopes(const std::vector<dou
   const bool first = idle_.empty();
   for (size_t p = 0; p < theta.size(); ++p) {
     const bool idle = !first && idle_[p];
-    here.slopes.push_back(idle ? std::vector<double>(here.values.size(), 0) : slope(theta, p));
+    here.slopes.push_back(idle ? std::vector<double>(here.values.size(), 0) : slope(theta, p, here.values));
     if (first) idle_.push_back(std::ranges::all_of(here.slopes[p], [](double s) { return s == 0; }));
   }
   return here.slopes;

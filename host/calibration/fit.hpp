@@ -42,7 +42,7 @@ struct FitResult {
   bool converged = false;
 };
 
-// The model with its derivatives, by central differences; results for the last few theta are kept.
+// The model with its derivatives, by differences of one step; results for the last few theta are kept.
 class Linearized {
  public:
   explicit Linearized(const Problem& problem) : problem_(problem) {}
@@ -60,7 +60,7 @@ class Linearized {
   };
   Known& known(const std::vector<double>& theta);
   std::vector<double> evaluate(const std::vector<double>& theta);
-  std::vector<double> slope(std::vector<double> theta, size_t parameter);
+  std::vector<double> slope(std::vector<double> theta, size_t parameter, const std::vector<double>& here);
 
   const Problem& problem_;
   std::vector<bool> idle_;   // parameters on which no value depends; empty until the first slopes are known
