@@ -83,6 +83,13 @@ struct PathEntries {
   }
 };
 
+std::vector<bool> chosen_rows(const PathGeometry& geometry, const GradientChoice& choice) {
+  if (!choice.paths) return std::vector<bool>(geometry.size(), true);
+  std::vector<bool> out(geometry.size());
+  for (const uint32_t row : *choice.paths) out.at(row) = true;
+  return out;
+}
+
 std::vector<PathDirection> six_from(PathParameter first) {
   std::vector<PathDirection> out;
   for (int i = 0; i < tangent::lanes; ++i)
@@ -90,7 +97,7 @@ std::vector<PathDirection> six_from(PathParameter first) {
   return out;
 }
 
-void append(PathGradients& to, const PathEntries& entries) {
+void append(ModelGradients& to, const PathEntries& entries) {
   for (size_t i = 0; i < entries.directions.size(); ++i) {
     to.parameter.push_back(entries.directions[i].parameter);
     to.material.push_back(entries.directions[i].material);
@@ -116,15 +123,18 @@ GradientModel::GradientModel(const Scene& scene, const Config& config, std::span
       tables_(make_field_tables(scene, config, models, instances)),
       frequency_hz_(config.radio.frequency_hz) {}
 
-PathGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
-                                     const GradientChoice& choice) const {
+ModelGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
+                                      const GradientChoice& choice) const {
+  const std::vector<bool> chosen = chosen_rows(geometry, choice);
   const FieldFrame rows = make_field_frame(tables_, scene_, models_, instances_, geometry, state);
   const device::wt_field_world world = rows.world(tables_);
   const ConstantTables constants = constant_tables(tables_);
-  PathGradients out;
+  ModelGradients out;
+  for (const uint32_t row : rows.rows) out.path.push_back(row / 2);
   out.paths = paths_of(rows, tables_, scene_.origin_m, frame);
   std::vector<PathEntries> entries(rows.rows.size());
   tbb::parallel_for(size_t{0}, entries.size(), [&](size_t row) {
+    if (!chosen[out.path[row]]) return;
     PathTables path(tables_, constants, rows, world, static_cast<uint32_t>(row));
     const auto add = [&](std::span<const PathDirection> directions, GradientGap gap) {
       Tangent delay;

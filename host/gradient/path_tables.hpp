@@ -23,7 +23,7 @@ struct ConstantTables {
 };
 ConstantTables constant_tables(const FieldTables& tables);
 
-// A parameter of a path; material: see PathGradients.
+// A parameter of a path; material: see ModelGradients.
 struct PathDirection {
   PathParameter parameter;
   uint32_t material;

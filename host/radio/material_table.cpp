@@ -29,7 +29,10 @@ std::vector<uint32_t> add_materials(MaterialTable& all, const Scene& scene, doub
   for (const Surface& surface : scene.surfaces) is_used[surface.material] = true;
   const auto first = static_cast<uint32_t>(table.size());
   table.resize(first + scene.materials.size());
-  for (const Material& material : scene.materials) all.names.push_back(material.layers.empty() ? material.name : "");
+  for (const Material& material : scene.materials) {
+    all.names.push_back(material.layers.empty() ? material.name : "");
+    all.walls.push_back(material.layers.empty() ? "" : material.name);
+  }
   std::vector<uint32_t> below;
   for (uint32_t i = 0; i < scene.materials.size(); ++i) {
     below.push_back(first + i);
@@ -41,9 +44,11 @@ std::vector<uint32_t> add_materials(MaterialTable& all, const Scene& scene, doub
       for (const Material& layer : material.layers) {
         table.push_back(record_of(layer, frequency_hz));
         all.names.push_back(layer.name);
+        all.walls.push_back(material.name);
       }
       below.back() = static_cast<uint32_t>(table.size());
       all.names.push_back("");
+      all.walls.push_back(material.name);
       table.push_back(record);
       table.back().layers |= WT_LAYERS_REVERSED;
     }

@@ -17,6 +17,7 @@ struct MaterialTable {
   // layers has a second record for surfaces whose outer side is below.
   std::vector<device::wt_material> materials;
   std::vector<std::string> names;  // the material of each record; empty for walls of layers, whose layers have names
+  std::vector<std::string> walls;  // for a wall of layers and for each of its layers the wall's name; else empty
   std::vector<uint32_t> materials_of;  // the material of each surface of the world
 };
 

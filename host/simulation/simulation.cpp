@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "gradient/frame_gradient.hpp"
 #include "simulation/batched_frames.hpp"
 #include "simulation/missing_paths.hpp"
 #include "wavetracer/arrays.hpp"
@@ -54,6 +56,7 @@ struct Simulation::State {
 
   Setup setup;
   BatchedFrames frames;
+  std::optional<FrameGradient> gradient;  // made at its first use
   uint32_t profile_every = 1;
   uint64_t runs = 0;
 };
@@ -104,6 +107,15 @@ MissingLinks Simulation::explain_missing(const FrameResult& frame) const {
   const RunPlan& plan = state_->plan();
   if (links_without_path(frame).empty()) return {};
   return wavetracer::explain_missing(plan.asked, plan.features, *state_->setup.around, plan.world, frame);
+}
+
+PathGradients Simulation::gradient(const FrameResult& frame, const GradientChoice& choice) {
+  if (frame.summed)
+    throw ConfigError("the frame has sums of links and no paths (Simulation::sum_links), so there are no derivatives");
+  const RunPlan& plan = state_->plan();
+  if (!state_->gradient)
+    state_->gradient.emplace(plan.scene, plan.computed(), plan.world.fleet.models, plan.world.fleet.instances);
+  return (*state_->gradient)(frame, choice);
 }
 
 const DeviceSummary& Simulation::device() const { return state_->setup.device; }

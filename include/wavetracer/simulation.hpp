@@ -12,6 +12,7 @@
 #include "wavetracer/config.hpp"
 #include "wavetracer/features.hpp"
 #include "wavetracer/frame_result.hpp"
+#include "wavetracer/gradient.hpp"
 #include "wavetracer/scene.hpp"
 
 namespace wavetracer {
@@ -102,6 +103,10 @@ class Simulation {
   // Returns warnings: what was left out or assumed when the scene and the trajectories were loaded; antennas and
   // vehicles in impossible places.
   std::vector<std::string> warnings() const;
+  // Returns the exact derivatives of the columns of a frame's paths at the first carrier, by materials and by the
+  // positions and turns of the ends; the host computes them. The frame is one of this simulation. Throws ConfigError if
+  // choice.paths has a row that the frame lacks, or if the frame has sums in place of paths.
+  PathGradients gradient(const FrameResult& frame, const GradientChoice& choice = {});
   const DeviceSummary& device() const;
   const OrderSummary& order() const;
   const Features& features() const;

@@ -19,6 +19,7 @@
 #include "wavetracer/error.hpp"
 #include "wavetracer/features.hpp"
 #include "wavetracer/frame_result.hpp"
+#include "wavetracer/gradient.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 #include "wavetracer/live.hpp"
 #include "wavetracer/output.hpp"

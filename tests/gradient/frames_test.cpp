@@ -4,12 +4,16 @@
 // form.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "base/stopwatch.hpp"
+#include "gradient/frame_gradient.hpp"
 #include "gradient/path_gradient.hpp"
 #include "radio/constants.hpp"
 #include "simulation/bends.hpp"
@@ -34,6 +38,50 @@ auto timed(Work work) {
   return std::pair(watch.lap(), std::move(result));
 }
 
+// The derivatives of a row that a sum over records of one material does not change.
+using Sums = std::map<PathParameter, std::pair<std::complex<double>, double>>;
+Sums sums_of(const PathGradients& of, size_t row) {
+  Sums out;
+  for (uint64_t entry = of.first[row]; entry < of.first[row + 1]; ++entry) {
+    auto& [a, others] = out[of.parameter[entry]];
+    for (const auto& port : of.a[entry]) a += port;
+    if (of.material[entry] == no_material_number)
+      others += of.delay_s[entry] + 1e-9 * of.aoa_phi_rad[entry] + 2e-9 * of.aod_theta_rad[entry];
+  }
+  return out;
+}
+
+// Derivatives of the columns of a frame are those of its solved geometry, up to the rounding of coordinates. The solved
+// geometry may have a path several times.
+void check_way_back(FrameGradient& model, const FrameResult& frame, const ModelGradients& solved) {
+  const PathGradients of = model(frame, {.orientations = true});
+  REQUIRE(of.first.size() == frame.paths.size() + 1);
+  CHECK(std::ranges::all_of(of.material, [&](uint32_t material) {
+    return material == no_material_number || !of.materials.at(material).empty();
+  }));
+  CHECK(std::ranges::count(of.gap, GradientGap::none) == static_cast<ptrdiff_t>(of.size()));
+  const auto key = [](const Paths& paths, size_t row) {
+    return std::tuple(paths.tx[row], paths.rx[row], paths.delay_s[row], paths.gain_db[row], paths.aod_phi_rad[row]);
+  };
+  std::map<std::tuple<uint32_t, uint32_t, double, double, double>, size_t> rows;
+  for (size_t row = 0; row < solved.paths.size(); ++row) rows[key(solved.paths, row)] = row;
+  size_t wrong = 0, alone = 0;
+  for (size_t row = 0; row < frame.paths.size(); ++row) {
+    const auto twin = rows.find(key(frame.paths, row));
+    alone += twin == rows.end();
+    if (twin == rows.end()) continue;
+    const Sums own = sums_of(of, row), expected = sums_of(solved, twin->second);
+    wrong += own.size() != expected.size();
+    for (const auto& [parameter, slopes] : expected) {
+      const auto& [a, others] = own.at(parameter);
+      wrong += !(std::abs(a - slopes.first) <= 1e-6 * std::abs(slopes.first) + 1e-15);
+      wrong += !(std::abs(others - slopes.second) <= 1e-6 * std::abs(slopes.second) + 1e-18);
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(alone <= frame.paths.size() / 100);  // a path that another one completes may have fields of its own here
+}
+
 // Checks the first frames of a configuration. Returns how many interactions of which kind they have.
 std::map<uint8_t, size_t> check_frames(const Config& config, uint32_t frames) {
   Setup s = make_setup(config, "");
@@ -41,6 +89,7 @@ std::map<uint8_t, size_t> check_frames(const Config& config, uint32_t frames) {
   Config all = s.plan->asked;
   all.trace = s.plan->trace;
   const GradientModel model(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
+  FrameGradient model_of_frames(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
   const FieldModel fields(s.plan->scene, all, s.plan->world.fleet.models, s.plan->world.fleet.instances);
   std::map<uint8_t, size_t> kinds;
   for (uint32_t frame = 0; frame < frames; ++frame) {
@@ -55,6 +104,7 @@ std::map<uint8_t, size_t> check_frames(const Config& config, uint32_t frames) {
             " derivatives by positions ", 1000 * ends_s, " ms, with all ", of.size(), " derivatives ", 1000 * all_s,
             " ms");
     CHECK(of.paths.a == paths.a);
+    check_way_back(model_of_frames, found, of);
     CHECK(of.paths.size() > 3);
     size_t gaps = 0, wrong = 0, checked = 0;
     for (size_t row = 0; row < of.paths.size(); ++row)

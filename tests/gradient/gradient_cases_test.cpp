@@ -35,14 +35,14 @@ dvec3 direction(double theta, double phi) {
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 // The entry of a parameter of row 0.
-size_t entry_of(const PathGradients& of, PathParameter parameter) {
+size_t entry_of(const ModelGradients& of, PathParameter parameter) {
   for (uint64_t entry = of.first[0]; entry < of.first[1]; ++entry)
     if (of.parameter[entry] == parameter) return entry;
   FAIL("the path has no such parameter");
   return 0;
 }
 
-PathGradients gradients_of(const GradientWorld& world) {
+ModelGradients gradients_of(const GradientWorld& world) {
   return GradientModel(world.scene, world.config)
       .compute(0, world.geometry(world.state), world.state, {.orientations = true});
 }
@@ -93,7 +93,7 @@ TEST_CASE("values of derivatives are those of FieldModel to the last bit, with a
 TEST_CASE("the delay changes by the component along the first and the last leg, for every kind of path") {
   for (const uint64_t seed : {23, 24, 25}) {
     const GradientWorld world = mixed_world(seed);
-    const PathGradients of = gradients_of(world);
+    const ModelGradients of = gradients_of(world);
     const Paths& paths = of.paths;
     for (size_t row = 0; row < paths.size(); ++row) {
       const dvec3 out = direction(paths.aod_theta_rad[row], paths.aod_phi_rad[row]);
@@ -113,7 +113,7 @@ TEST_CASE("the delay changes by the component along the first and the last leg, 
 
 TEST_CASE("a path that misses a material has no entry for it, and one by itself has those of its ends alone") {
   const GradientWorld world = over_ground({0, 0, 5}, {20, 3, 7}, 0.5);
-  const PathGradients of = gradients_of(world);
+  const ModelGradients of = gradients_of(world);
   CHECK(of.size() == 4 + 6 + 6);
   for (size_t entry = 0; entry < of.size(); ++entry)
     CHECK(of.material[entry] == (of.parameter[entry] < PathParameter::tx_x ? 3 : no_material_number));
@@ -166,10 +166,10 @@ TEST_CASE("a vehicle's surface has the derivatives of the same surface of the sc
                                          static_cast<uint32_t>(still.scene.wedges.size())}};
   moving.state.instances = {{.position_m = {3, 4, still.scene.surfaces[ground].offset_m + 2}}};
   PathGeometry geometry = still.geometry(still.state);
-  const PathGradients expected = gradients_of(still);
+  const ModelGradients expected = gradients_of(still);
   geometry.surface[0] = instances[0].first_surface;
-  const PathGradients of = GradientModel(moving.scene, moving.config, models, instances)
-                               .compute(0, geometry, moving.state, {.orientations = true});
+  const ModelGradients of = GradientModel(moving.scene, moving.config, models, instances)
+                                .compute(0, geometry, moving.state, {.orientations = true});
   REQUIRE(of.size() == expected.size());
   for (size_t entry = 0; entry < of.size(); ++entry) {
     for (size_t port = 0; port < 4; ++port)
@@ -191,7 +191,7 @@ TEST_CASE("beside a shadow boundary the neighbouring path decides, for derivativ
   world.one_link = true;
   const Paths alone = FieldModel(world.scene, world.config).compute(0, world.geometry(world.state), world.state);
   world.sequences.push_back({});
-  const PathGradients of = gradients_of(world);
+  const ModelGradients of = gradients_of(world);
   REQUIRE(of.paths.size() == 2);
   const size_t bent = of.paths.depth[0] == 1 ? 0 : 1;
   CHECK(std::abs(of.paths.a[bent][0] + alone.a[0][0]) < 0.1 * std::abs(alone.a[0][0]));  // the other side
@@ -203,26 +203,26 @@ TEST_CASE("beside a shadow boundary the neighbouring path decides, for derivativ
 }
 
 TEST_CASE("where no derivative exists, or none is known, there is a gap and no number") {
-  const auto check_gap = [](const PathGradients& of, PathParameter parameter, GradientGap gap) {
+  const auto check_gap = [](const ModelGradients& of, PathParameter parameter, GradientGap gap) {
     const size_t entry = entry_of(of, parameter);
     CHECK(of.gap[entry] == gap);
     for (const auto& a : of.a[entry]) CHECK(std::isnan(a.real()) == (gap != GradientGap::none));
     CHECK(std::isnan(of.delay_s[entry]) == (gap != GradientGap::none));
   };
   // sqrt(1 - S^2) has no slope at S = 1.
-  const PathGradients rough = gradients_of(over_ground({0, 0, 5}, {20, 3, 7}, 1));
+  const ModelGradients rough = gradients_of(over_ground({0, 0, 5}, {20, 3, 7}, 1));
   check_gap(rough, PathParameter::scattering, GradientGap::singular);
   check_gap(rough, PathParameter::permittivity, GradientGap::none);
   // Straight down, angles are those of a pole.
   GradientWorld vertical = over_ground({4, 5, 5}, {4, 5, 9}, 0.5);
-  const PathGradients down = gradients_of(vertical);
+  const ModelGradients down = gradients_of(vertical);
   check_gap(down, PathParameter::tx_y, GradientGap::pole);
   check_gap(down, PathParameter::conductivity, GradientGap::none);
   // Points that nobody solved do not move as reflections do.
   const GradientWorld world = over_ground({0, 0, 5}, {20, 3, 7}, 0.5);
   PathGeometry geometry = world.geometry(world.state);
   geometry.vertex[0].x += 1e-3;
-  const PathGradients moved = GradientModel(world.scene, world.config).compute(0, geometry, world.state);
+  const ModelGradients moved = GradientModel(world.scene, world.config).compute(0, geometry, world.state);
   check_gap(moved, PathParameter::rx_z, GradientGap::not_solved);
   check_gap(moved, PathParameter::permittivity, GradientGap::none);
   // It is not known on which side of a face an end in its plane will be.
@@ -232,7 +232,7 @@ TEST_CASE("where no derivative exists, or none is known, there is a gap and no n
   const dvec3 middle = wedge.start + 0.5 * wedge.length_m * wedge.along;
   std::mt19937_64 random(27);
   roof.add({{D, edge}}, middle + 7.0 * wedge.face + 1.0 * wedge.along, middle + 5.0 * wedge.normal, random);
-  const PathGradients along = gradients_of(roof);
+  const ModelGradients along = gradients_of(roof);
   check_gap(along, PathParameter::tx_z, GradientGap::singular);
   check_gap(along, PathParameter::tx_turn_z, GradientGap::none);
   check_gap(along, PathParameter::permittivity, GradientGap::none);

@@ -149,7 +149,7 @@ inline std::vector<bool> jumping_rows(const GradientWorld& world) {
 // derivatives. jumps: the number of rows that are not compared.
 inline std::map<PathParameter, double> worst_errors(const GradientWorld& world, size_t& jumps) {
   const GradientModel model(world.scene, world.config);
-  const PathGradients gradients = model.compute(0, world.geometry(world.state), world.state, {.orientations = true});
+  const ModelGradients gradients = model.compute(0, world.geometry(world.state), world.state, {.orientations = true});
   std::map<std::pair<PathParameter, uint32_t>, std::vector<std::vector<Columns>>> found;
   std::map<PathParameter, double> worst;
   const std::vector<bool> jumping = jumping_rows(world);

@@ -75,8 +75,8 @@ TEST_CASE("derivatives by the layers of walls are those of differences") {
   for (const std::vector<uint8_t>& kinds : {std::vector<uint8_t>{R}, {T}, {R, T}, {D}, {S}})
     test::add_random(world, kinds, 4, random);
   test::check_worst(world, all_parameters);
-  const PathGradients found = GradientModel(world.scene, world.config)
-                                  .compute(0, world.geometry(world.state), world.state, {.positions = false});
+  const ModelGradients found = GradientModel(world.scene, world.config)
+                                   .compute(0, world.geometry(world.state), world.state, {.positions = false});
   const auto by_layers = std::ranges::count_if(found.material, [](uint32_t record) { return record > 3; });
   CHECK(by_layers >= 3 * 3 * 4);  // three properties of three layers for every path that meets such a wall
 }
