@@ -16,7 +16,7 @@
 
 namespace wavetracer {
 
-// What GradientModel gives: derivatives of rows of `paths`. material: the record in MaterialTable
+// The result of GradientModel: derivatives of rows of `paths`. material: the record in MaterialTable
 // (radio/material_table.hpp): the materials of the scene, then the layers of its walls, then those of each model in
 // turn. A wall of layers has the S of its own record, and the rest of those of its layers. `materials` is empty.
 struct ModelGradients : PathGradients {

@@ -30,7 +30,7 @@ class RecordedGeometry {
     uint32_t surface;   // its number in columns: that of the surface in the world; for a cell that of its volume
     double along;       // its distance from the origin along a direction that separates places
     glm::dvec3 centre;  // in the coordinates of its scene or model
-    uint32_t number;    // of the tile or cell in the world
+    uint32_t number;    // the number of the tile or cell in the world
   };
   void list_places();
   uint32_t tile_of(uint32_t surface, const glm::dvec3& vertex);

@@ -1,60 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The columns of wavetracer.h: each is a row of a table, whose type and width follow from the vector that holds it.
-// Vectors of glm and of std::complex must be their numbers side by side.
+// The columns of frames in wavetracer.h: each is a row of a table.
 #include <string_view>
+#include "library/column_view.hpp"
 #include "library/handles.hpp"
 
 namespace wavetracer::c_api {
 namespace {
-
-static_assert(sizeof(glm::dvec3) == 3 * sizeof(double) && sizeof(Link) == 2 * sizeof(uint32_t));
-
-template <class T>
-struct Layout;
-template <>
-struct Layout<uint8_t> {
-  static constexpr int type = WAVETRACER_UINT8, width = 1;
-};
-template <>
-struct Layout<uint32_t> {
-  static constexpr int type = WAVETRACER_UINT32, width = 1;
-};
-template <>
-struct Layout<Link> {
-  static constexpr int type = WAVETRACER_UINT32, width = 2;
-};
-template <>
-struct Layout<uint64_t> {
-  static constexpr int type = WAVETRACER_UINT64, width = 1;
-};
-template <>
-struct Layout<double> {
-  static constexpr int type = WAVETRACER_FLOAT64, width = 1;
-};
-template <>
-struct Layout<glm::dvec3> {
-  static constexpr int type = WAVETRACER_FLOAT64, width = 3;
-};
-
-template <>
-struct Layout<GroupNumbers> {
-  static constexpr int type = WAVETRACER_UINT32, width = most_groups;
-};
-template <>
-struct Layout<GroupWeights> {
-  static constexpr int type = WAVETRACER_FLOAT64, width = most_groups;
-};
-
-wavetracer_column checked(wavetracer_column column) {
-  static const double nothing = 0;
-  if (!column.data) column.data = &nothing;
-  return column;
-}
-
-template <class T>
-wavetracer_column view(const std::vector<T>& rows) {
-  return checked({rows.data(), rows.size(), Layout<T>::width, Layout<T>::type});
-}
 
 template <auto Member>
 wavetracer_column of_paths(const wavetracer_frame& frame) {

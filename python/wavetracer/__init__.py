@@ -25,6 +25,7 @@ if _typing.TYPE_CHECKING:
     from ._page import Page, view
     from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
     from .frame import Frame
+    from .gradients import Derivative, Gradients
     from .links import Links
     from .paths import Paths
     from .responses import Responses
@@ -34,8 +35,8 @@ if _typing.TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["Calibration", "ConfigError", "Counts", "DeviceError", "Error", "Frame", "FrameStopped", "InputError", "Links",
-           "Page", "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "calibrate", "columns", "configs",
+__all__ = ["Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", "Error", "Frame", "FrameStopped",
+           "Gradients", "InputError", "Links", "Page", "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "calibrate", "columns", "configs",
            "coverage", "devices", "from_sionna", "version", "view"]
 
 # The module of each name. Modules are imported when a name is asked for: the command `wavetracer` needs neither the
@@ -44,6 +45,7 @@ _MODULES = {
     "_calibration": ("Calibration", "calibrate"), "_coverage": ("coverage",),
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
     "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
+    "gradients": ("Derivative", "Gradients"),
     "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
     "simulation": ("Simulation",), "sionna": ("from_sionna",)}
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}

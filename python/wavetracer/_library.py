@@ -71,6 +71,10 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("receiver_element_positions", ctypes.c_int, [Handle, ctypes.c_size_t, Doubles, ctypes.c_size_t, _ERROR]),
     ("element_paths", ctypes.c_int, [Handle, Handle, Sizes, ctypes.c_size_t, ctypes.c_size_t, ctypes.c_size_t, Doubles,
                                      Doubles, _ERROR]),
+    ("frame_gradient", Handle, [Handle, Handle, ctypes.c_uint, Sizes, ctypes.c_size_t, _ERROR]),
+    ("gradient_free", None, [Handle]), ("gradient_column", ctypes.c_int, [Handle, Text, ctypes.POINTER(Column), _ERROR]),
+    ("gradient_material_count", ctypes.c_size_t, [Handle]),
+    ("gradient_material_name", Text, [Handle, ctypes.c_size_t]),
     ("column_count", ctypes.c_size_t, []), ("column_name", Text, [ctypes.c_size_t]),
     ("write", ctypes.c_int, [Handle, Text, ctypes.POINTER(Handle), ctypes.c_size_t, _ERROR]))
 

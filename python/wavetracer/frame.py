@@ -11,17 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import Unique, encoded, shown
+from ._columns import read_only
 from ._library import Column, Counts, Handle, call, library
 from .errors import ConfigError
+from .gradients import Raw
 from .links import Ends, Links
 from .paths import Paths
 
 Array = NDArray[Any]
-_TYPES = {1: np.uint8, 2: np.uint32, 3: np.uint64, 4: np.float64, 5: np.complex128, 6: np.complex64}
-
 
 # Delays and amplitudes of rows of a frame between all pairs of elements; see Simulation._between_elements.
 Elements = Callable[[int, Array, tuple[int, int]], tuple[Array, Array]]
+# Derivatives of rows of a frame; see Simulation._gradient.
+Gradient = Callable[["int", "Array | None", int], Raw]
 
 
 class _Columns(Unique):
@@ -41,14 +43,8 @@ class _Columns(Unique):
                             "lists them")
         column = Column()
         call(library.wavetracer_frame_column, self.handle, encoded(name, "the name of a column"), ctypes.byref(column))
-        dtype: np.dtype[Any] = np.dtype(_TYPES[column.type])
-        memory: Any = (ctypes.c_uint8 * (column.rows * column.width * dtype.itemsize)).from_address(column.data)
-        memory.columns = self  # the view keeps its memory, and that keeps the frame
-        values = np.frombuffer(memory, dtype)
-        values.flags.writeable = False
-        if name == "a":
-            return values.reshape(column.rows, self.rx_ports, self.tx_ports)
-        return values if column.width == 1 else values.reshape(column.rows, column.width)
+        values = read_only(column, self)  # the view keeps these columns, and they keep the frame
+        return values.reshape(column.rows, self.rx_ports, self.tx_ports) if name == "a" else values
 
 
 class Frame(Unique):
@@ -60,9 +56,9 @@ class Frame(Unique):
                 "Simulation.write() and open the folder")
     __iter__ = None  # it has columns by name, and no order
 
-    def __init__(self, handle: int, ends: Ends, elements: Elements | None = None):
+    def __init__(self, handle: int, ends: Ends, elements: Elements | None, gradient: Gradient):
         self._columns = _Columns(handle)
-        self._ends, self._elements = ends, elements
+        self._ends, self._elements, self._gradient = ends, elements, gradient
         self.number: int = library.wavetracer_frame_number(handle)
         self.time_s: float = library.wavetracer_frame_time_s(handle)
         self.counts: Counts = library.wavetracer_frame_counts(handle)
@@ -83,9 +79,10 @@ class Frame(Unique):
     @property
     def paths(self) -> Paths:
         """All paths of the frame; their columns are views of the library's memory."""
-        elements = self._elements
+        elements, gradient = self._elements, self._gradient
         between = None if elements is None else lambda rows, shape: elements(self._columns.handle, rows, shape)
-        return Paths(self._columns, self._ends, links=self.links, elements=between)
+        return Paths(self._columns, self._ends, links=self.links, elements=between,
+                     gradient=lambda rows, wrt: gradient(self._columns.handle, rows, wrt))
 
     @property
     def links(self) -> Links:

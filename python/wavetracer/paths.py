@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _channel, _figures
 from ._arguments import each, integer
 from .errors import ConfigError
+from .gradients import Compute, Gradients, gradients
 from .links import Chosen, Ends, Links, places_of
 
 if TYPE_CHECKING:
@@ -63,9 +64,11 @@ class Paths:
     """
 
     def __init__(self, column: Callable[[str], Array], ends: Ends, places: tuple[list[int], list[int]] | None = None,
-                 links: Links | None = None, elements: Between | None = None, rows: Array | None = None):
+                 links: Links | None = None, elements: Between | None = None, rows: Array | None = None,
+                 gradient: Compute | None = None):
         self._column, self._ends, self._links = column, ends, links
         self._elements, self._rows = elements, rows  # rows: where these paths are in their frame, None: all of it
+        self._gradient = gradient
         self._tx, self._rx = places or (list(range(len(ends.transmitters))), list(range(len(ends.receivers))))
 
     # --- columns ---
@@ -243,7 +246,7 @@ class Paths:
             mask &= np.isin(self.kind, kinds)
         rows = np.flatnonzero(mask)
         chosen = Paths(_figures.rows_of(self._column, rows), self._ends, places, elements=self._elements,
-                       rows=rows if self._rows is None else self._rows[rows])
+                       rows=rows if self._rows is None else self._rows[rows], gradient=self._gradient)
         if self._links is not None:
             values = {name: self._links[name] for name in self._links.columns}
             wanted = np.isin(values["tx"], places[0]) & np.isin(values["rx"], places[1])
@@ -278,6 +281,24 @@ class Paths:
             values = {name: self._links[name] for name in Links.columns}
             there._links = Links(values | _figures.of_links(there, values["tx"], values["rx"]), ends)
         return there
+
+    # --- derivatives ---
+
+    def gradient(self, wrt: str | Iterable[str] = ("tx.position", "rx.position")) -> Gradients:
+        """Exact derivatives of coefficients, delays and angles, while each path keeps its surfaces and edges.
+
+        wrt: one or several of "tx.position", "rx.position" (m, in the axes of the scene; each path has the derivative by
+        its own ends), "tx.orientation", "rx.orientation" (small right-handed turns of the antenna about these axes, rad),
+        and "MATERIAL.PROPERTY" with * and ? as in shells: permittivity, conductivity (S/m), thickness (m), scattering, and
+        for vegetation attenuation (dB/m) and most_attenuation (dB). "*" is all materials that paths depend on.
+
+        gradient("rx.position")["rx.position"].delay_s has shape (paths, 3). The host computes them, at the first carrier,
+        for a frame of a simulation that is open; paths of a file have none.
+        """
+        if self._gradient is None:
+            raise ConfigError("these paths have no derivatives: they are of a file, copied, or at another carrier than the "
+                              "first; compute their frame with wavetracer.Simulation, and ask its paths")
+        return gradients(np.array(self.a), self._gradient, self._rows, wrt)
 
     # --- channels ---
 

@@ -18,6 +18,7 @@ from ._library import Doubles, Observer, Sizes, Text, call, library, text
 from ._session import Session
 from .errors import ConfigError, FrameStopped, InputError
 from .frame import Frame, handles
+from .gradients import Raw, raw_gradient
 from .links import Ends
 from .runs import Run
 
@@ -131,7 +132,7 @@ class Simulation(Unique):
             library.wavetracer_observe(handle, observer, None)
             try:
                 return Frame(call(library.wavetracer_run_frame, handle, number), self._ends,
-                             self._between_elements if self._arrays else None)
+                             self._between_elements if self._arrays else None, self._gradient)
             except FrameStopped:
                 if failed:
                     raise failed[0] from None
@@ -188,6 +189,11 @@ class Simulation(Unique):
             call(library.wavetracer_element_paths, handle, frame, wanted.ctypes.data_as(Sizes), len(wanted), *shape,
                  delay_s.ctypes.data_as(Doubles), amplitude.ctypes.data_as(Doubles))
         return delay_s, amplitude
+
+    def _gradient(self, frame: int, rows: Array | None, wrt: int) -> Raw:
+        """Derivatives of rows of a frame (None: all), by a sum of enum wavetracer_wrt."""
+        with self._session.use("derivatives of paths") as handle:
+            return raw_gradient(handle, frame, rows, wrt)
 
     def forget(self) -> None:
         """The next frame is cold: it reuses nothing of earlier ones."""
