@@ -2,6 +2,7 @@
 """The page docs/validation.md of the results: every number in it is one of bench/validation/results/*.json, or made of them."""
 import numpy as np
 
+import page_crossings
 import page_streets
 from page_parts import gnuplot, measured, table
 
@@ -133,7 +134,7 @@ The files of a campaign contain no map. The head of each configuration in `confi
 
 def text(results):
     return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"]),
-                      page_streets.section(results["streets"]), CAMPAIGNS])
+                      page_streets.section(results["streets"]), page_crossings.section(results["crossings"]), CAMPAIGNS])
 
 
 def draw(results, folder):

@@ -3,7 +3,7 @@
 """Makes docs/validation.md: solves the scenes of each part, keeps the numbers in bench/validation/results/PART.json, draws
 the figures, and writes the page. `./dev validation` builds what it needs and starts it.
 
-Usage: validate.py [PART...] [--page]; PART is edges, laws or streets, by default all; --page only writes the page anew.
+Usage: validate.py [PART...] [--page]; PART is edges, laws, streets or crossings, by default all; --page only writes the page anew.
 """
 import argparse
 import datetime
@@ -41,7 +41,12 @@ def streets():
     return compare.all_links()
 
 
-PARTS = {"edges": edges, "laws": laws, "streets": streets}
+def crossings():
+    import crossings as links_at_crossings
+    return links_at_crossings.all_links()
+
+
+PARTS = {"edges": edges, "laws": laws, "streets": streets, "crossings": crossings}
 
 
 def results():
