@@ -112,17 +112,17 @@ The documents of the ITU and of 3GPP were not at hand. The formulas come from tr
 
 
 CAMPAIGNS = """## Measurement campaigns
-If you have the files of a campaign, one command compares them with computed channels. It prints for each route the number of points, how many have a path, the offset (the mean of measured minus computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so only the levels relative to the offset are compared. A path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes one point of N.
+If you have the files of a campaign, one command compares them with computed channels. It prints for each route the number of points, how many have a path, the offset (the mean of measured minus computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so only the levels relative to the offset are compared. A path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes one point of N. `--shift X Y` adds metres to the places of files whose coordinates are not those of the map.
 
 ```sh
-python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv
+python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv --shift 1200 1699.27
 python3 -m wavetracer.measurements berlin -c configs/measurements/berlin.toml sidelink_dataframe.csv --every 10
 python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.toml vehNo_01_RxCAM_HP.log
 ```
 
 | campaign | files | how they are read |
 | --- | --- | --- |
-| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration |
+| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration, in the coordinates of the public map; those of propagationtools.com are less by (1200, 1699.27), hence the shift |
 | Berlin V2X, sidelink, 5.9 GHz | `sidelink_dataframe.parquet`, written as CSV by pandas (`to_csv`) | columns `Latitude_source`, `Longitude_source`, `Latitude_destination`, `Longitude_destination`, `Source`, `Destination`, `Scenario` and a level, `--level RSRP`, `RSSI` or `SNR`; a route per scenario and pair of cars |
 | FLOURISH, Bristol, 5.9 GHz | `NAME_RxCAM_HP.log` with `NAME_tcpDump_HP.log` beside it, as the authors' scripts grep them (github.com/v2x-dev/ITS-G5_trials) | places of receivers and levels, joined by the sender's address and the number of the message; a route per sender |
 
