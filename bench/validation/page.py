@@ -3,11 +3,12 @@
 import numpy as np
 
 import page_crossings
+import page_measured
 import page_streets
 from page_parts import gnuplot, measured, table
 
 EDGES = "validation_edges.svg"
-FIGURES = (EDGES, page_streets.LOSS)
+FIGURES = (EDGES, page_streets.LOSS, page_measured.STREETS, page_measured.HALLWAY)
 
 
 def ours(row):
@@ -105,7 +106,7 @@ def laws_section(result):
 
 
 HEAD = """# Validation
-This page compares the program with published recommendations, with models that were fitted to measurements, and with laws of physics. It has [no comparison with measured channels](#measurement-campaigns). `./dev validation` generates the page from `bench/validation` and computes every number in it, so do not edit the page. [method.md](method.md#what-is-exact-and-what-is-sampled) says what is exact by construction and what is sampled.
+This page compares the program with published recommendations, with models that were fitted to measurements, and with laws of physics. It also compares it with [measured levels](#measured-levels) of two public sets. `./dev validation` generates the page from `bench/validation` and computes every number in it, so do not edit the page. [method.md](method.md#what-is-exact-and-what-is-sampled) says what is exact by construction and what is sampled.
 
 The documents of the ITU and of 3GPP were not at hand. The formulas come from transcriptions, which the files in `bench/validation` name beside each formula. The test `validation_models` compares the formulas with values that others have computed.
 """
@@ -128,15 +129,17 @@ python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.tom
 
 The files of a campaign contain no map. The head of each configuration in `configs/measurements` says how to make the map, and has the heights of the antennas. If both ends have positions in degrees, every row becomes a frame, with a vehicle of the type `sender` and one of the type `receiver`. The configuration defines the bodies of these vehicles. They look east, because headings are not read.
 
-**None of these files was at hand, so this page claims no number.** The readers follow the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which identify the fields by their places. These scripts do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line. Rows that state that they have no position or level are left out and counted.
+**None of these files was at hand, so this section claims no number.** The readers follow the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which identify the fields by their places. These scripts do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line. Rows that state that they have no position or level are left out and counted.
 """
 
 
 def text(results):
     return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"]),
-                      page_streets.section(results["streets"]), page_crossings.section(results["crossings"]), CAMPAIGNS])
+                      page_streets.section(results["streets"]), page_crossings.section(results["crossings"]),
+                      page_measured.section(results["measured"]), CAMPAIGNS])
 
 
 def draw(results, folder):
+    """The figures of the results; page_measured.draw needs the measured data."""
     draw_edges(results["edges"], folder)
     page_streets.draw(results["streets"], folder)
