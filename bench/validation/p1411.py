@@ -43,3 +43,15 @@ def corner(frequency_ghz, x1_m, x2_m, street_m, h1_m, h2_m):
     turning = CORNER_DB / np.log10(1 + CORNER_M) * np.log10(np.maximum(beyond, 1))
     far = 60 * np.log10((x1 + x2) / (x1 + street_m / 2 + CORNER_M))
     return los + np.where(beyond > 1 + CORNER_M, CORNER_DB + far, np.where(beyond > 1, turning, 0.0))
+
+
+def one_turn(frequency_ghz, x1_m, x2_m, h1_m, h2_m, road_m=0.0):
+    """Section 4.3.2.2, one turn, 0.43 to 4.86 GHz: terminals 1.5 to 4 m high in two streets that cross, x1 and x2 from the
+    crossing, up to 1 km apart. Up to 30 m behind the crossing, powers go over linearly from those of sight."""
+    x1, x2 = np.asarray(x1_m, float), np.asarray(x2_m, float)
+    share = 3.45e4 * (frequency_ghz * 1e9) ** -0.46
+    border = max(share**2, 30.0)
+    beyond = np.maximum(x2, border)
+    turn = x1 * beyond / (x1 + beyond) / share**2
+    weight = np.minimum(x2 / border, 1)
+    return los_bounds(frequency_ghz, x1 + x2, h1_m, h2_m, road_m)[1] + 10 * np.log10(1 - weight + weight * turn)

@@ -2,11 +2,13 @@
 """The page docs/validation.md of the results: every number in it is one of bench/validation/results/*.json, or made of them."""
 import numpy as np
 
+import page_crossings
+import page_measured
 import page_streets
 from page_parts import gnuplot, measured, table
 
 EDGES = "validation_edges.svg"
-FIGURES = (EDGES, page_streets.LOSS)
+FIGURES = (EDGES, page_streets.LOSS, page_measured.STREETS)
 
 
 def ours(row):
@@ -104,38 +106,40 @@ def laws_section(result):
 
 
 HEAD = """# Validation
-This page compares the program with published recommendations, with models that were fitted to measurements, and with laws of physics. It has [no comparison with measured channels](#measurement-campaigns). `./dev validation` generates the page from `bench/validation` and computes every number in it, so do not edit the page. [method.md](method.md#what-is-exact-and-what-is-sampled) says what is exact by construction and what is sampled.
+This page compares the program with published recommendations, with models that were fitted to measurements, and with laws of physics. It also compares it with [measured levels](#measured-levels) of two public sets. `./dev validation` generates the page from `bench/validation` and computes every number in it, so do not edit the page. [method.md](method.md#what-is-exact-and-what-is-sampled) says what is exact by construction and what is sampled.
 
 The documents of the ITU and of 3GPP were not at hand. The formulas come from transcriptions, which the files in `bench/validation` name beside each formula. The test `validation_models` compares the formulas with values that others have computed.
 """
 
 
 CAMPAIGNS = """## Measurement campaigns
-If you have the files of a campaign, one command compares them with computed channels. It prints for each route the number of points, how many have a path, the offset (the mean of measured minus computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so only the levels relative to the offset are compared. A path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes one point of N.
+If you have the files of a campaign, one command compares them with computed channels. It prints for each route the number of points, how many have a path, the offset (the mean of measured minus computed gain), the deviation about it, and the rank correlation of Spearman. Powers and antennas of campaigns are not known well, so only the levels relative to the offset are compared. A path loss counts with its sign changed. `--points FILE` writes every point, `--every N` takes one point of N. `--shift X Y` adds metres to the places of files whose coordinates are not those of the map.
 
 ```sh
-python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv
+python3 -m wavetracer.measurements cost231 -c configs/measurements/cost231.toml METRO200.csv METRO201.csv METRO202.csv --shift 1200 1699.27
 python3 -m wavetracer.measurements berlin -c configs/measurements/berlin.toml sidelink_dataframe.csv --every 10
 python3 -m wavetracer.measurements flourish -c configs/measurements/flourish.toml vehNo_01_RxCAM_HP.log
 ```
 
 | campaign | files | how they are read |
 | --- | --- | --- |
-| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration |
+| COST 231, Munich, 947 MHz | METRO 200, 201, 202 as CSV | X, Y, Z in metres and the path loss in dB; a file per route. The transmitter is that of the configuration, in the coordinates of the public map; those of propagationtools.com are less by (1200, 1699.27), hence the shift |
 | Berlin V2X, sidelink, 5.9 GHz | `sidelink_dataframe.parquet`, written as CSV by pandas (`to_csv`) | columns `Latitude_source`, `Longitude_source`, `Latitude_destination`, `Longitude_destination`, `Source`, `Destination`, `Scenario` and a level, `--level RSRP`, `RSSI` or `SNR`; a route per scenario and pair of cars |
 | FLOURISH, Bristol, 5.9 GHz | `NAME_RxCAM_HP.log` with `NAME_tcpDump_HP.log` beside it, as the authors' scripts grep them (github.com/v2x-dev/ITS-G5_trials) | places of receivers and levels, joined by the sender's address and the number of the message; a route per sender |
 
 The files of a campaign contain no map. The head of each configuration in `configs/measurements` says how to make the map, and has the heights of the antennas. If both ends have positions in degrees, every row becomes a frame, with a vehicle of the type `sender` and one of the type `receiver`. The configuration defines the bodies of these vehicles. They look east, because headings are not read.
 
-**None of these files was at hand, so this page claims no number.** The readers follow the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which identify the fields by their places. These scripts do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line. Rows that state that they have no position or level are left out and counted.
+**None of these files was at hand, so this section claims no number.** The readers follow the published descriptions: propagationtools.com for COST 231, `metadata/sidelink_info.csv` of github.com/fraunhoferhhi/BerlinV2X, and the scripts of FLOURISH, which identify the fields by their places. These scripts do not say which of the two positions in a line of RxCAM is the receiver's; the reader takes `GpsLon` and `GpsLat`. The test `python_measurements` reads small files of these forms, in free space, where the answer is known. A row that cannot be read is an error with its file and line. Rows that state that they have no position or level are left out and counted.
 """
 
 
 def text(results):
     return "\n".join([HEAD, edges_section(results["edges"]), laws_section(results["laws"]),
-                      page_streets.section(results["streets"]), CAMPAIGNS])
+                      page_streets.section(results["streets"]), page_crossings.section(results["crossings"]),
+                      page_measured.section(results["measured"]), CAMPAIGNS])
 
 
 def draw(results, folder):
+    """The figures of the results; page_measured.draw needs the measured data."""
     draw_edges(results["edges"], folder)
     page_streets.draw(results["streets"], folder)

@@ -42,6 +42,23 @@ def around_corner(one, other):
     return np.where(crossed, x1, np.nan), np.where(crossed, x2, np.nan)
 
 
+def vehicles_around_corner(positions):
+    """Distances of both ends of each pair of vehicles from the crossing of their streets, and from the wall of their street
+    on the side of the other end, each of shape (vehicles, vehicles); NaN where the streets are parallel or a vehicle stands
+    in a crossing. The second index counts the other end."""
+    near = np.abs(positions[:, :2] - BLOCK_M * np.round(positions[:, :2] / BLOCK_M)) < STREET_M / 2
+    axis = np.where(near[:, 1], 0, 1)  # a street along x has a line of constant y
+    inside = near.sum(axis=1) == 1
+    places = np.arange(len(positions))
+    along, across = positions[places, axis], positions[places, 1 - axis]
+    line = BLOCK_M * np.round(across / BLOCK_M)
+    crossed = inside[:, None] & inside & (axis[:, None] != axis)
+    side = np.sign(along[None, :] - line[:, None])  # the other vehicle is on this side of one's own street
+    wall = STREET_M / 2 - side * (across - line)[:, None]
+    return {key: np.where(crossed, value, np.nan) for key, value in (
+        ("end_m", np.abs(along[:, None] - line)), ("wall_m", wall))}
+
+
 def solved(config, positions, receivers, trace=TRACE):
     """Paths from these positions to those, at each carrier."""
     def ends(side, places):
@@ -92,7 +109,7 @@ LINKED = ["veh?/roof", "veh1?/roof", "veh2?/roof"]  # the passenger cars among t
 
 def city_vehicles(seed, vehicles=200):
     """Pairs of LINKED, each pair once; a table per carrier. `los` and figures without vehicles, and those among all vehicles
-    as columns ..._traffic."""
+    as columns ..._traffic. first_... and second_... are what vehicles_around_corner says of both ends."""
     busy = common()
     busy["links"] = {**busy["links"], "transmitters": LINKED, "receivers": LINKED}
     drive = {**city(seed), **busy,
@@ -105,10 +122,12 @@ def city_vehicles(seed, vehicles=200):
     positions, n, out = all_places[chosen], len(all_places), []
     block = np.ix_(chosen, chosen)
     once = np.triu(np.ones((len(chosen), len(chosen)), bool), 1)
+    corners = {f"{end}_{key}": value if end == "first" else value.T
+               for key, value in vehicles_around_corner(positions).items() for end in ("first", "second")}
     for i, paths in enumerate(solved(city(seed), positions, positions)):
         around = {**links.figures(among.at_carrier(i), n, n), "los": links.line_of_sight(among, n, n)}
         traffic = {f"{key}_traffic": column.reshape(n, n)[block] for key, column in around.items()}
-        out.append(once_each(table(paths, positions, positions, once=once, **traffic)))
+        out.append(once_each(table(paths, positions, positions, once=once, **corners, **traffic)))
     return out
 
 

@@ -3,7 +3,9 @@
 """Makes docs/validation.md: solves the scenes of each part, keeps the numbers in bench/validation/results/PART.json, draws
 the figures, and writes the page. `./dev validation` builds what it needs and starts it.
 
-Usage: validate.py [PART...] [--page]; PART is edges, laws or streets, by default all; --page only writes the page anew.
+Usage: validate.py [PART...] [--page] [--data FOLDER --sionna FILE]; PART is edges, laws, streets, crossings or measured. By
+default all parts are solved; measured only with its data: FOLDER has the measured levels that docs/validation.md names, and
+sionna_levels.py writes FILE. --page only writes the page anew.
 """
 import argparse
 import datetime
@@ -14,6 +16,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 RESULTS = HERE / "results"
+FIGURES = HERE.parents[1] / "docs/figures"
 
 
 def rounded(value):
@@ -41,18 +44,31 @@ def streets():
     return compare.all_links()
 
 
-PARTS = {"edges": edges, "laws": laws, "streets": streets}
+def crossings():
+    import crossings as links_at_crossings
+    return links_at_crossings.all_links()
+
+
+def measured(data, sionna):
+    import measured as levels
+    import page_measured
+    result, points = levels.all_sets(data, sionna)
+    page_measured.draw(points, FIGURES)
+    return result
+
+
+PARTS = {"edges": edges, "laws": laws, "streets": streets, "crossings": crossings, "measured": measured}
 
 
 def results():
     return {part: json.loads((RESULTS / f"{part}.json").read_text(encoding="utf-8")) for part in PARTS}
 
 
-def solve(part):
+def solve(part, **inputs):
     import wavetracer as wt
     device = wt.Simulation({"scene": {"generate": "--blocks 2x2"}, "transmitter": [{"name": "a", "position_m": [0, 0, 2]}],
                             "receiver": [{"name": "b", "position_m": [9, 0, 2]}]}).device
-    values = rounded(PARTS[part]())
+    values = rounded(PARTS[part](**inputs))
     head = {"device": device, "date": datetime.date.today().isoformat(), "version": wt.__version__}
     RESULTS.mkdir(exist_ok=True)
     lines = [f"{json.dumps(key)}: " + ("[\n" + ",\n".join(map(json.dumps, value)) + "]" if isinstance(value, list)
@@ -64,12 +80,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("parts", nargs="*", choices=[[], *PARTS], metavar="PART")
     parser.add_argument("--page", action="store_true")
+    parser.add_argument("--data", type=pathlib.Path, metavar="FOLDER")
+    parser.add_argument("--sionna", type=pathlib.Path, metavar="FILE")
     options = parser.parse_args()
-    for part in [] if options.page else options.parts or PARTS:
+    given = options.data is not None and options.sionna is not None
+    if "measured" in options.parts and not given:
+        parser.error("measured needs --data FOLDER and --sionna FILE: docs/validation.md, \"Measured levels\", says what they are")
+    for part in [] if options.page else options.parts or [part for part in PARTS if given or part != "measured"]:
         print(f"solving: {part}", flush=True)
-        solve(part)
+        solve(part, **({"data": options.data, "sionna": options.sionna} if part == "measured" else {}))
     import page
-    page.draw(results(), HERE.parents[1] / "docs/figures")
+    page.draw(results(), FIGURES)
     (HERE.parents[1] / "docs/validation.md").write_text(page.text(results()), encoding="utf-8")
 
 

@@ -62,6 +62,14 @@ def thinned(route: Route, every: int) -> Route:
     return Route(route.name, route.senders[::every], route.receivers[::every], route.gain_db[::every], route.left_out)
 
 
+def shifted(route: Route, by: Sequence[float]) -> Route:
+    """The route with `by` = (X, Y) metres added to its places, which are x, y, z in metres."""
+    if route.senders:
+        raise InputError(f"{route.name}: --shift moves places in metres, and this campaign has degrees: leave it out")
+    moved = [(place[0] + by[0], place[1] + by[1], *place[2:]) for place in route.receivers]
+    return Route(route.name, route.senders, moved, route.gain_db, route.left_out)
+
+
 def computed_gains(config: pathlib.Path, routes: Sequence[Route], device: str | None = None) -> list[Array]:
     """The path gain (dB, the sum of powers) of every point, -inf without a path."""
     if all(route.senders for route in routes if route.receivers):
@@ -148,6 +156,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("-c", "--config", type=pathlib.Path, required=True, help="the map, the carrier and the antennas")
     parser.add_argument("--level", help="the column of the received level, where there are several: RSRP, RSSI, SNR")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="only every Nth point of each route")
+    parser.add_argument("--shift", type=float, nargs=2, metavar=("X", "Y"),
+                        help="metres to add to the places of the files, if the map has other coordinates")
     parser.add_argument("--points", type=pathlib.Path, metavar="FILE", help="write measured and computed gains as CSV")
     parser.add_argument("--device", help="part of the name of an OpenCL device")
     options = parser.parse_args(arguments)
@@ -156,6 +166,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.every < 1:
             raise InputError(f"--every {options.every}: give 1 or more")
         routes = [thinned(route, options.every) for file in options.files for route in read(file, options.level or level)]
+        if options.shift:
+            if not np.all(np.isfinite(options.shift)):
+                raise InputError(f"--shift {options.shift[0]} {options.shift[1]}: give two numbers of metres")
+            routes = [shifted(route, options.shift) for route in routes]
         if not any(route.receivers for route in routes):
             raise InputError(f"{', '.join(map(str, options.files))}: no point with a position and a level")
         computed = computed_gains(options.config, routes, options.device)

@@ -124,6 +124,15 @@ def check_cost231(folder):
     assert len(points) == 28 and points[21].startswith("METRO201,0,"), points[:2]
     code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "METRO200.csv", "--every", 4)
     assert code == 0 and rows(out)["METRO200"][0] == 5, (out, err)
+    moved = [f"{x - 1200},{y - 1699.25},{z},{loss:.4f}" for (x, y, z), loss in zip(places, losses)]
+    (folder / "moved.csv").write_text("\n".join(moved) + "\n")
+    code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "moved.csv", "--shift", 1200, 1699.25)
+    assert code == 0, err
+    expect(rows(out)["moved"], 20, -6, 0)
+    code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "moved.csv")
+    assert code == 0 and rows(out)["moved"][3] > 1, (out, err)  # elsewhere, other levels
+    code, out, err = run("cost231", "-c", folder / "cost.toml", folder / "moved.csv", "--shift", "nan", 0)
+    assert code == 3 and "--shift nan 0.0: give two numbers" in err, err
     for text, wanted in (("1,2,3\n", ":1: 3 columns instead"), ("1,2,3,4\n5,6,x,7\n", ":2: Z is 'x'"),
                          ("\nX,Y,Z,L\n1,2,3,nan\n", ":3: the path loss is 'nan'"), ("X,Y,Z,L\n", "no point with a position")):
         (folder / "broken.csv").write_text(text)
@@ -157,6 +166,8 @@ def check_berlin(folder):
     (folder / "one.csv").write_text("\n".join(lines[:2]) + "\n")
     code, out, err = run("berlin", "-c", folder / "pairs.toml", folder / "one.csv")
     assert code == 0 and rows(out)["S1 1->3"][:2] == (1, 1) and "nan" in out, (out, err)  # one point has no deviation
+    code, out, err = run("berlin", "-c", folder / "pairs.toml", folder / "sidelink.csv", "--shift", 1, 2)
+    assert code == 3 and "has degrees" in err and "S1 1->3" in err, err
     code, out, err = run("berlin", "-c", folder / "pairs.toml", folder / "sidelink.csv", "--level", "RSSI")
     assert code == 3 and "no column RSSI" in err, err
 

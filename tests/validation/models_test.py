@@ -18,6 +18,7 @@ import p526
 import p1411
 import tr37885
 import tr38901
+import virtualsource11p
 
 
 def near(got, wanted, tolerance, what):
@@ -67,6 +68,47 @@ def check_p1411():
     for x2, wanted in ((5, 0), (11, 0), (40, 20 / np.log10(31) * np.log10(30)), (41, 20), (41.0001, 20),
                        (140, 20 + 60 * np.log10(2))):
         near(p1411.corner(28, 60, x2, 20, 10, 1.5) - los, wanted, 0.3 if x2 == 41.0001 else 1e-9, f"corner, {x2} m")
+
+    # One turn at 1 GHz by hand: S1 = 3.45e4 * 10^-4.14 = 2.49931, and both powers alike up to 30 m behind the crossing.
+    for x2, wanted in ((0, 0), (15, 10 * np.log10((1 + 23.0769 / 6.24655) / 2)), (30, 10 * np.log10(23.0769 / 6.24655)),
+                       (100, 16.9897 - 7.9564)):
+        los = p1411.los_bounds(1, 100 + x2, 1.6, 1.6)[1]
+        near(p1411.one_turn(1, 100, x2, 1.6, 1.6) - los, wanted, 1e-3, f"one turn, {x2} m")
+
+
+def check_crossings():
+    # By hand: both ends 100 m from the crossing, the product of widths 100 m^2, 4 pi / wavelength = 10^2.3932302 per metre.
+    loss = virtualsource11p.path_loss
+    near(loss(100, 100, 20, 5), 3.75 + 26.9 * (2 * 0.957 - 2 * 0.81 + 2 + 2.3932302), 1e-4, "VirtualSource11p")
+    near(loss(100, 100, 20, 5, suburban=True) - loss(100, 100, 20, 5), 2.94, 1e-9, "suburban")
+    near(loss(1000, 100, 20, 5) - loss(100, 100, 20, 5), 25.7433, 1e-9, "a decade of the transmitter's distance")
+    near(loss(100, 100, 20, 50) - loss(100, 100, 20, 5), -21.789, 1e-9, "a decade of the distance to the wall")
+    near(loss(100, 100, 200, 5) - loss(100, 100, 20, 5), -21.789, 1e-9, "a decade of the street's width")
+    near(loss(100, 180, 20, 5) - loss(100, 18, 20, 5), 26.9, 1e-9, "a decade before the breakpoint")
+    near(loss(100, 1800, 20, 5) - loss(100, 180, 20, 5), 53.8, 1e-9, "a decade beyond")
+    near(loss(100, 180.0001, 20, 5) - loss(100, 179.9999, 20, 5), 0, 1e-3, "both branches meet")
+
+
+def check_corners():
+    """Four vehicles in the grid of streets, 100 m apart and 20 m wide: A and B meet at (100, 0), D and B at (100, 100); C
+    stands in a crossing, and A and D drive in parallel streets."""
+    import crossings
+    import streets
+    place = np.array([[30, 2, 1.6], [103, 60, 1.6], [3, 4, 1.6], [-50, 98, 1.6]], float)
+    found = streets.vehicles_around_corner(place)
+    none = np.nan
+    for key, wanted in (("end_m", [[none, 70, none, none], [60, none, none, 40], [none] * 4, [none, 150, none, none]]),
+                        ("wall_m", [[none, 8, none, none], [13, none, none, 13], [none] * 4, [none, 8, none, none]])):
+        assert np.allclose(found[key], wanted, atol=1e-9, equal_nan=True), (key, found[key])
+    rows = {"los": np.array([False, True, False]), "d_m": np.array([92.0, 1, 2]),
+            **{f"loss_db_{name}": np.array([99.0, 1, 2]) for name in crossings.VARIANTS},
+            **{f"{end}_{key}": np.array([found[key][pair], 30, none]) for end, pair in (("first", (0, 1)), ("second", (1, 0)))
+               for key in found}}
+    both = crossings.both_ways(rows)
+    assert [both[key].tolist() for key in ("transmitter_m", "receiver_m", "wall_m", "d_m")] == [
+        [70, 60], [60, 70], [8, 13], [92, 92]], both
+    bin_ = crossings.beside({**both, "loss_db_with": np.array([99.0, np.inf])}, 0, 65, "with")
+    assert (bin_["links"], bin_["heard"], bin_["weak"]) == (1, 1, 0), bin_
 
 
 def check_edges():
@@ -132,6 +174,8 @@ def main():
     check_3gpp()
     check_figures()
     check_p1411()
+    check_crossings()
+    check_corners()
     check_edges()
     print("all formulas hold")
 
