@@ -4,10 +4,9 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/named_files.hpp"
 #include "app/study_host.hpp"
+#include "app/written_files.hpp"
 #include "calibration/report.hpp"
-#include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 
 namespace wavetracer::app {
@@ -15,29 +14,22 @@ namespace {
 
 struct CalibrateOptions {
   calibration::Request request;
-  std::string directory = "out/calibration", fit = "*", offsets = "all";
+  std::vector<std::string> fit = {"*"};
+  std::string directory = "out/calibration", offsets = "all";
 };
 
-std::vector<std::string> split_at_commas(const std::string& text) {
+std::vector<std::string> patterns_of(const std::vector<std::string>& fit) {
   std::vector<std::string> out;
-  for (size_t first = 0; first <= text.size();) {
-    const size_t end = std::min(text.find(',', first), text.size());
-    std::string part = text.substr(first, end - first);
-    part.erase(0, part.find_first_not_of(' '));
-    part.erase(part.find_last_not_of(' ') + 1);
-    if (!part.empty()) out.push_back(std::move(part));
-    first = end + 1;
-  }
-  return out;
+  for (std::string part : fit)
+    if (!CLI::detail::trim(part).empty()) out.push_back(std::move(part));
+  return out == std::vector<std::string>{"none"} ? std::vector<std::string>() : out;
 }
 
 void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   calibration::Request request = options.request;
   request.offsets = calibration::Offsets::named(options.offsets);
-  request.patterns = options.fit == "none" ? std::vector<std::string>() : split_at_commas(options.fit);
-  const std::filesystem::path folder = std::filesystem::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
+  request.patterns = patterns_of(options.fit);
+  const std::filesystem::path folder = begin_study(options.directory);
   Progress progress;
   const calibration::Calibration result = calibration::calibrate(request, study_host(progress));
   if (result.stopped) {
@@ -47,9 +39,7 @@ void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   for (const std::string& warning : result.warnings) progress.line("warning: " + warning);
   const calibration::Written written = calibration::write_calibration(result, invocation.command_line, folder);
   if (!written.problem.empty()) progress.line(written.problem);
-  std::cout << calibration::calibration_text(result) << "\nwritten    ";
-  for (size_t i = 0; i < written.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << written.files[i].string();
-  std::cout << std::endl;
+  std::cout << calibration::calibration_text(result) << "\n" << written_line(written.files) << std::flush;
 }
 
 }  // namespace
@@ -73,6 +63,8 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
                    "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
                    "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
                    "the first two; none: only compare")
+      ->delimiter(',')
+      ->allow_extra_args(false)
       ->capture_default_str();
   command
       ->add_option("--offset", options->offsets,

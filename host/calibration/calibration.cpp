@@ -43,7 +43,8 @@ class Calibrating {
     read_files();
     host_.tell("finding paths", 0, 1, "frames");
     Stopwatch watch;
-    world_.emplace(request_.config, request_.sets, out_.files, request_.device);
+    const Config config = config_of_places(request_.config, request_.sets);
+    world_.emplace(config, out_.files, request_.device);
     out_.solve_s = watch.lap();
     out_.paths = world_->paths();
     out_.device = world_->device();
@@ -61,7 +62,7 @@ class Calibrating {
     }
     out_.fit_s = watch.lap();
     out_.agreements = agreements();
-    out_.config = fitted_config(request_.config, request_.sets, out_.parameters, out_.fit.theta);
+    out_.config = fitted_config(config, world_->materials(), out_.parameters, out_.fit.theta);
     return std::move(out_);
   }
 
@@ -168,9 +169,7 @@ class Calibrating {
                             : fit(problem_, *model_, takes, out_.fit.theta);
       evaluations_before_ += model_->evaluations();
       const std::vector<Computed> approximate = world_->values(records(out_.fit.theta));
-      Stopwatch watch;
       after = world_->weigh(records(out_.fit.theta), shares_left_out[std::min<size_t>(round + 1, 2)]);
-      out_.evaluation_s = watch.lap();
       if (round > 0 && largest_difference_db(approximate, after) < tolerated_db) break;
     }
     note_fit();

@@ -53,9 +53,8 @@ struct Calibration {
   DeviceSummary device;
   std::vector<std::string> notes, warnings;
   size_t paths = 0, paths_that_matter = 0, evaluations = 0;
-  double solve_s = 0, fit_s = 0,
-         evaluation_s = 0;  // times of finding the paths, of all fits, of the fields of all paths once
-  bool stopped = false;     // it was interrupted, and nothing below `files` is complete
+  double solve_s = 0, fit_s = 0;  // times of finding the paths, and of all fits
+  bool stopped = false;           // it was interrupted, and nothing below `files` is complete
 };
 
 // Throws ConfigError, InputError or DeviceError.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include "output/median.hpp"
 
 namespace wavetracer::calibration {
 namespace {
@@ -43,12 +45,8 @@ Cost below_cost(double u, double s) {
   return {cost, ratio / s, std::max(0.0, ratio * (ratio + u)) / (s * s)};
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+// Returns 0 for an empty list.
+double median_or_0(std::vector<double> values) { return values.empty() ? 0 : median(std::move(values)); }
 
 class Fit {
  public:
@@ -95,7 +93,7 @@ class Fit {
     for (const size_t i : used_)
       if (const Datum& datum = problem_.data[i]; datum.offset && !datum.below)
         of[*datum.offset].push_back(datum.value - values[i]);
-    for (size_t i = 0; i < of.size(); ++i) out_.offsets[i] = median(std::move(of[i]));
+    for (size_t i = 0; i < of.size(); ++i) out_.offsets[i] = median_or_0(std::move(of[i]));
   }
 
   // 1.4826 times the median of |r| is the deviation of normal residuals; few outliers hardly change it.
@@ -106,7 +104,7 @@ class Fit {
       if (!problem_.data[i].below) of[problem_.data[i].kind].push_back(std::abs(residual(values, i)));
     out_.deviations.clear();
     for (std::vector<double>& sizes : of)
-      out_.deviations.push_back(std::max(least_deviation, 1.4826 * median(std::move(sizes))));
+      out_.deviations.push_back(std::max(least_deviation, 1.4826 * median_or_0(std::move(sizes))));
   }
 
   void find_objective() {

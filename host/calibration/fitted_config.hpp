@@ -12,8 +12,10 @@ namespace wavetracer::calibration {
 // Reads a configuration whose receivers may be missing: measured places take their part.
 Config config_of_places(const std::string& file, const std::vector<std::string>& sets);
 
-// Returns the configuration of the file with the parameters at these values of theta, in [[material]] tables.
-Config fitted_config(const std::string& file, const std::vector<std::string>& sets,
-                     std::span<const Parameter> parameters, std::span<const double> theta);
+// Returns the configuration with the parameters at these values of theta, in [[material]] tables. A material of which
+// permittivity or conductivity is fitted gets both as constants at the carrier, in place of a law over frequency.
+// world: the records of the configuration itself.
+Config fitted_config(Config config, const NamedRecords& world, std::span<const Parameter> parameters,
+                     std::span<const double> theta);
 
 }  // namespace wavetracer::calibration

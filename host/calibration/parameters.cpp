@@ -29,19 +29,6 @@ double imaginary_part(double frequency_hz) {
   return 1 / (2 * std::numbers::pi * frequency_hz * vacuum_permittivity_f_m);
 }
 
-double value_in(const device::wt_material& record, Property property, double frequency_hz) {
-  switch (property) {
-    case Property::permittivity:
-      return record.permittivity[0];
-    case Property::conductivity:
-      return -record.permittivity[1] / imaginary_part(frequency_hz);
-    case Property::thickness:
-      return record.thickness_m;
-    default:
-      return record.scattering;
-  }
-}
-
 void set_value(device::wt_material& record, Property property, double value, double frequency_hz) {
   switch (property) {
     case Property::permittivity:
@@ -62,7 +49,7 @@ void set_value(device::wt_material& record, Property property, double value, dou
 std::string obstacle(const device::wt_material& record, Property property, const NamedRecords& world) {
   if (std::hypot(record.permittivity[0], record.permittivity[1]) > WT_CONDUCTS)
     return "it is a good conductor, which reflects everything";
-  const double value = value_in(record, property, world.frequency_hz);
+  const double value = value_of(record, property, world.frequency_hz);
   if (property == Property::permittivity) return value > 1 ? "" : "it is that of air";
   if (property == Property::thickness)
     return value > 0 && std::isfinite(value) ? "" : fmt::format("it is {:g} m in the configuration", value);
@@ -96,6 +83,19 @@ Pattern parse_pattern(const std::string& text) {
 std::string name_of(Property property) { return property_names[static_cast<size_t>(property)]; }
 std::string unit_of(Property property) { return units[static_cast<size_t>(property)]; }
 
+double value_of(const device::wt_material& record, Property property, double frequency_hz) {
+  switch (property) {
+    case Property::permittivity:
+      return record.permittivity[0];
+    case Property::conductivity:
+      return std::abs(record.permittivity[1]) / imaginary_part(frequency_hz);
+    case Property::thickness:
+      return record.thickness_m;
+    default:
+      return record.scattering;
+  }
+}
+
 double Parameter::value(double theta) const {
   if (property == Property::permittivity) return 1 + (start - 1) * std::exp(theta);
   if (property == Property::scattering) return logistic(std::log(start / (1 - start)) + theta);
@@ -126,7 +126,7 @@ std::vector<Parameter> chosen_parameters(const NamedRecords& world, const std::v
       if (asked) notes.push_back(fmt::format("{}.{} is not fitted: {}", name, name_of(property), why));
       return;
     }
-    Parameter made{name, property, value_in(world.records[of.front()], property, world.frequency_hz),
+    Parameter made{name, property, value_of(world.records[of.front()], property, world.frequency_hz),
                    prior * priors[static_cast<size_t>(property)], of};
     for (const Parameter& other : out)
       if (other.name() == made.name()) return;
@@ -152,9 +152,11 @@ std::vector<Parameter> chosen_parameters(const NamedRecords& world, const std::v
 std::vector<device::wt_material> with_parameters(const NamedRecords& world, std::span<const Parameter> parameters,
                                                  std::span<const double> theta) {
   std::vector<device::wt_material> out = world.records;
-  for (size_t i = 0; i < parameters.size(); ++i)
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (theta[i] == 0) continue;
     for (const uint32_t record : parameters[i].records)
       set_value(out[record], parameters[i].property, parameters[i].value(theta[i]), world.frequency_hz);
+  }
   return out;
 }
 

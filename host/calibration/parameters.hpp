@@ -16,6 +16,9 @@ enum class Property { permittivity, conductivity, thickness, scattering };
 std::string name_of(Property property);
 std::string unit_of(Property property);  // empty: a plain number
 
+// The value of a property in a record at a carrier, in the property's unit.
+double value_of(const device::wt_material& record, Property property, double frequency_hz);
+
 struct Parameter {
   std::string material;
   Property property = Property::permittivity;
@@ -45,7 +48,7 @@ struct NamedRecords {
 std::vector<Parameter> chosen_parameters(const NamedRecords& world, const std::vector<std::string>& patterns,
                                          double prior, std::vector<std::string>& notes);
 
-// Returns the records with these values of theta.
+// Returns the records with these values of theta; a theta of 0 leaves every bit of its property alone.
 std::vector<device::wt_material> with_parameters(const NamedRecords& world, std::span<const Parameter> parameters,
                                                  std::span<const double> theta);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "base/aligned_text.hpp"
 #include "base/html_page.hpp"
 #include "base/pending_file.hpp"
 #include "base/xml_text.hpp"
@@ -18,19 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string table_text(const study::NumberTable& table) {
-  std::vector<size_t> widths;
-  for (const std::string& head : table.heads) widths.push_back(head.size());
-  for (const auto& row : table.rows)
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  const auto add = [&](const std::vector<std::string>& row) {
-    for (size_t i = 0; i < row.size(); ++i)
-      text += fmt::format("{}{:{}}", i == 0 ? "" : "  ", row[i], i + 1 < row.size() ? widths[i] : 0);
-    text += "\n";
-  };
-  add(table.heads);
-  for (const auto& row : table.rows) add(row);
-  return text;
+  std::vector<std::vector<std::string>> rows{table.heads};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  return aligned_text(rows);
 }
 
 std::string how(const Calibration& result) {

@@ -142,9 +142,8 @@ RowChoice Fields::choose(const RowList& rows, std::span<const uint32_t> chosen) 
   return {context_.buffer(listed, "chosen rows"), context_.buffer(before, "numbers of chosen rows"), listed[0]};
 }
 
-void Fields::again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice) {
+void Fields::again(const FieldInputs& inputs, const RowChoice& choice) {
   if (!listed_kernel_) listed_kernel_.emplace(context_, listed_build_);
-  set_ends(inputs.ends, world);
   calls::fields::fields call = call_of(inputs);
   call.before = choice.before;
   call.listed = choice.listed;

@@ -49,7 +49,7 @@ class Fields {
   // Chooses rows by their numbers in the order of rows, which must ascend.
   RowChoice choose(const RowList& rows, std::span<const uint32_t> chosen) const;
   // Computes the chosen rows alone, in their order, after the frame of the inputs and before any other one.
-  void again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice);
+  void again(const FieldInputs& inputs, const RowChoice& choice);
   void set_materials(const std::vector<device::wt_material>& materials) {
     materials_.write(materials, 0, Stage::fields);
   }

@@ -4,7 +4,7 @@
 // if both ends send and receive: a path in one direction is also a path in the other. A transmitter and a receiver that
 // are one end must be at the same point.
 #pragma once
-#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,9 +49,9 @@ class FinishedPaths {
   void give_room(Paths paths);
   // Chooses rows of the paths that take() gave last, in their order, of which again() computes the fields.
   RowChoice choose(std::span<const uint32_t> rows);
-  // Returns the columns of the chosen rows at the first carrier with the materials that were set since. world: that of
-  // the frame. All that start() got by reference must still be there, and unchanged.
-  CarrierFields again(const RowChoice& choice, const WorldState& world);
+  // Returns the columns of the chosen rows at the first carrier with the materials that were set since. All that
+  // start() got by reference, but for the world, must still be there, and unchanged.
+  CarrierFields again(const RowChoice& choice);
   // Fields::near_edges() for the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
     std::vector<uint32_t> out;
@@ -71,9 +71,8 @@ class FinishedPaths {
   Ports ports_;
   std::optional<LinkSums> sums_;  // made where they are first asked for
   gpu::HostMemory host_counters_;
-  gpu::Marker counted_;  // the counters have been read, and the waves of groups
-                         // Starts the fields of chosen rows of the last frame; empty if it has no rows.
-  std::function<void(const RowChoice&, const WorldState&)> compute_again_;
+  gpu::Marker counted_;              // the counters have been read, and the waves of groups
+  std::optional<FieldInputs> last_;  // those of the last frame; empty if it has no rows
 
   bool counts_ahead(RowCounts expected) const;
   void begin_count(Counters& counters);

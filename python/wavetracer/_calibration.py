@@ -12,7 +12,7 @@ from typing import Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _program
+from . import _program, _toml
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -77,8 +77,8 @@ def calibrate(config: Path, measured: Path | Iterable[Path], folder: Path, *, fi
         options += ["--level", level]
     if device is not None:
         options += ["--device", device]
-    for key, value in (sets or {}).items():
-        options += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+    for pair in _toml.sets(sets or {}):
+        options += ["--set", pair]
     text = _program.call("calibrate", *options)
     place = pathlib.Path(folder)
     return Calibration(_columns(place / "calibration.csv"), _parameters(place / "parameters.csv"), text, place)
