@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer calibrate` compares computed levels with measured ones, and fits materials to them.
+// `wavetracer calibrate` compares computed levels with measured ones, and fits materials and antennas to them.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -46,7 +46,8 @@ void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
 
 void add_calibrate(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
-      "calibrate", "Compare computed levels with measured ones, and fit the materials of the scene to them");
+      "calibrate",
+      "Compare computed levels with measured ones, and fit materials, places and orientations of antennas to them");
   const auto options = std::make_shared<CalibrateOptions>();
   calibration::Request& request = options->request;
   command->add_option("-c,--config", request.config, "Config file (TOML): scene, carrier, transmitters")->required();
@@ -59,10 +60,12 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
   command->add_option("-o,--output", options->directory, "Folder for the tables, the plot, the page and fitted.toml")
       ->capture_default_str();
   command
-      ->add_option("--fit", options->fit,
-                   "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
-                   "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
-                   "the first two; none: only compare")
+      ->add_option(
+          "--fit", options->fit,
+          "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
+          "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
+          "the first two; also TRANSMITTER.height, .x, .y, .yaw, .pitch and .roll, and receivers.height, which "
+          "* alone does not choose; none: only compare")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
@@ -74,10 +77,16 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--prior", request.prior,
-                   "Factor of the uncertainty that materials have before the measurement; smaller values keep them "
+                   "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
                    "nearer to those of the configuration")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
+  command
+      ->add_option("--error", request.errors,
+                   "NAME=VALUE: the uncertainty of the fitted parameters of that name before the measurement, instead "
+                   "of the usual one; the standard deviation in m or degrees, of a material the relative one; may be "
+                   "repeated")
+      ->allow_extra_args(false);
   command
       ->add_option("--folds", request.folds,
                    "Blocks of neighbouring places, each of which is predicted by a fit to the others; 0: none")

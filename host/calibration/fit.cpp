@@ -15,7 +15,6 @@ namespace {
 
 constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
 constexpr double least_deviation = 1e-6;  // data without noise
-constexpr double step_of_slopes = 1e-6;   // values are rounded to some 1e-14 of theirs
 constexpr double least_gain = 1e-2;       // a smaller gain of the logarithm of the probability means nothing
 constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
 
@@ -238,13 +237,25 @@ Linearized::Known& Linearized::known(const std::vector<double>& theta) {
   return kept_.back();
 }
 
-std::vector<double> Linearized::slope(std::vector<double> theta, size_t parameter, const std::vector<double>& here) {
-  theta[parameter] += step_of_slopes;
+std::vector<double> Linearized::difference(std::vector<double> theta, size_t parameter, double step,
+                                           const std::vector<double>& here) {
+  theta[parameter] += step;
   std::vector<double> out = evaluate(theta);
   for (size_t i = 0; i < out.size(); ++i) {
-    out[i] = (out[i] - here[i]) / step_of_slopes;
+    out[i] = (out[i] - here[i]) / step;
     if (!std::isfinite(out[i])) out[i] = 0;
   }
+  return out;
+}
+
+std::vector<double> Linearized::slope(const std::vector<double>& theta, size_t parameter,
+                                      const std::vector<double>& here) {
+  const Step step = problem_.steps.empty() ? Step() : problem_.steps[parameter];
+  std::vector<double> out = difference(theta, parameter, step.size, here);
+  if (!step.both_sides) return out;
+  const std::vector<double> back = difference(theta, parameter, -step.size, here);
+  for (size_t i = 0; i < out.size(); ++i)
+    if (std::abs(back[i]) < std::abs(out[i])) out[i] = back[i];
   return out;
 }
 

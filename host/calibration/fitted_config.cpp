@@ -2,6 +2,7 @@
 // Values are those at the carrier: laws of materials over frequency are replaced by constants.
 #include "calibration/fitted_config.hpp"
 #include <algorithm>
+#include <array>
 #include "base/file.hpp"
 #include "base/input_file.hpp"
 #include "scene/material_checks.hpp"
@@ -32,13 +33,31 @@ void set_constants(Config& config, const std::string& name, const device::wt_mat
 
 void set_property(Config& config, const Parameter& parameter, const device::wt_material& record, double frequency_hz) {
   if (parameter.property == Property::permittivity || parameter.property == Property::conductivity)
-    return set_constants(config, parameter.material, record, frequency_hz);
+    return set_constants(config, parameter.owner, record, frequency_hz);
   const double value = value_of(record, parameter.property, frequency_hz);
-  MaterialConfig& material = entry_of(config, parameter.material);
+  MaterialConfig& material = entry_of(config, parameter.owner);
   if (parameter.property == Property::scattering)
     material.scattering = value;
   else
     (material.layers.empty() ? material.thickness_m.emplace() : material.layers[0].thickness_m) = value;
+}
+
+void set_end(Config& config, const Parameter& parameter, const EndPlaces& fitted) {
+  if (parameter.transmitter == no_end) {
+    for (RadioEnd& end : config.receivers.edit())
+      (end.position_wgs84 ? (*end.position_wgs84)[2] : end.position_m[2]) += fitted.receivers_rise_m;
+    return;
+  }
+  const TransmitterPlace& place = fitted.transmitters[parameter.transmitter];
+  RadioEnd& end = config.transmitters.edit()[parameter.transmitter];
+  const auto numbers = [](const glm::dvec3& of) { return std::array{of.x, of.y, of.z}; };
+  if (is_angle(parameter.property)) {
+    end.orientation_deg = numbers(place.yaw_pitch_roll_deg);
+  } else {
+    end.position_m = numbers(place.position_m);
+    end.position_wgs84.reset();
+    end.above = "zero";
+  }
 }
 
 }  // namespace
@@ -53,11 +72,12 @@ Config config_of_places(const std::string& file, const std::vector<std::string>&
   return config;
 }
 
-Config fitted_config(Config config, const NamedRecords& world, std::span<const Parameter> parameters,
-                     std::span<const double> theta) {
-  const std::vector<device::wt_material> fitted = with_parameters(world, parameters, theta);
+Config fitted_config(Config config, const Inputs& fitted, double frequency_hz, std::span<const Parameter> parameters) {
   for (const Parameter& parameter : parameters)
-    set_property(config, parameter, fitted[parameter.records.front()], world.frequency_hz);
+    if (is_of_end(parameter.property))
+      set_end(config, parameter, fitted.ends);
+    else
+      set_property(config, parameter, fitted.materials[parameter.records.front()], frequency_hz);
   return config;
 }
 

@@ -51,6 +51,10 @@ bool equal_records(const device::wt_material& a, const device::wt_material& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
+bool equal_inputs(const Inputs& a, const Inputs& b) {
+  return a.ends == b.ends && std::ranges::equal(a.materials, b.materials, equal_records);
+}
+
 NamedRecords named_records(const RunPlan& plan) {
   const double frequency_hz = plan.asked.radio.frequency_hz;
   MaterialTable table =
@@ -63,18 +67,25 @@ NamedRecords named_records(const RunPlan& plan) {
   return out;
 }
 
+// All frames are at one time, so that none but a cold one launches rays.
+Config lasting(Config config, bool moves) {
+  if (!moves) return config;
+  config.trace.reuse = true;
+  config.trace.discover_every_s = 1;
+  return config;
+}
+
 }  // namespace
 
-MeasuredWorld::MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device)
+MeasuredWorld::MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
+                             bool moves)
     : places_(measured_places(config, files)),
-      setup_(make_setup(places_.config, device)),
+      setup_(make_setup(lasting(places_.config, moves), device, moves)),
       frames_(setup_),
-      frame_(frames_.run(FrameTask::of_drive({.frame = 0,
-                                              .pose = [this] { return setup_.plan->world.state(0); },
-                                              .names = FrameNames::of(setup_.plan->asked),
-                                              .timed = false}))),
+      ends_(end_places(setup_.plan->world.transmitters.ends)),
+      frame_(frame_at(ends_)),
       materials_(named_records(*setup_.plan)),
-      of_frame_(materials_.records) {
+      of_frame_{materials_.records, ends_} {
   for (const Link& link : places_.links)
     if (!std::ranges::binary_search(frame_.world.links, link))
       throw ConfigError(fmt::format("{}: [links] leaves out the link from {} to the place of {}", config.file,
@@ -95,9 +106,32 @@ std::vector<std::string> MeasuredWorld::transmitters() const {
   return out;
 }
 
-std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(
-    const RowChoice& rows, const std::vector<device::wt_material>& materials) {
-  setup_.finish.set_materials(materials);
+WorldState MeasuredWorld::state_at(const EndPlaces& ends) const {
+  WorldState out = setup_.plan->world.state(0);
+  place_ends(ends, setup_.plan->scene.origin_m, out);
+  return out;
+}
+
+FrameResult MeasuredWorld::frame_at(const EndPlaces& ends) {
+  return frames_.run(FrameTask::of_drive({.frame = 0,
+                                          .pose = [&] { return state_at(ends); },
+                                          .names = FrameNames::of(setup_.plan->asked),
+                                          .timed = false}));
+}
+
+void MeasuredWorld::solve(const Inputs& inputs, bool find_anew) {
+  if (find_anew) frames_.forget();
+  setup_.finish.set_materials(inputs.materials);
+  frame_ = frame_at(inputs.ends);
+  of_frame_ = inputs;
+  found_here_ = find_anew;
+  weighed_ = false;
+  ++frames_solved_;
+}
+
+std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(const RowChoice& rows, const Inputs& inputs) {
+  setup_.finish.set_materials(inputs.materials);
+  setup_.finish.turn_ends(state_at(inputs.ends));
   return setup_.finish.again(rows).a;
 }
 
@@ -131,20 +165,21 @@ std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vec
   return out;
 }
 
-std::vector<Computed> MeasuredWorld::weigh(const std::vector<device::wt_material>& materials, double share_left_out) {
-  if (!std::ranges::equal(materials, of_frame_, equal_records)) {
+std::vector<Computed> MeasuredWorld::weigh(const Inputs& inputs, double share_left_out) {
+  share_left_out_ = share_left_out;
+  if (!inputs.ends.same_points(of_frame_.ends) || !found_here_) {
+    solve(inputs, true);
+  } else if (!equal_inputs(inputs, of_frame_)) {
     std::vector<uint32_t> all(frame_.paths.size());
     std::iota(all.begin(), all.end(), 0u);
-    frame_.paths.a = fields(setup_.finish.choose(all), materials);
-    of_frame_ = materials;
+    frame_.paths.a = fields(setup_.finish.choose(all), inputs);
+    of_frame_ = inputs;
   }
-  keep_strong(share_left_out);
-  base_ = materials;
-  dependents_.clear();
+  keep_strong();
   return computed(frame_.paths, {});
 }
 
-void MeasuredWorld::keep_strong(double share_left_out) {
+void MeasuredWorld::keep_strong() {
   const Paths& paths = frame_.paths;
   const std::vector<Link>& links = frame_.world.links;
   const std::vector<size_t> first = first_rows(paths, links);
@@ -159,7 +194,7 @@ void MeasuredWorld::keep_strong(double share_left_out) {
     std::ranges::sort(weakest);
     double left_out = 0;
     for (const auto& [of_path, row] : weakest)
-      if ((left_out += of_path) > share_left_out * power) kept_.push_back(row);
+      if ((left_out += of_path) > share_left_out_ * power) kept_.push_back(row);
   }
   std::ranges::sort(kept_);
   strong_rows_ = setup_.finish.choose(kept_);
@@ -169,18 +204,22 @@ void MeasuredWorld::keep_strong(double share_left_out) {
   for (size_t i = 0; i < links.size(); ++i)
     rest_.push_back(std::max(0.0, power_of_rows(paths, first[i], first[i + 1]) -
                                       power_of_rows(strong_, first_strong[i], first_strong[i + 1])));
+  base_ = of_frame_;
+  dependents_.clear();
+  weighed_ = true;
 }
 
 // Paths that depend on a material are found by changing all its properties.
 const MeasuredWorld::Dependent& MeasuredWorld::dependent(size_t material) {
   const auto found = dependents_.find(material);
   if (found != dependents_.end()) return found->second;
-  std::vector<device::wt_material> changed = base_;
+  Inputs inputs = base_;
+  std::vector<device::wt_material>& changed = inputs.materials;
   changed[material].permittivity[0] = 1 + 1.5 * (changed[material].permittivity[0] - 1);
   changed[material].permittivity[1] = 1.5 * changed[material].permittivity[1] - 0.01;
   changed[material].thickness_m *= 1.1;
   changed[material].scattering = 0.5 * changed[material].scattering + 0.1;
-  const auto now = fields(strong_rows_, changed);
+  const auto now = fields(strong_rows_, inputs);
   Dependent out;
   std::vector<uint32_t> rows;
   for (uint32_t i = 0; i < kept_.size(); ++i)
@@ -193,18 +232,24 @@ const MeasuredWorld::Dependent& MeasuredWorld::dependent(size_t material) {
 }
 
 // If a single material differs from those of the last evaluation of all strong paths, only the paths that depend on it
-// are evaluated: so derivatives take little.
-std::vector<Computed> MeasuredWorld::values(const std::vector<device::wt_material>& materials) {
-  std::vector<size_t> changed;
-  for (size_t i = 0; i < materials.size(); ++i)
-    if (!equal_records(materials[i], base_[i])) changed.push_back(i);
-  if (changed.size() > 1) {
-    strong_.a = fields(strong_rows_, materials);
-    base_ = materials;
+// are evaluated: so derivatives take little. Places come first, since nothing is known of paths elsewhere.
+std::vector<Computed> MeasuredWorld::values(const Inputs& inputs) {
+  if (!inputs.ends.same_points(of_frame_.ends)) {
+    solve(inputs, false);
+    return computed(frame_.paths, {});
   }
-  if (changed.size() != 1) return computed(strong_, rest_);
+  if (!weighed_) keep_strong();
+  std::vector<size_t> changed;
+  for (size_t i = 0; i < inputs.materials.size(); ++i)
+    if (!equal_records(inputs.materials[i], base_.materials[i])) changed.push_back(i);
+  const bool turned = inputs.ends != base_.ends;
+  if (changed.size() > 1 || turned) {
+    strong_.a = fields(strong_rows_, inputs);
+    base_ = inputs;
+  }
+  if (changed.size() != 1 || turned) return computed(strong_, rest_);
   const Dependent& on = dependent(changed[0]);
-  auto now = fields(on.rows, materials);
+  auto now = fields(on.rows, inputs);
   const auto exchange = [&] {
     for (size_t i = 0; i < on.places.size(); ++i) std::swap(strong_.a[on.places[i]], now[i]);
   };

@@ -39,6 +39,8 @@ class FinishedPaths {
              Counters& counters);
   // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
+  // Turns the antennas of the ends as they are in this state, for again(); the places of ends are those of the frame.
+  void turn_ends(const WorldState& world) { fields_[0].set_ends(world); }
   // Returns the paths, once the device has finished, with the counters as it left them; with trace.diffraction they
   // have groups. left_out: gets the paths that are left out (radio/fields.hpp). carriers: gets the fields at the other
   // carriers, if they were started; may be nullptr.
@@ -49,8 +51,8 @@ class FinishedPaths {
   void give_room(Paths paths);
   // Chooses rows of the paths that take() gave last, in their order, of which again() computes the fields.
   RowChoice choose(std::span<const uint32_t> rows);
-  // Returns the columns of the chosen rows at the first carrier with the materials that were set since. All that
-  // start() got by reference, but for the world, must still be there, and unchanged.
+  // Returns the columns of the chosen rows at the first carrier with the materials and turns that were set since. All
+  // that start() got by reference, but for the world, must still be there, and unchanged.
   CarrierFields again(const RowChoice& choice);
   // Fields::near_edges() for the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {

@@ -38,14 +38,16 @@ inline std::string table(const std::vector<glm::dvec3>& at, const std::vector<do
 }
 
 inline calibration::Calibration calibrated(const std::string& config, const std::string& measured,
-                                           calibration::Offsets offsets, std::vector<std::string> patterns = {"*"}) {
+                                           calibration::Offsets offsets, std::vector<std::string> patterns = {"*"},
+                                           uint32_t folds = 4) {
   const calibration::Request request{.config = config,
                                      .sets = {},
                                      .measured = {measured},
                                      .level = "",
                                      .device = "",
                                      .patterns = std::move(patterns),
-                                     .offsets = offsets};
+                                     .offsets = offsets,
+                                     .folds = folds};
   return calibration::calibrate(request, {[](const std::string&) {}, [] { return false; }});
 }
 

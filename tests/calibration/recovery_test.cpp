@@ -114,8 +114,7 @@ TEST_CASE("a law over frequency of which one property is fitted becomes constant
   for (size_t i = 0; i < at.size(); ++i) CHECK(std::abs(again[i] - found.points[i].after.gain_db) < 1e-9);
 }
 
-TEST_CASE(
-    "the levels of a street have several minima over the permittivity of its floor, and the fit finds the least") {
+TEST_CASE("levels have several minima over the permittivity of a floor, and a fit ends in one that is no worse") {
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = street();
@@ -132,7 +131,7 @@ TEST_CASE(
     std::vector<device::wt_material> records = world.materials().records;
     permittivity.push_back(2 + 0.05 * i);
     records[static_cast<size_t>(floor - world.materials().names.begin())].permittivity[0] = permittivity.back();
-    const std::vector<calibration::Computed> now = world.weigh(records, 0);
+    const std::vector<calibration::Computed> now = world.weigh({records, world.ends()}, 0);
     double sum = 0;
     for (size_t k = 0; k < at.size(); ++k) sum += std::pow(now[k].gain_db - levels[k], 2);
     misfit_db.push_back(std::sqrt(sum / static_cast<double>(at.size())));
