@@ -19,7 +19,7 @@ struct Datum {
 };
 
 // The values of the model at the data for parameters theta, in the order of the data; -inf or NaN where the model has
-// none: such data are left out of the fit.
+// none: such data are left out of the fit, or keep their last residual if they had one at its start.
 using Model = std::function<std::vector<double>(std::span<const double> theta)>;
 
 // The difference of a parameter by which derivatives are taken. Values of a smooth model are rounded to some 1e-14 of
@@ -84,8 +84,8 @@ class Linearized {
 // start: theta of the first step.
 FitResult fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start);
 
-// Fits from the three best ones of these starts, and returns the best fit: the model may have several minima, as the
-// reflection of a slab has over its permittivity.
+// Fits from the first one and the three best ones of these starts, and returns the best fit: the model may have several
+// minima, as the reflection of a slab has over its permittivity.
 FitResult fit_from_best(const Problem& problem, Linearized& model, const std::vector<bool>& takes,
                         const std::vector<std::vector<double>>& starts);
 

@@ -193,3 +193,18 @@ TEST_CASE("slopes with a step to both sides leave out a jump on either side") {
   Linearized one(problem);
   CHECK(one.slopes({0})[0][0] == doctest::Approx(703));
 }
+
+TEST_CASE("a datum that loses its value on the way does not stop the fit") {
+  Problem problem;
+  for (int i = 0; i < 20; ++i) problem.data.push_back({.value = 0.1 * i});
+  problem.priors = {no_prior};
+  problem.model = [](std::span<const double> theta) {
+    std::vector<double> out;
+    for (int i = 0; i < 20; ++i) out.push_back(i == 7 && theta[0] > 0.5 ? -INFINITY : 0.1 * i * theta[0]);
+    return out;
+  };
+  const FitResult found = fitted(problem);
+  CHECK(found.used == 20);
+  CHECK(found.theta[0] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(std::isfinite(found.errors[0]));
+}
