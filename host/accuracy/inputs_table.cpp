@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include "accuracy/inputs.hpp"
 #include "base/csv_columns.hpp"
+#include "output/median.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
@@ -18,9 +20,7 @@ double width(const InputInterval& interval) { return interval.high - interval.lo
 // Returns NaN for an empty list.
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+  return values.empty() ? std::nan("") : median(std::move(values));
 }
 
 template <class Value>

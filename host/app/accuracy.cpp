@@ -13,6 +13,7 @@
 #include "app/map_formats.hpp"
 #include "app/named_files.hpp"
 #include "app/study_host.hpp"
+#include "app/written_files.hpp"
 #include "coverage/chance_map.hpp"
 #include "coverage/kml.hpp"
 #include "coverage/write_map.hpp"
@@ -32,14 +33,6 @@ struct AccuracyOptions {
   std::string directory = "out/accuracy", rays;
   bool varies = false;
 };
-
-// Returns the folder of the results, which must be one that can be written to. From now on Ctrl-C only stops the study.
-fs::path begin_study(const AccuracyOptions& options) {
-  fs::path folder = fs::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
-  return folder;
-}
 
 accuracy::InputRequest input_request(const AccuracyOptions& options) {
   accuracy::InputRequest request = options.chances.inputs;
@@ -74,7 +67,7 @@ void run_chances(const AccuracyOptions& options, Invocation& invocation) {
   const std::string& scene = config.scene.file;
   const std::optional<Georeference> georeference = scene.empty() ? std::nullopt : find_georeference(scene);
   if (has_format(options.formats, "kml")) coverage::georeference_for_kml(georeference, scene);
-  const fs::path folder = begin_study(options);
+  const fs::path folder = begin_study(options.directory);
   Progress progress;
   const accuracy::ChanceStudy study = accuracy::study_chances(request, study_host(progress));
   if (study.stopped) {
@@ -91,7 +84,7 @@ void run_chances(const AccuracyOptions& options, Invocation& invocation) {
 void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
   const accuracy::InputRequest request = input_request(options);
   check_inputs(load_config(request.file, request.sets));
-  const fs::path folder = begin_study(options);
+  const fs::path folder = begin_study(options.directory);
   Progress progress;
   const accuracy::InputStudy study = accuracy::study_inputs(request, study_host(progress));
   if (study.stopped) {
@@ -102,9 +95,7 @@ void run_inputs(const AccuracyOptions& options, Invocation& invocation) {
   if (study.rows.empty()) return;
   const plots::Drawn drawn = plots::draw(accuracy::inputs_figure(study), plots::Format::svg, folder);
   if (!drawn.problem.empty()) progress.line(drawn.problem);
-  std::cout << accuracy::inputs_text(study) << "written    ";
-  for (size_t i = 0; i < drawn.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << drawn.files[i].string();
-  std::cout << std::endl;
+  std::cout << accuracy::inputs_text(study) << written_line(drawn.files) << std::flush;
 }
 
 void add_chance_options(CLI::App& command, AccuracyOptions& options, CLI::Option* varies, CLI::Option* discover_every) {
@@ -157,7 +148,7 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
   check_inputs(load_config(request.file, request.sets));
-  const fs::path folder = begin_study(options);
+  const fs::path folder = begin_study(options.directory);
   Progress progress;
   const study::Host host = study_host(progress);
   const accuracy::Study study = accuracy::study(request, host);
@@ -173,9 +164,7 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   if (!written.problem.empty()) progress.line(written.problem);
   std::cout << accuracy::encode_text(study.rows) << "\n";
   for (const std::string& item : accuracy::recommendations(study)) std::cout << "- " << item << ".\n";
-  std::cout << "\nwritten    ";
-  for (size_t i = 0; i < written.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << written.files[i].string();
-  std::cout << std::endl;
+  std::cout << "\n" << written_line(written.files) << std::flush;
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// `wavetracer calibrate` compares computed levels with measured ones, and fits materials to them.
+// `wavetracer calibrate` compares computed levels with measured ones, and fits materials and antennas to them.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
-#include "app/named_files.hpp"
 #include "app/study_host.hpp"
+#include "app/written_files.hpp"
 #include "calibration/report.hpp"
-#include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 
 namespace wavetracer::app {
@@ -15,29 +14,22 @@ namespace {
 
 struct CalibrateOptions {
   calibration::Request request;
-  std::string directory = "out/calibration", fit = "*", offsets = "all";
+  std::vector<std::string> fit = {"*"};
+  std::string directory = "out/calibration", offsets = "all";
 };
 
-std::vector<std::string> split_at_commas(const std::string& text) {
+std::vector<std::string> patterns_of(const std::vector<std::string>& fit) {
   std::vector<std::string> out;
-  for (size_t first = 0; first <= text.size();) {
-    const size_t end = std::min(text.find(',', first), text.size());
-    std::string part = text.substr(first, end - first);
-    part.erase(0, part.find_first_not_of(' '));
-    part.erase(part.find_last_not_of(' ') + 1);
-    if (!part.empty()) out.push_back(std::move(part));
-    first = end + 1;
-  }
-  return out;
+  for (std::string part : fit)
+    if (!CLI::detail::trim(part).empty()) out.push_back(std::move(part));
+  return out == std::vector<std::string>{"none"} ? std::vector<std::string>() : out;
 }
 
 void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   calibration::Request request = options.request;
   request.offsets = calibration::Offsets::named(options.offsets);
-  request.patterns = options.fit == "none" ? std::vector<std::string>() : split_at_commas(options.fit);
-  const std::filesystem::path folder = std::filesystem::absolute(options.directory).lexically_normal();
-  check_output_folder(folder);
-  catch_interrupts();
+  request.patterns = patterns_of(options.fit);
+  const std::filesystem::path folder = begin_study(options.directory);
   Progress progress;
   const calibration::Calibration result = calibration::calibrate(request, study_host(progress));
   if (result.stopped) {
@@ -47,16 +39,15 @@ void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   for (const std::string& warning : result.warnings) progress.line("warning: " + warning);
   const calibration::Written written = calibration::write_calibration(result, invocation.command_line, folder);
   if (!written.problem.empty()) progress.line(written.problem);
-  std::cout << calibration::calibration_text(result) << "\nwritten    ";
-  for (size_t i = 0; i < written.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << written.files[i].string();
-  std::cout << std::endl;
+  std::cout << calibration::calibration_text(result) << "\n" << written_line(written.files) << std::flush;
 }
 
 }  // namespace
 
 void add_calibrate(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
-      "calibrate", "Compare computed levels with measured ones, and fit the materials of the scene to them");
+      "calibrate",
+      "Compare computed levels with measured ones, and fit materials, places and orientations of antennas to them");
   const auto options = std::make_shared<CalibrateOptions>();
   calibration::Request& request = options->request;
   command->add_option("-c,--config", request.config, "Config file (TOML): scene, carrier, transmitters")->required();
@@ -69,10 +60,14 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
   command->add_option("-o,--output", options->directory, "Folder for the tables, the plot, the page and fitted.toml")
       ->capture_default_str();
   command
-      ->add_option("--fit", options->fit,
-                   "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
-                   "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
-                   "the first two; none: only compare")
+      ->add_option(
+          "--fit", options->fit,
+          "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
+          "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
+          "the first two; also TRANSMITTER.height, .x, .y, .yaw, .pitch and .roll, and receivers.height, which "
+          "* alone does not choose; none: only compare")
+      ->delimiter(',')
+      ->allow_extra_args(false)
       ->capture_default_str();
   command
       ->add_option("--offset", options->offsets,
@@ -82,10 +77,16 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command
       ->add_option("--prior", request.prior,
-                   "Factor of the uncertainty that materials have before the measurement; smaller values keep them "
+                   "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
                    "nearer to those of the configuration")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
+  command
+      ->add_option("--error", request.errors,
+                   "NAME=VALUE: the uncertainty of the fitted parameters of that name before the measurement, instead "
+                   "of the usual one; the standard deviation in m or degrees, of a material the relative one; may be "
+                   "repeated")
+      ->allow_extra_args(false);
   command
       ->add_option("--folds", request.folds,
                    "Blocks of neighbouring places, each of which is predicted by a fit to the others; 0: none")

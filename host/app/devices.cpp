@@ -2,11 +2,11 @@
 // `wavetracer devices` lists OpenCL devices and the one that a run would use and, with --check, checks what they
 // compute. The list is in the order of the ICD; --device accepts its index.
 #include <fmt/format.h>
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include "app/check_devices.hpp"
 #include "app/commands.hpp"
+#include "base/aligned_text.hpp"
 #include "gpu/gpu.hpp"
 #include "gpu/pocl.hpp"
 
@@ -14,20 +14,6 @@ namespace wavetracer::app {
 namespace {
 
 std::string gibibytes(uint64_t bytes) { return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1 << 30)); }
-
-// Columns are as wide as their widest cell.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows)
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string out;
-  for (const auto& row : rows) {
-    std::string line;
-    for (size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return out;
-}
 
 struct DevicesOptions {
   std::string device;
@@ -47,7 +33,7 @@ void list() {
                             : "other",
                     gibibytes(d.global_memory), gibibytes(d.max_buffer), fmt::format("{}", d.compute_units),
                     fmt::format("{}", d.max_work_group), d.fp64 ? "yes" : "no", d.driver});
-  std::cout << table(rows);
+  std::cout << aligned_text(rows);
 }
 
 }  // namespace

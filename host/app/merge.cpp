@@ -8,6 +8,7 @@
 #include <memory>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "app/written_files.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_folders.hpp"
 #include "jobs/process_files.hpp"
@@ -84,9 +85,7 @@ void merge(const MergeOptions& options, Invocation& invocation) {
   const Totals totals = totals_of(found.shards);
   std::cout << fmt::format("merged     {} parts: {} frames, {} links, {} paths\n", found.shards.size(), totals.frames,
                            totals.links, totals.counts.paths);
-  std::cout << "written    ";
-  for (size_t i = 0; i < files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << files[i].string();
-  std::cout << std::endl;
+  std::cout << written_line(files) << std::flush;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include "app/written_files.hpp"
 #include "base/digits.hpp"
 #include "base/times.hpp"
 #include "output/run_advice.hpp"
@@ -270,9 +271,7 @@ std::string report(const Run& run, const Results& results, bool verbose) {
          late_line(run, totals) + link_lines(results.links, totals.frames > 1) + grid_lines(results.links) +
          compile_line(run) + frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";
-  out += "written    ";
-  for (size_t i = 0; i < results.files.size(); ++i) out += (i == 0 ? "" : ", ") + results.files[i].string();
-  return out + "\n";
+  return out + written_line(results.files);
 }
 
 }  // namespace wavetracer::app

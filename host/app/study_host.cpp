@@ -3,6 +3,7 @@
 #include "app/study_host.hpp"
 #include <fmt/format.h>
 #include <chrono>
+#include "app/named_files.hpp"
 #include "jobs/interrupt.hpp"
 
 namespace wavetracer::app {
@@ -18,6 +19,13 @@ study::Host study_host(Progress& progress) {
         fmt::format("{}: figure {} of {}, {}", what, done + 1, total, progress_words(seconds, 0, done, total, unit)));
   };
   return {say, interrupted, at};
+}
+
+std::filesystem::path begin_study(const std::string& directory) {
+  std::filesystem::path folder = std::filesystem::absolute(directory).lexically_normal();
+  check_output_folder(folder);
+  catch_interrupts();
+  return folder;
 }
 
 }  // namespace wavetracer::app

@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
 #include "app/study_host.hpp"
+#include "app/written_files.hpp"
 #include "jobs/interrupt.hpp"
 #include "jobs/progress.hpp"
 #include "study/run.hpp"
@@ -74,8 +75,7 @@ void study_thesis(const ThesisOptions& options, Invocation& invocation) {
   const study::Experiment& experiment = *experiments.front();
   const study::Request asked = request(options, experiment, invocation.command_line);
   check_inputs(asked.config);
-  check_output_folder(asked.config.output.directory);
-  catch_interrupts();
+  begin_study(asked.config.output.directory);
   Progress progress;
   const study::Host host = study_host(progress);
   const study::Report report =
@@ -91,9 +91,7 @@ void study_thesis(const ThesisOptions& options, Invocation& invocation) {
   }
   if (all && report.points < report.planned && !interrupted()) invocation.code = ExitCode::partial;
   if (report.files.empty()) return;
-  std::cout << report.text << "\n\nwritten    ";
-  for (size_t i = 0; i < report.files.size(); ++i) std::cout << (i == 0 ? "" : ", ") << report.files[i].string();
-  std::cout << std::endl;
+  std::cout << report.text << "\n\n" << written_line(report.files) << std::flush;
 }
 
 }  // namespace

@@ -2,27 +2,14 @@
 #include "calibration/agreement.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include "study/statistics.hpp"
 
 namespace wavetracer::calibration {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double correlation(std::span<const double> a, std::span<const double> b) {
-  const double mean_a = mean_of(a), mean_b = mean_of(b);
-  double ab = 0, aa = 0, bb = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - mean_a) * (b[i] - mean_b);
-    aa += (a[i] - mean_a) * (a[i] - mean_a);
-    bb += (b[i] - mean_b) * (b[i] - mean_b);
-  }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : undefined;
 }
 
 // Gives blocks first to first + count - 1 to the points.
@@ -65,7 +52,10 @@ std::vector<double> ranks_of(std::span<const double> values) {
 }
 
 Statistics statistics_of(std::span<const LevelPair> pairs) {
-  Statistics out{.points = pairs.size(), .offset_db = undefined, .sigma_db = undefined, .spearman = undefined};
+  Statistics out{.points = pairs.size(),
+                 .offset_db = study::undefined,
+                 .sigma_db = study::undefined,
+                 .spearman = study::undefined};
   std::vector<double> measured, computed, off;
   for (const LevelPair& pair : pairs)
     if (std::isfinite(pair.computed_db)) {
@@ -79,7 +69,7 @@ Statistics statistics_of(std::span<const LevelPair> pairs) {
   double sum = 0;
   for (const double value : off) sum += (value - out.offset_db) * (value - out.offset_db);
   out.sigma_db = std::sqrt(sum / static_cast<double>(off.size() - 1));
-  out.spearman = correlation(ranks_of(measured), ranks_of(computed));
+  out.spearman = study::pearson(ranks_of(measured), ranks_of(computed));
   return out;
 }
 

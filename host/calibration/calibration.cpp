@@ -8,6 +8,8 @@
 #include <cmath>
 #include "accuracy/latin_hypercube.hpp"
 #include "base/stopwatch.hpp"
+#include "calibration/agreements_of.hpp"
+#include "calibration/chosen_parameters.hpp"
 #include "calibration/fitted_config.hpp"
 #include "calibration/measured_world.hpp"
 #include "wavetracer/error.hpp"
@@ -22,9 +24,17 @@ constexpr int most_rounds = 4;
 // the next round, and then.
 constexpr std::array shares_left_out{2e-2, 1e-3, 1e-4};
 constexpr size_t samples_per_parameter = 8, seed_of_samples = 1;
+constexpr double step_of_places_m = 0.02, step_of_turns_deg = 1e-3;
 constexpr double tolerated_db = 0.02;  // the error of a level that comes from paths that keep their power
 
 struct Interrupted {};
+
+// Levels jump where a path appears or vanishes on the way.
+Step step_of(Property property) {
+  if (!is_of_end(property)) return {};
+  const double unit = unit_of_theta(property);
+  return is_angle(property) ? Step{step_of_turns_deg / unit} : Step{step_of_places_m / unit, true};
+}
 
 double spread_db(double nanoseconds) { return 10 * std::log10(nanoseconds); }
 
@@ -43,14 +53,16 @@ class Calibrating {
     read_files();
     host_.tell("finding paths", 0, 1, "frames");
     Stopwatch watch;
-    world_.emplace(request_.config, request_.sets, out_.files, request_.device);
+    const Config config = config_of_places(request_.config, request_.sets);
+    world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns));
     out_.solve_s = watch.lap();
     out_.paths = world_->paths();
     out_.device = world_->device();
     out_.warnings = world_->warnings();
     out_.parameters = request_.patterns.empty()
                           ? std::vector<Parameter>()
-                          : chosen_parameters(world_->materials(), request_.patterns, request_.prior, out_.notes);
+                          : chosen_parameters(world_->materials(), world_->ends(), request_.patterns,
+                                              {request_.prior, request_.errors}, out_.notes);
     list_points();
     state_problem();
     try {
@@ -60,8 +72,10 @@ class Calibrating {
       return std::move(out_);
     }
     out_.fit_s = watch.lap();
-    out_.agreements = agreements();
-    out_.config = fitted_config(request_.config, request_.sets, out_.parameters, out_.fit.theta);
+    out_.agreements = agreements_of(out_, folds_ > 0);
+    out_.frames_solved = world_->frames_solved();
+    out_.config = fitted_config(config, inputs(out_.fit.theta), world_->materials().frequency_hz, out_.parameters);
+    note_receivers();
     return std::move(out_);
   }
 
@@ -128,13 +142,16 @@ class Calibrating {
         spreads_.push_back(i);
       }
     problem_.offsets = out_.offset_names.size();
-    for (const Parameter& parameter : out_.parameters) problem_.priors.push_back(parameter.prior);
+    for (const Parameter& parameter : out_.parameters) {
+      problem_.priors.push_back(parameter.prior);
+      problem_.steps.push_back(step_of(parameter.property));
+    }
     problem_.model = [this](std::span<const double> theta) { return values(theta); };
   }
 
   std::vector<Computed> computed(std::span<const double> theta) {
     if (host_.interrupted()) throw Interrupted{};
-    return world_->values(records(theta));
+    return world_->values(inputs(theta));
   }
 
   std::vector<double> values(std::span<const double> theta) {
@@ -154,7 +171,7 @@ class Calibrating {
   void fit_all() {
     const std::vector<double> start(problem_.priors.size(), 0);
     const std::vector<bool> takes(problem_.data.size(), true);
-    const std::vector<Computed> before = world_->weigh(records(start), shares_left_out.front());
+    const std::vector<Computed> before = world_->weigh(inputs(start), share_left_out(0));
     if (std::ranges::none_of(before, [](const Computed& point) { return std::isfinite(point.gain_db); }))
       throw RuntimeError(fmt::format(
           "none of the {} measured places has a path: look at their coordinates, and at [trace] of the configuration",
@@ -167,10 +184,8 @@ class Calibrating {
       out_.fit = round == 0 ? fit_from_best(problem_, *model_, takes, starts())
                             : fit(problem_, *model_, takes, out_.fit.theta);
       evaluations_before_ += model_->evaluations();
-      const std::vector<Computed> approximate = world_->values(records(out_.fit.theta));
-      Stopwatch watch;
-      after = world_->weigh(records(out_.fit.theta), shares_left_out[std::min<size_t>(round + 1, 2)]);
-      out_.evaluation_s = watch.lap();
+      const std::vector<Computed> approximate = world_->values(inputs(out_.fit.theta));
+      after = world_->weigh(inputs(out_.fit.theta), share_left_out(static_cast<size_t>(round) + 1));
       if (round > 0 && largest_difference_db(approximate, after) < tolerated_db) break;
     }
     note_fit();
@@ -180,7 +195,7 @@ class Calibrating {
       out_.points[i].offset_db = offset_of(i, out_.fit.offsets);
     }
     out_.paths_that_matter = world_->paths_that_matter();
-    if (folds_ > 0) world_->weigh(records(out_.fit.theta), shares_left_out[1]);  // 0.004 dB do not matter there
+    if (folds_ > 0) world_->weigh(inputs(out_.fit.theta), share_left_out(1));  // 0.004 dB do not matter there
     model_.emplace(problem_);
     for (size_t fold = 0; fold < folds_; ++fold) {
       tell_fit(1 + fold);
@@ -189,17 +204,28 @@ class Calibrating {
     out_.evaluations = evaluations_before_ + model_->evaluations();
   }
 
-  std::vector<device::wt_material> records(std::span<const double> theta) const {
-    return with_parameters(world_->materials(), out_.parameters, theta);
+  Inputs inputs(std::span<const double> theta) const {
+    return {with_parameters(world_->materials(), out_.parameters, theta),
+            with_parameters(world_->ends(), out_.parameters, theta)};
   }
 
-  // The configuration itself, and a sample of the priors.
+  bool moves() const { return std::ranges::any_of(out_.parameters, moves_paths, &Parameter::property); }
+
+  // Paths elsewhere are others, so no weak ones are known where ends move.
+  double share_left_out(size_t round) const {
+    return moves() ? 0 : shares_left_out[std::min(round, shares_left_out.size() - 1)];
+  }
+
+  // The configuration itself, and a sample of the priors of materials: levels have many minima over these alone.
   std::vector<std::vector<double>> starts() const {
-    const size_t count = problem_.priors.size();
-    std::vector<std::vector<double>> out{std::vector<double>(count, 0)};
+    const size_t all = problem_.priors.size();
+    const auto count = static_cast<size_t>(std::ranges::count_if(
+        out_.parameters, [](const Parameter& parameter) { return !is_of_end(parameter.property); }));
+    std::vector<std::vector<double>> out{std::vector<double>(all, 0)};
     if (count == 0) return out;
     for (std::vector<double>& row :
          accuracy::normal_hypercube(static_cast<uint32_t>(samples_per_parameter * count), count, seed_of_samples)) {
+      row.resize(all, 0);
       for (size_t p = 0; p < count; ++p) row[p] *= problem_.priors[p];
       out.push_back(std::move(row));
     }
@@ -217,6 +243,18 @@ class Calibrating {
       out_.notes.push_back(fmt::format("the fit did not converge in {} steps", out_.fit.iterations));
   }
 
+  // Says where the height of all receivers is, which need not have a key.
+  void note_receivers() {
+    const auto found = std::ranges::find(out_.parameters, std::string(all_receivers), &Parameter::owner);
+    if (found == out_.parameters.end()) return;
+    const double rise_m = found->value(out_.fit.theta[static_cast<size_t>(found - out_.parameters.begin())]);
+    for (const MeasuredFile& file : out_.files)
+      out_.notes.push_back(
+          file.has_z ? fmt::format("{}: add {:.4g} m to the heights of this file, which fitted.toml cannot have",
+                                   file.file, rise_m)
+                     : fmt::format("{}: its places have the height of the [[receiver]] of fitted.toml", file.file));
+  }
+
   // The fit to all other blocks starts from that to all points, which is near.
   void hold_out(size_t fold) {
     std::vector<bool> takes;
@@ -229,39 +267,6 @@ class Calibrating {
         out_.points[i].held_out = predicted[i];
         out_.points[i].offset_held_out_db = offset_of(i, fitted.offsets);
       }
-  }
-
-  template <class Chosen>
-  void add_agreement(std::vector<Agreement>& out, const std::string& name, const Chosen& chosen) const {
-    std::vector<LevelPair> before, after, held_out;
-    for (const FittedPoint& point : out_.points) {
-      if (out_.files[point.file].points[point.point].below || !chosen(point)) continue;
-      before.push_back({point.measured_db, point.before.gain_db});
-      after.push_back({point.measured_db, point.after.gain_db + point.offset_db});
-      held_out.push_back({point.measured_db, point.held_out.gain_db + point.offset_held_out_db});
-    }
-    Agreement agreement{name, statistics_of(before), statistics_of(after), {}};
-    if (folds_ > 0) agreement.held_out = statistics_of(held_out);
-    out.push_back(std::move(agreement));
-  }
-
-  // Makes a line for all points, and for each file, transmitter and group where there are several.
-  std::vector<Agreement> agreements() const {
-    std::vector<Agreement> out;
-    add_agreement(out, "all", [](const FittedPoint&) { return true; });
-    const auto add_each = [&](const auto& name_of_point) {
-      std::vector<std::string> names;
-      for (const FittedPoint& point : out_.points)
-        if (const std::string name = name_of_point(point); std::ranges::find(names, name) == names.end())
-          names.push_back(name);
-      if (names.size() < 2) return;
-      for (const std::string& name : names)
-        add_agreement(out, name, [&](const FittedPoint& point) { return name_of_point(point) == name; });
-    };
-    add_each([&](const FittedPoint& point) { return out_.files[point.file].file; });
-    add_each([&](const FittedPoint& point) { return point.tx; });
-    add_each([&](const FittedPoint& point) { return out_.files[point.file].points[point.point].group; });
-    return out;
   }
 
   const Request& request_;

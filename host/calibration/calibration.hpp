@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares a configuration with measured values, fits its materials to them, and judges the fit by points that were
-// held out of it.
+// Compares a configuration with measured values, fits its materials and antennas to them, and judges the fit by points
+// that were held out of it.
 #pragma once
 #include <glm/vec3.hpp>
 #include <string>
@@ -26,8 +26,9 @@ struct Request {
   std::string level, device;
   std::vector<std::string> patterns = {"*"};  // of chosen_parameters(); empty: nothing but offsets
   Offsets offsets = "all";
-  double prior = 1;
-  uint32_t folds = 4;  // blocks of places, each of which is held out once; 0 or 1: none are
+  double prior = 1;                      // usual standard deviations are multiplied by it
+  std::vector<std::string> errors = {};  // NAME=VALUE, see Priors
+  uint32_t folds = 4;                    // blocks of places, each of which is held out once; 0 or 1: none are
 };
 
 struct FittedPoint {
@@ -43,7 +44,7 @@ struct FittedPoint {
 };
 
 struct Calibration {
-  Config config;  // that of the request, with the fitted materials
+  Config config;  // that of the request, with the fitted values
   std::vector<MeasuredFile> files;
   std::vector<FittedPoint> points;
   std::vector<Parameter> parameters;
@@ -53,9 +54,9 @@ struct Calibration {
   DeviceSummary device;
   std::vector<std::string> notes, warnings;
   size_t paths = 0, paths_that_matter = 0, evaluations = 0;
-  double solve_s = 0, fit_s = 0,
-         evaluation_s = 0;  // times of finding the paths, of all fits, of the fields of all paths once
-  bool stopped = false;     // it was interrupted, and nothing below `files` is complete
+  size_t frames_solved = 0;       // for other places of ends
+  double solve_s = 0, fit_s = 0;  // times of finding the paths, and of all fits
+  bool stopped = false;           // it was interrupted, and nothing below `files` is complete
 };
 
 // Throws ConfigError, InputError or DeviceError.

@@ -7,13 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include "output/median.hpp"
 
 namespace wavetracer::calibration {
 namespace {
 
 constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
 constexpr double least_deviation = 1e-6;  // data without noise
-constexpr double step_of_slopes = 1e-6;   // values are rounded to some 1e-14 of theirs
 constexpr double least_gain = 1e-2;       // a smaller gain of the logarithm of the probability means nothing
 constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
 
@@ -43,12 +44,8 @@ Cost below_cost(double u, double s) {
   return {cost, ratio / s, std::max(0.0, ratio * (ratio + u)) / (s * s)};
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+// Returns 0 for an empty list.
+double median_or_0(std::vector<double> values) { return values.empty() ? 0 : median(std::move(values)); }
 
 class Fit {
  public:
@@ -60,6 +57,8 @@ class Fit {
       if (takes[i] && std::isfinite(values[i])) used_.push_back(i);
     out_.used = used_.size();
     start_offsets(values);
+    last_residuals_.assign(problem.data.size(), 0);
+    for (const size_t i : used_) last_residuals_[i] = residual(values, i);
   }
 
   FitResult operator()() {
@@ -95,7 +94,7 @@ class Fit {
     for (const size_t i : used_)
       if (const Datum& datum = problem_.data[i]; datum.offset && !datum.below)
         of[*datum.offset].push_back(datum.value - values[i]);
-    for (size_t i = 0; i < of.size(); ++i) out_.offsets[i] = median(std::move(of[i]));
+    for (size_t i = 0; i < of.size(); ++i) out_.offsets[i] = median_or_0(std::move(of[i]));
   }
 
   // 1.4826 times the median of |r| is the deviation of normal residuals; few outliers hardly change it.
@@ -103,10 +102,11 @@ class Fit {
     const std::vector<double>& values = model_.values(out_.theta);
     std::vector<std::vector<double>> of(problem_.kinds);
     for (const size_t i : used_)
-      if (!problem_.data[i].below) of[problem_.data[i].kind].push_back(std::abs(residual(values, i)));
+      if (!problem_.data[i].below && std::isfinite(values[i]))
+        of[problem_.data[i].kind].push_back(std::abs(residual(values, i)));
     out_.deviations.clear();
     for (std::vector<double>& sizes : of)
-      out_.deviations.push_back(std::max(least_deviation, 1.4826 * median(std::move(sizes))));
+      out_.deviations.push_back(std::max(least_deviation, 1.4826 * median_or_0(std::move(sizes))));
   }
 
   void find_objective() {
@@ -118,10 +118,13 @@ class Fit {
         out_.objective += std::log(out_.deviations[problem_.data[i].kind]);
   }
 
+  // A datum that has lost its value keeps the residual of the last step at which it had one.
   Cost cost_of(const std::vector<double>& values, size_t i) const {
     const Datum& datum = problem_.data[i];
-    const double s = out_.deviations[datum.kind], u = residual(values, i) / s;
-    return datum.below ? below_cost(u, s) : normal_cost(u, s);
+    const bool lost = !std::isfinite(values[i]);
+    const double s = out_.deviations[datum.kind], u = (lost ? last_residuals_[i] : residual(values, i)) / s;
+    const Cost cost = datum.below ? below_cost(u, s) : normal_cost(u, s);
+    return lost ? Cost{cost.cost, 0, 0} : cost;
   }
 
   double prior_cost() const {
@@ -133,10 +136,7 @@ class Fit {
   double cost() {
     double sum = prior_cost();
     const std::vector<double>& values = model_.values(out_.theta);
-    for (const size_t i : used_) {
-      if (!std::isfinite(values[i])) return INFINITY;
-      sum += cost_of(values, i).cost;
-    }
+    for (const size_t i : used_) sum += cost_of(values, i).cost;
     return sum;
   }
 
@@ -150,6 +150,7 @@ class Fit {
     double sum = prior_cost();
     Eigen::VectorXd row(size);
     for (const size_t i : used_) {
+      if (std::isfinite(values[i])) last_residuals_[i] = residual(values, i);
       row.setZero();
       for (size_t p = 0; p < slopes.size(); ++p) row[static_cast<Eigen::Index>(p)] = slopes[p][i];
       if (const auto offset = problem_.data[i].offset) row[static_cast<Eigen::Index>(slopes.size() + *offset)] = 1;
@@ -220,7 +221,8 @@ class Fit {
   const Problem& problem_;
   Linearized& model_;
   const size_t size_;
-  std::vector<size_t> used_;  // data that are fitted and have a value
+  std::vector<size_t> used_;  // data that are fitted and had a value at the start
+  std::vector<double> last_residuals_;
   FitResult out_;
 };
 
@@ -240,13 +242,25 @@ Linearized::Known& Linearized::known(const std::vector<double>& theta) {
   return kept_.back();
 }
 
-std::vector<double> Linearized::slope(std::vector<double> theta, size_t parameter, const std::vector<double>& here) {
-  theta[parameter] += step_of_slopes;
+std::vector<double> Linearized::difference(std::vector<double> theta, size_t parameter, double step,
+                                           const std::vector<double>& here) {
+  theta[parameter] += step;
   std::vector<double> out = evaluate(theta);
   for (size_t i = 0; i < out.size(); ++i) {
-    out[i] = (out[i] - here[i]) / step_of_slopes;
+    out[i] = (out[i] - here[i]) / step;
     if (!std::isfinite(out[i])) out[i] = 0;
   }
+  return out;
+}
+
+std::vector<double> Linearized::slope(const std::vector<double>& theta, size_t parameter,
+                                      const std::vector<double>& here) {
+  const Step step = problem_.steps.empty() ? Step() : problem_.steps[parameter];
+  std::vector<double> out = difference(theta, parameter, step.size, here);
+  if (!step.both_sides) return out;
+  const std::vector<double> back = difference(theta, parameter, -step.size, here);
+  for (size_t i = 0; i < out.size(); ++i)
+    if (std::abs(back[i]) < std::abs(out[i])) out[i] = back[i];
   return out;
 }
 
@@ -271,10 +285,13 @@ FitResult fit_from_best(const Problem& problem, Linearized& model, const std::ve
   std::vector<std::pair<double, size_t>> best;
   for (size_t i = 0; i < starts.size(); ++i) best.emplace_back(Fit(problem, model, takes, starts[i]).at_start(), i);
   std::ranges::sort(best);
+  std::vector<size_t> followed{0};
+  for (size_t i = 0; i < best.size() && i < followed_starts; ++i)
+    if (best[i].second != 0) followed.push_back(best[i].second);
   FitResult out;
-  for (size_t i = 0; i < std::min(best.size(), followed_starts); ++i) {
-    FitResult found = fit(problem, model, takes, starts[best[i].second]);
-    if (i == 0 || found.objective < out.objective) out = std::move(found);
+  for (const size_t start : followed) {
+    FitResult found = fit(problem, model, takes, starts[start]);
+    if (start == 0 || found.objective < out.objective) out = std::move(found);
   }
   return out;
 }

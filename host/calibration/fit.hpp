@@ -19,12 +19,21 @@ struct Datum {
 };
 
 // The values of the model at the data for parameters theta, in the order of the data; -inf or NaN where the model has
-// none: such data are left out of the fit.
+// none: such data are left out of the fit, or keep their last residual if they had one at its start.
 using Model = std::function<std::vector<double>(std::span<const double> theta)>;
+
+// The difference of a parameter by which derivatives are taken. Values of a smooth model are rounded to some 1e-14 of
+// theirs, so a small step will do. With a step to both sides the smaller slope counts, as suits a model that jumps here
+// and there.
+struct Step {
+  double size = 1e-6;
+  bool both_sides = false;
+};
 
 struct Problem {
   std::vector<Datum> data;
   std::vector<double> priors;  // standard deviation of each parameter about 0
+  std::vector<Step> steps;     // a step for each parameter; empty: the usual one
   size_t offsets = 0, kinds = 1;
   Model model;
 };
@@ -42,7 +51,7 @@ struct FitResult {
   bool converged = false;
 };
 
-// The model with its derivatives, by differences of one step; results for the last few theta are kept.
+// The model with its derivatives, by differences; results for the last few theta are kept.
 class Linearized {
  public:
   explicit Linearized(const Problem& problem) : problem_(problem) {}
@@ -60,7 +69,9 @@ class Linearized {
   };
   Known& known(const std::vector<double>& theta);
   std::vector<double> evaluate(const std::vector<double>& theta);
-  std::vector<double> slope(std::vector<double> theta, size_t parameter, const std::vector<double>& here);
+  std::vector<double> difference(std::vector<double> theta, size_t parameter, double step,
+                                 const std::vector<double>& here);
+  std::vector<double> slope(const std::vector<double>& theta, size_t parameter, const std::vector<double>& here);
 
   const Problem& problem_;
   std::vector<bool> idle_;   // parameters on which no value depends; empty until the first slopes are known
@@ -73,8 +84,8 @@ class Linearized {
 // start: theta of the first step.
 FitResult fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start);
 
-// Fits from the three best ones of these starts, and returns the best fit: the model may have several minima, as the
-// reflection of a slab has over its permittivity.
+// Fits from the first one and the three best ones of these starts, and returns the best fit: the model may have several
+// minima, as the reflection of a slab has over its permittivity.
 FitResult fit_from_best(const Problem& problem, Linearized& model, const std::vector<bool>& takes,
                         const std::vector<std::vector<double>>& starts);
 

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values are those at the carrier: laws of materials over frequency are replaced by constants.
 #include "calibration/fitted_config.hpp"
-#include <fmt/format.h>
 #include <algorithm>
-#include <string_view>
+#include <array>
 #include "base/file.hpp"
 #include "base/input_file.hpp"
+#include "scene/material_checks.hpp"
 #include "wavetracer/config_file.hpp"
 
 namespace wavetracer::calibration {
 namespace {
 
-// The name without the prefixes that may be left out.
-std::string_view bare(std::string_view name) {
-  for (const std::string_view prefix : {"mat-", "itu_"})
-    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
-  return name;
-}
-
 MaterialConfig& entry_of(Config& config, const std::string& name) {
+  const auto bare = [](const std::string& text) { return spellings(text)[2]; };
   const auto found =
       std::ranges::find_if(config.materials, [&](const MaterialConfig& each) { return bare(each.name) == bare(name); });
   if (found != config.materials.end()) return *found;
@@ -26,26 +20,43 @@ MaterialConfig& entry_of(Config& config, const std::string& name) {
   return config.materials.back();
 }
 
-// A wall of one layer is a slab, whose law is that of its layer.
-void set_property(Config& config, const std::string& name, Property property, double value) {
+// A wall of one layer is a slab, whose law is that of its layer. A table has constants or a law over frequency, and not
+// a half of either.
+void set_constants(Config& config, const std::string& name, const device::wt_material& record, double frequency_hz) {
   MaterialConfig& material = entry_of(config, name);
-  const bool layered = !material.layers.empty();
-  switch (property) {
-    case Property::permittivity:
-      if (layered) return set_property(config, material.layers[0].material, property, value);
-      material.permittivity = value;
-      material.a = material.b = {};
-      break;
-    case Property::conductivity:
-      if (layered) return set_property(config, material.layers[0].material, property, value);
-      material.conductivity_s_m = value;
-      material.c = material.d = {};
-      break;
-    case Property::thickness:
-      (layered ? material.layers[0].thickness_m : material.thickness_m.emplace()) = value;
-      break;
-    default:
-      material.scattering = value;
+  if (!material.layers.empty())
+    return set_constants(config, std::string(material.layers[0].material), record, frequency_hz);
+  material.permittivity = value_of(record, Property::permittivity, frequency_hz);
+  material.conductivity_s_m = value_of(record, Property::conductivity, frequency_hz);
+  material.a = material.b = material.c = material.d = {};
+}
+
+void set_property(Config& config, const Parameter& parameter, const device::wt_material& record, double frequency_hz) {
+  if (parameter.property == Property::permittivity || parameter.property == Property::conductivity)
+    return set_constants(config, parameter.owner, record, frequency_hz);
+  const double value = value_of(record, parameter.property, frequency_hz);
+  MaterialConfig& material = entry_of(config, parameter.owner);
+  if (parameter.property == Property::scattering)
+    material.scattering = value;
+  else
+    (material.layers.empty() ? material.thickness_m.emplace() : material.layers[0].thickness_m) = value;
+}
+
+void set_end(Config& config, const Parameter& parameter, const EndPlaces& fitted) {
+  if (parameter.transmitter == no_end) {
+    for (RadioEnd& end : config.receivers.edit())
+      (end.position_wgs84 ? (*end.position_wgs84)[2] : end.position_m[2]) += fitted.receivers_rise_m;
+    return;
+  }
+  const TransmitterPlace& place = fitted.transmitters[parameter.transmitter];
+  RadioEnd& end = config.transmitters.edit()[parameter.transmitter];
+  const auto numbers = [](const glm::dvec3& of) { return std::array{of.x, of.y, of.z}; };
+  if (is_angle(parameter.property)) {
+    end.orientation_deg = numbers(place.yaw_pitch_roll_deg);
+  } else {
+    end.position_m = numbers(place.position_m);
+    end.position_wgs84.reset();
+    end.above = "zero";
   }
 }
 
@@ -61,11 +72,12 @@ Config config_of_places(const std::string& file, const std::vector<std::string>&
   return config;
 }
 
-Config fitted_config(const std::string& file, const std::vector<std::string>& sets,
-                     std::span<const Parameter> parameters, std::span<const double> theta) {
-  Config config = config_of_places(file, sets);
-  for (size_t i = 0; i < parameters.size(); ++i)
-    set_property(config, parameters[i].material, parameters[i].property, parameters[i].value(theta[i]));
+Config fitted_config(Config config, const Inputs& fitted, double frequency_hz, std::span<const Parameter> parameters) {
+  for (const Parameter& parameter : parameters)
+    if (is_of_end(parameter.property))
+      set_end(config, parameter, fitted.ends);
+    else
+      set_property(config, parameter, fitted.materials[parameter.records.front()], frequency_hz);
   return config;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places that several points share are one receiver.
+// Rows of paths are sorted by links, as links are.
 #include "calibration/measured_world.hpp"
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -7,103 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <ranges>
 #include <utility>
-#include "base/spelling.hpp"
-#include "calibration/fitted_config.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/material_table.hpp"
 #include "radio/path_power.hpp"
-#include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::calibration {
 namespace {
-
-// Returns the configuration without what measured places take the part of.
-Config config_for_places(const std::string& file, const std::vector<std::string>& sets) {
-  Config config = config_of_places(file, sets);
-  if (config.transmitters.empty()) throw ConfigError(file + ": a [[transmitter]] is needed, whose level was measured");
-  if (config.receivers.size() > 1)
-    throw ConfigError(fmt::format(
-        "{}: it has {} [[receiver]] tables; measured places take the antenna of a single one, so keep one of them",
-        file, config.receivers.size()));
-  if (!config.receiver_grids.empty() || !config.stations.empty() || !config.mounts.empty())
-    throw ConfigError(file +
-                      ": measured places are the only receivers; remove [[receiver_grid]], [[station]] and [[mount]] "
-                      "tables");
-  if (config.trace.by_spheres()) throw ConfigError(file + ": trace.reception = \"sphere\" has no exact paths to fit");
-  config.cache.kind = "none";
-  config.output.waypoints = 0;
-  config.output.paths = true;
-  return config;
-}
-
-// Returns the receiver at a measured place. pattern: the receiver that gives its antenna and height, or nullptr.
-RadioEnd receiver_at(const MeasuredFile& file, const MeasuredPoint& point, const RadioEnd* pattern) {
-  RadioEnd out = pattern ? *pattern : RadioEnd{};
-  std::array<double, 3> place = point.position;
-  if (!file.has_z) {
-    const bool geographic = pattern && pattern->position_wgs84;
-    if (!pattern || geographic != file.degrees)
-      throw InputError(fmt::format(
-          "{}: there is no column {}: add it, or give the height by a [[receiver]] of the configuration with {}",
-          file.file, file.degrees ? "height_m" : "z_m", file.degrees ? "position_wgs84" : "position_m"));
-    place[2] = geographic ? (*pattern->position_wgs84)[2] : pattern->position_m[2];
-  }
-  out.position_wgs84.reset();
-  if (file.degrees)
-    out.position_wgs84 = place;
-  else
-    out.position_m = place;
-  return out;
-}
-
-uint32_t transmitter_of(const MeasuredFile& file, const MeasuredPoint& point, const Config& config) {
-  std::vector<std::string> names;
-  for (const RadioEnd& end : config.transmitters) names.push_back(end.name);
-  if (point.tx.empty()) {
-    if (names.size() == 1) return 0;
-    throw InputError(
-        fmt::format("{}:{}: the configuration has {} transmitters: name the one of each row in a column tx", file.file,
-                    point.line, names.size()));
-  }
-  const auto found = std::ranges::find(names, point.tx);
-  if (found == names.end())
-    throw InputError(fmt::format("{}:{}: tx = '{}' is no transmitter of the configuration{}", file.file, point.line,
-                                 point.tx, spelling_hint(point.tx, names)));
-  return static_cast<uint32_t>(found - names.begin());
-}
-
-// Replaces the receivers by the measured places, and returns the link of each point.
-std::vector<Link> place_receivers(Config& config, const std::vector<MeasuredFile>& files) {
-  const std::optional<RadioEnd> pattern =
-      config.receivers.empty() ? std::nullopt : std::optional(std::as_const(config.receivers)[0]);
-  std::vector<RadioEnd> ends;
-  std::vector<Link> links;
-  std::map<std::pair<bool, std::array<double, 3>>, uint32_t> known;
-  for (const MeasuredFile& file : files)
-    for (const MeasuredPoint& point : file.points) {
-      RadioEnd end = receiver_at(file, point, pattern ? &*pattern : nullptr);
-      const auto [at, added] = known.try_emplace({file.degrees, end.position_wgs84.value_or(end.position_m)},
-                                                 static_cast<uint32_t>(ends.size()));
-      if (added) {
-        end.name = fmt::format("{}:{}", file.file, point.line);
-        ends.push_back(std::move(end));
-      }
-      links.push_back({transmitter_of(file, point, config), at->second});
-    }
-  config.receivers = std::move(ends);
-  return links;
-}
-
-Config with_places(const std::string& file, const std::vector<std::string>& sets,
-                   const std::vector<MeasuredFile>& files, std::vector<Link>& links) {
-  Config config = config_for_places(file, sets);
-  links = place_receivers(config, files);
-  config.text = echoed_config(config);
-  return config;
-}
 
 template <class Value>
 std::vector<Value> chosen_values(const std::vector<Value>& values, const std::vector<uint32_t>& rows) {
@@ -128,6 +39,22 @@ Paths chosen_paths(const Paths& paths, const std::vector<uint32_t>& rows) {
   return out;
 }
 
+// Returns the first row of each link, and the number of rows.
+std::vector<size_t> first_rows(const Paths& paths, const std::vector<Link>& links) {
+  std::vector<size_t> out(links.size() + 1, paths.size());
+  for (size_t row = paths.size(), link = links.size(); link-- > 0; out[link] = row)
+    while (row > 0 && Link{paths.tx[row - 1], paths.rx[row - 1]} >= links[link]) --row;
+  return out;
+}
+
+bool equal_records(const device::wt_material& a, const device::wt_material& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool equal_inputs(const Inputs& a, const Inputs& b) {
+  return a.ends == b.ends && std::ranges::equal(a.materials, b.materials, equal_records);
+}
+
 NamedRecords named_records(const RunPlan& plan) {
   const double frequency_hz = plan.asked.radio.frequency_hz;
   MaterialTable table =
@@ -140,47 +67,81 @@ NamedRecords named_records(const RunPlan& plan) {
   return out;
 }
 
+// All frames are at one time, so that none but a cold one launches rays.
+Config lasting(Config config, bool moves) {
+  if (!moves) return config;
+  config.trace.reuse = true;
+  config.trace.discover_every_s = 1;
+  return config;
+}
+
 }  // namespace
 
-MeasuredWorld::MeasuredWorld(const std::string& config_file, const std::vector<std::string>& sets,
-                             const std::vector<MeasuredFile>& files, const std::string& device)
-    : config_(with_places(config_file, sets, files, links_)),
-      setup_(make_setup(config_, device)),
+MeasuredWorld::MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
+                             bool moves)
+    : places_(measured_places(config, files)),
+      setup_(make_setup(lasting(places_.config, moves), device, moves)),
       frames_(setup_),
-      frame_(frames_.run(FrameTask::of_drive({.frame = 0,
-                                              .pose = [this] { return setup_.plan->world.state(0); },
-                                              .names = FrameNames::of(setup_.plan->asked),
-                                              .timed = false}))),
-      materials_(named_records(*setup_.plan)) {
-  for (size_t i = 0; i < links_.size(); ++i)
-    if (!std::ranges::binary_search(frame_.world.links, links_[i]))
-      throw ConfigError(fmt::format("{}: [links] leaves out the link from {} to the place of {}", config_file,
-                                    std::as_const(config_.transmitters)[links_[i].tx].name,
-                                    std::as_const(config_.receivers)[links_[i].rx].name));
+      ends_(end_places(setup_.plan->world.transmitters.ends)),
+      frame_(frame_at(ends_)),
+      materials_(named_records(*setup_.plan)),
+      of_frame_{materials_.records, ends_} {
+  for (const Link& link : places_.links)
+    if (!std::ranges::binary_search(frame_.world.links, link))
+      throw ConfigError(fmt::format("{}: [links] leaves out the link from {} to the place of {}", config.file,
+                                    std::as_const(places_.config.transmitters)[link.tx].name,
+                                    std::as_const(places_.config.receivers)[link.rx].name));
 }
 
 std::vector<glm::dvec3> MeasuredWorld::places() const {
   std::vector<glm::dvec3> out;
-  for (const Link& link : links_)
+  for (const Link& link : places_.links)
     out.push_back(std::as_const(frame_.world.receivers)[link.rx].position_m + setup_.plan->scene.origin_m);
   return out;
 }
 
 std::vector<std::string> MeasuredWorld::transmitters() const {
   std::vector<std::string> out;
-  for (const Link& link : links_) out.push_back(config_.transmitters[link.tx].name);
+  for (const Link& link : places_.links) out.push_back(std::as_const(places_.config.transmitters)[link.tx].name);
   return out;
 }
 
-std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(
-    const RowChoice& rows, const std::vector<device::wt_material>& materials) {
-  setup_.finish.set_materials(materials);
-  return frames_.fields_again(rows, frame_).a;
+WorldState MeasuredWorld::state_at(const EndPlaces& ends) const {
+  WorldState out = setup_.plan->world.state(0);
+  place_ends(ends, setup_.plan->scene.origin_m, out);
+  return out;
 }
 
-// Power in the sense of path_gain_db, and rms delay spread, of the rows of a link.
+FrameResult MeasuredWorld::frame_at(const EndPlaces& ends) {
+  return frames_.run(FrameTask::of_drive({.frame = 0,
+                                          .pose = [&] { return state_at(ends); },
+                                          .names = FrameNames::of(setup_.plan->asked),
+                                          .timed = false}));
+}
+
+void MeasuredWorld::solve(const Inputs& inputs, bool find_anew) {
+  if (find_anew) frames_.forget();
+  setup_.finish.set_materials(inputs.materials);
+  frame_ = frame_at(inputs.ends);
+  of_frame_ = inputs;
+  found_here_ = find_anew;
+  weighed_ = false;
+  ++frames_solved_;
+}
+
+std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(const RowChoice& rows, const Inputs& inputs) {
+  setup_.finish.set_materials(inputs.materials);
+  setup_.finish.turn_ends(state_at(inputs.ends));
+  return setup_.finish.again(rows).a;
+}
+
+double MeasuredWorld::power_of_rows(const Paths& paths, size_t first, size_t end) const {
+  return grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz);
+}
+
+// Power and rms delay spread, of the rows of a link.
 Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, double rest) const {
-  const double power = grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz) + rest;
+  const double power = power_of_rows(paths, first, end) + rest;
   double sum = 0, mean_s = 0, square = 0;
   for (size_t row = first; row < end; ++row) {
     const double own = power_of(paths, row);
@@ -192,74 +153,73 @@ Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, do
   return {10 * std::log10(power), 1e9 * std::sqrt(square / sum)};
 }
 
-// Links are sorted as rows are.
 std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vector<double>& rest) const {
   const std::vector<Link>& all = frame_.world.links;
-  std::vector<size_t> first(all.size() + 1, paths.size());
-  for (size_t row = paths.size(), link = all.size(); link-- > 0; first[link] = row)
-    while (row > 0 && Link{paths.tx[row - 1], paths.rx[row - 1]} >= all[link]) --row;
+  const std::vector<size_t> first = first_rows(paths, all);
   std::vector<Computed> of_links(all.size()), out;
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
     of_links[i] = of_link(paths, first[i], first[i + 1], rest.empty() ? 0 : rest[i]);
   });
-  for (const Link& link : links_)
+  for (const Link& link : places_.links)
     out.push_back(of_links[static_cast<size_t>(std::ranges::lower_bound(all, link) - all.begin())]);
   return out;
 }
 
-std::vector<Computed> MeasuredWorld::weigh(const std::vector<device::wt_material>& materials, double share_left_out) {
-  std::vector<uint32_t> all(frame_.paths.size());
-  std::iota(all.begin(), all.end(), 0u);
-  frame_.paths.a = fields(frames_.choose_rows(all), materials);
-  keep_strong(share_left_out);
-  base_ = materials;
-  dependents_.clear();
+std::vector<Computed> MeasuredWorld::weigh(const Inputs& inputs, double share_left_out) {
+  share_left_out_ = share_left_out;
+  if (!inputs.ends.same_points(of_frame_.ends) || !found_here_) {
+    solve(inputs, true);
+  } else if (!equal_inputs(inputs, of_frame_)) {
+    std::vector<uint32_t> all(frame_.paths.size());
+    std::iota(all.begin(), all.end(), 0u);
+    frame_.paths.a = fields(setup_.finish.choose(all), inputs);
+    of_frame_ = inputs;
+  }
+  keep_strong();
   return computed(frame_.paths, {});
 }
 
-void MeasuredWorld::keep_strong(double share_left_out) {
+void MeasuredWorld::keep_strong() {
   const Paths& paths = frame_.paths;
+  const std::vector<Link>& links = frame_.world.links;
+  const std::vector<size_t> first = first_rows(paths, links);
   kept_.clear();
-  for (size_t first = 0; first < paths.size();) {
-    const size_t end = end_of_link(paths, first);
+  for (size_t link = 0; link < links.size(); ++link) {
     std::vector<std::pair<double, uint32_t>> weakest;  // power and row
     double power = 0;
-    for (size_t row = first; row < end; ++row) {
+    for (size_t row = first[link]; row < first[link + 1]; ++row) {
       weakest.emplace_back(power_of(paths, row), static_cast<uint32_t>(row));
       power += weakest.back().first;
     }
     std::ranges::sort(weakest);
     double left_out = 0;
     for (const auto& [of_path, row] : weakest)
-      if ((left_out += of_path) > share_left_out * power) kept_.push_back(row);
-    first = end;
+      if ((left_out += of_path) > share_left_out_ * power) kept_.push_back(row);
   }
   std::ranges::sort(kept_);
-  strong_rows_ = frames_.choose_rows(kept_);
+  strong_rows_ = setup_.finish.choose(kept_);
   strong_ = chosen_paths(paths, kept_);
-  rest_.assign(frame_.world.links.size(), 0);
-  for (size_t i = 0; i < rest_.size(); ++i) {
-    const auto range = [&](const Paths& of) {
-      const auto [begin, end] =
-          std::ranges::equal_range(std::views::iota(size_t{0}, of.size()), frame_.world.links[i], {}, [&](size_t row) {
-            return Link{of.tx[row], of.rx[row]};
-          });
-      return grouped_power(of, *begin, *end, setup_.plan->asked.radio.frequency_hz);
-    };
-    rest_[i] = std::max(0.0, range(paths) - range(strong_));
-  }
+  const std::vector<size_t> first_strong = first_rows(strong_, links);
+  rest_.clear();
+  for (size_t i = 0; i < links.size(); ++i)
+    rest_.push_back(std::max(0.0, power_of_rows(paths, first[i], first[i + 1]) -
+                                      power_of_rows(strong_, first_strong[i], first_strong[i + 1])));
+  base_ = of_frame_;
+  dependents_.clear();
+  weighed_ = true;
 }
 
 // Paths that depend on a material are found by changing all its properties.
 const MeasuredWorld::Dependent& MeasuredWorld::dependent(size_t material) {
   const auto found = dependents_.find(material);
   if (found != dependents_.end()) return found->second;
-  std::vector<device::wt_material> changed = base_;
+  Inputs inputs = base_;
+  std::vector<device::wt_material>& changed = inputs.materials;
   changed[material].permittivity[0] = 1 + 1.5 * (changed[material].permittivity[0] - 1);
   changed[material].permittivity[1] = 1.5 * changed[material].permittivity[1] - 0.01;
   changed[material].thickness_m *= 1.1;
   changed[material].scattering = 0.5 * changed[material].scattering + 0.1;
-  const auto now = fields(strong_rows_, changed);
+  const auto now = fields(strong_rows_, inputs);
   Dependent out;
   std::vector<uint32_t> rows;
   for (uint32_t i = 0; i < kept_.size(); ++i)
@@ -267,23 +227,29 @@ const MeasuredWorld::Dependent& MeasuredWorld::dependent(size_t material) {
       out.places.push_back(i);
       rows.push_back(kept_[i]);
     }
-  out.rows = frames_.choose_rows(rows);
+  out.rows = setup_.finish.choose(rows);
   return dependents_.emplace(material, std::move(out)).first->second;
 }
 
 // If a single material differs from those of the last evaluation of all strong paths, only the paths that depend on it
-// are evaluated: so derivatives take little.
-std::vector<Computed> MeasuredWorld::values(const std::vector<device::wt_material>& materials) {
-  std::vector<size_t> changed;
-  for (size_t i = 0; i < materials.size(); ++i)
-    if (std::memcmp(&materials[i], &base_[i], sizeof materials[i]) != 0) changed.push_back(i);
-  if (changed.size() > 1) {
-    strong_.a = fields(strong_rows_, materials);
-    base_ = materials;
+// are evaluated: so derivatives take little. Places come first, since nothing is known of paths elsewhere.
+std::vector<Computed> MeasuredWorld::values(const Inputs& inputs) {
+  if (!inputs.ends.same_points(of_frame_.ends)) {
+    solve(inputs, false);
+    return computed(frame_.paths, {});
   }
-  if (changed.size() != 1) return computed(strong_, rest_);
+  if (!weighed_) keep_strong();
+  std::vector<size_t> changed;
+  for (size_t i = 0; i < inputs.materials.size(); ++i)
+    if (!equal_records(inputs.materials[i], base_.materials[i])) changed.push_back(i);
+  const bool turned = inputs.ends != base_.ends;
+  if (changed.size() > 1 || turned) {
+    strong_.a = fields(strong_rows_, inputs);
+    base_ = inputs;
+  }
+  if (changed.size() != 1 || turned) return computed(strong_, rest_);
   const Dependent& on = dependent(changed[0]);
-  auto now = fields(on.rows, materials);
+  auto now = fields(on.rows, inputs);
   const auto exchange = [&] {
     for (size_t i = 0; i < on.places.size(); ++i) std::swap(strong_.a[on.places[i]], now[i]);
   };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "base/aligned_text.hpp"
 #include "base/html_page.hpp"
 #include "base/pending_file.hpp"
 #include "base/xml_text.hpp"
@@ -18,31 +19,25 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string table_text(const study::NumberTable& table) {
-  std::vector<size_t> widths;
-  for (const std::string& head : table.heads) widths.push_back(head.size());
-  for (const auto& row : table.rows)
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  const auto add = [&](const std::vector<std::string>& row) {
-    for (size_t i = 0; i < row.size(); ++i)
-      text += fmt::format("{}{:{}}", i == 0 ? "" : "  ", row[i], i + 1 < row.size() ? widths[i] : 0);
-    text += "\n";
-  };
-  add(table.heads);
-  for (const auto& row : table.rows) add(row);
-  return text;
+  std::vector<std::vector<std::string>> rows{table.heads};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  return aligned_text(rows);
 }
 
 std::string how(const Calibration& result) {
+  const std::string head =
+      fmt::format("{} points, {} paths found in {:.2f} s", result.points.size(), result.paths, result.solve_s);
+  if (result.frames_solved > 0)
+    return fmt::format("{}; {} evaluations in {:.2f} s, for which {} frames were solved with ends in other places",
+                       head, result.evaluations, result.fit_s, result.frames_solved);
   return fmt::format(
-      "{} points, {} paths found in {:.2f} s, {} of which make all but 1e-4 of the power of each link; "
-      "{} evaluations of their fields in {:.2f} s",
-      result.points.size(), result.paths, result.solve_s, result.paths_that_matter, result.evaluations, result.fit_s);
+      "{}, {} of which make all but 1e-4 of the power of each link; {} evaluations of their fields in {:.2f} s", head,
+      result.paths_that_matter, result.evaluations, result.fit_s);
 }
 
 std::string fitted_toml(const Calibration& result) {
   return fmt::format(
-      "# {} with materials that were fitted to measured values at {:g} GHz. They are constants at this "
+      "# {} with values that were fitted to measured ones at {:g} GHz. Fitted materials are constants at this "
       "carrier,\n# and no laws over frequency.\n{}",
       fs::path(result.config.file).filename().string(), 1e-9 * result.config.radio.frequency_hz,
       resolved_config(result.config));

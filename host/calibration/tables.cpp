@@ -77,10 +77,10 @@ std::vector<std::string> findings(const Calibration& result) {
   for (size_t p = 0; p < result.parameters.size(); ++p) {
     const double moved = std::abs(fit.theta[p]) / result.parameters[p].prior;
     if (moved > far_from_prior)
-      out.push_back(
-          fmt::format("the data move {} by {:.1f} standard deviations of its prior: look at the residuals, since the "
-                      "material may make up for something that the map lacks",
-                      result.parameters[p].name(), moved));
+      out.push_back(fmt::format(
+          "the data move {} by {:.1f} standard deviations of its prior: look at the residuals, since it may "
+          "make up for something that the map lacks",
+          result.parameters[p].name(), moved));
     else if (fit.told[p] > 0 && fit.told[p] < hardly_told)
       out.push_back(fmt::format("the data hardly tell {}: its value is mostly that of the configuration",
                                 result.parameters[p].name()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the median of repeated timings, in the same way for every report of this program.
-// There must be at least one value.
+// Returns the median of repeated timings and of other numbers, in the same way for every report of this program. There
+// must be at least one value.
 #pragma once
 #include <algorithm>
 #include <cstddef>

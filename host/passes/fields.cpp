@@ -67,8 +67,7 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
   make_room(context_, vertices_, 1 << 14, "path vertex rows");
 }
 
-void Fields::set_ends(const RadioEnds& ends, const WorldState& world) {
-  if (!ends.moved && ends_[0]) return;
+void Fields::set_ends(const WorldState& world) {
   const SharedList<EndState>* states[2] = {&world.transmitters, &world.receivers};
   const uint32_t first_antenna[2] = {0, transmitters_};
   for (int side = 0; side < 2; ++side) {
@@ -111,7 +110,7 @@ calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
 }
 
 void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most) {
-  set_ends(inputs.ends, world);
+  if (inputs.ends.moved || !ends_[0]) set_ends(world);
   make_room(context_, rows_, most.rows, "path rows");
   make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   const uint32_t places = inputs.rows.places;
@@ -142,9 +141,8 @@ RowChoice Fields::choose(const RowList& rows, std::span<const uint32_t> chosen) 
   return {context_.buffer(listed, "chosen rows"), context_.buffer(before, "numbers of chosen rows"), listed[0]};
 }
 
-void Fields::again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice) {
+void Fields::again(const FieldInputs& inputs, const RowChoice& choice) {
   if (!listed_kernel_) listed_kernel_.emplace(context_, listed_build_);
-  set_ends(inputs.ends, world);
   calls::fields::fields call = call_of(inputs);
   call.before = choice.before;
   call.listed = choice.listed;

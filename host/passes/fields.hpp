@@ -49,7 +49,9 @@ class Fields {
   // Chooses rows by their numbers in the order of rows, which must ascend.
   RowChoice choose(const RowList& rows, std::span<const uint32_t> chosen) const;
   // Computes the chosen rows alone, in their order, after the frame of the inputs and before any other one.
-  void again(const FieldInputs& inputs, const WorldState& world, const RowChoice& choice);
+  void again(const FieldInputs& inputs, const RowChoice& choice);
+  // Sets the ends, whose antennas may have been turned since the frame: again() takes them as they are now.
+  void set_ends(const WorldState& world);
   void set_materials(const std::vector<device::wt_material>& materials) {
     materials_.write(materials, 0, Stage::fields);
   }
@@ -108,7 +110,6 @@ class Fields {
   uint32_t frame_ = 0, near_edges_ = 0;
   Paths room_;  // the columns of the next rows, or memory for them
 
-  void set_ends(const RadioEnds& ends, const WorldState& world);
   calls::fields::fields call_of(const FieldInputs& inputs) const;
   void make_host_rooms();
   FrameRows rows_of(RowCounts count) const;

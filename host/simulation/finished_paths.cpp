@@ -50,7 +50,7 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
                      counters);  // distinct
   RowCounts most{}, expected{};
-  compute_again_ = {};
+  last_.reset();
   const gpu::Buffer<wt_wedge>* wedges = edges ? &edges->wedges.list().wedges : nullptr;
   if (places > 0) {
     sort_(distinct_.sort_keys(), distinct_.order(), places, 32, Stage::distinct);  // sort
@@ -65,11 +65,8 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     if (groups_ && rows != Rows::summed) groups_->begin_read(expected.rows);
     if (rows != Rows::summed && counts_ahead(expected)) begin_count(counters);
-    const FieldInputs inputs{scene, wedges, ends, visible, inside, distinct_, distinct_.rows()};
-    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i) fields_[i](inputs, world, most);  // fields
-    compute_again_ = [this, inputs](const RowChoice& choice, const WorldState& now) {
-      fields_[0].again(inputs, now, choice);  // fields
-    };
+    last_.emplace(FieldInputs{scene, wedges, ends, visible, inside, distinct_, distinct_.rows()});
+    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i) fields_[i](*last_, world, most);  // fields
   }
   if (rows == Rows::summed) {
     if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_, groups_.has_value());
@@ -122,9 +119,9 @@ Paths FinishedPaths::take(const wt_counters& counted, LeftOut& left_out, std::ve
 
 RowChoice FinishedPaths::choose(std::span<const uint32_t> rows) { return fields_[0].choose(distinct_.rows(), rows); }
 
-CarrierFields FinishedPaths::again(const RowChoice& choice, const WorldState& world) {
-  if (!compute_again_ || choice.count == 0) return {};
-  compute_again_(choice, world);
+CarrierFields FinishedPaths::again(const RowChoice& choice) {
+  if (!last_ || choice.count == 0) return {};
+  fields_[0].again(*last_, choice);  // fields
   const RowCounts count{choice.count, 0};
   fields_[0].begin_read_carrier(count);
   context_.wait(context_.mark());

@@ -4,7 +4,7 @@
 // if both ends send and receive: a path in one direction is also a path in the other. A transmitter and a receiver that
 // are one end must be at the same point.
 #pragma once
-#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +39,8 @@ class FinishedPaths {
              Counters& counters);
   // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
+  // Turns the antennas of the ends as they are in this state, for again(); the places of ends are those of the frame.
+  void turn_ends(const WorldState& world) { fields_[0].set_ends(world); }
   // Returns the paths, once the device has finished, with the counters as it left them; with trace.diffraction they
   // have groups. left_out: gets the paths that are left out (radio/fields.hpp). carriers: gets the fields at the other
   // carriers, if they were started; may be nullptr.
@@ -49,9 +51,9 @@ class FinishedPaths {
   void give_room(Paths paths);
   // Chooses rows of the paths that take() gave last, in their order, of which again() computes the fields.
   RowChoice choose(std::span<const uint32_t> rows);
-  // Returns the columns of the chosen rows at the first carrier with the materials that were set since. world: that of
-  // the frame. All that start() got by reference must still be there, and unchanged.
-  CarrierFields again(const RowChoice& choice, const WorldState& world);
+  // Returns the columns of the chosen rows at the first carrier with the materials and turns that were set since. All
+  // that start() got by reference, but for the world, must still be there, and unchanged.
+  CarrierFields again(const RowChoice& choice);
   // Fields::near_edges() for the paths that take() gave, at each carrier.
   std::vector<uint32_t> near_edges() const {
     std::vector<uint32_t> out;
@@ -71,9 +73,8 @@ class FinishedPaths {
   Ports ports_;
   std::optional<LinkSums> sums_;  // made where they are first asked for
   gpu::HostMemory host_counters_;
-  gpu::Marker counted_;  // the counters have been read, and the waves of groups
-                         // Starts the fields of chosen rows of the last frame; empty if it has no rows.
-  std::function<void(const RowChoice&, const WorldState&)> compute_again_;
+  gpu::Marker counted_;              // the counters have been read, and the waves of groups
+  std::optional<FieldInputs> last_;  // those of the last frame; empty if it has no rows
 
   bool counts_ahead(RowCounts expected) const;
   void begin_count(Counters& counters);

@@ -3,6 +3,7 @@
 #include "simulation/frame.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "radio/summed_paths.hpp"

@@ -3,7 +3,6 @@
 // Frames of one setup share its set of sequences and its ray cache, so they are solved one after the other.
 #pragma once
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,12 +24,6 @@ class FrameLoop {
   FrameResult run(FrameTask task);
   // Makes the next frame cold: it reuses nothing.
   void forget();
-  // The fields of chosen paths of the last frame with the materials that were set since: FinishedPaths::choose() and
-  // again(). Their geometry is not solved again. last: that frame, of paths and not of sums.
-  RowChoice choose_rows(std::span<const uint32_t> rows) { return s_.finish.choose(rows); }
-  CarrierFields fields_again(const RowChoice& choice, const FrameResult& last) {
-    return s_.finish.again(choice, last.world);
-  }
   // The host reads sums of links from now on, and no paths; or paths again.
   void sum_links(bool on) { summed_ = on; }
   // Memory for sums of links that later frames use: it is taken by the next one, or by whoever joins batches.

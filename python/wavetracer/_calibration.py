@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measured levels beside computed ones, and materials that fit them: `wavetracer calibrate`."""
+"""Measured levels beside computed ones, and materials and antennas that fit them: `wavetracer calibrate`."""
 from __future__ import annotations
 
 import csv
@@ -12,15 +12,15 @@ from typing import Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _program
+from . import _program, _toml
 
 Path = Union[str, "os.PathLike[str]"]
 
 
 @dataclass
 class Parameter:
-    """A fitted property of a material, or an offset. told_share: the share of the prior variance that the data
-    removed."""
+    """A fitted property of a material or an antenna, or an offset. told_share: the share of the prior variance that the
+    data removed."""
 
     unit: str
     before: float
@@ -63,22 +63,26 @@ def _parameters(file: pathlib.Path) -> dict[str, Parameter]:
 
 
 def calibrate(config: Path, measured: Path | Iterable[Path], folder: Path, *, fit: str | Iterable[str] = "*",
-              offset: str = "all", prior: float = 1.0, folds: int = 4, level: str | None = None,
-              device: str | None = None, sets: Mapping[str, object] | None = None) -> Calibration:
-    """Compares the levels of a configuration with those of tables of measured values, and fits its materials to them.
-    The arguments are the options of `wavetracer calibrate`; docs/calibration.md describes them and the tables. folder:
-    gets the files. fit: parameters in a list, or in a text with commas. sets: keys of the configuration."""
+              offset: str = "all", prior: float = 1.0, errors: Mapping[str, float] | None = None, folds: int = 4,
+              level: str | None = None, device: str | None = None,
+              sets: Mapping[str, object] | None = None) -> Calibration:
+    """Compares the levels of a configuration with those of tables of measured values, and fits its materials and antennas
+    to them. The arguments are the options of `wavetracer calibrate`; docs/calibration.md describes them and the tables.
+    folder: gets the files. fit: parameters in a list, or in a text with commas. errors: standard deviations of parameters
+    by their names, instead of the usual ones. sets: keys of the configuration."""
     files = [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
     options = ["-c", os.fspath(config), "-o", os.fspath(folder), "--fit", fit if isinstance(fit, str) else ",".join(fit),
                "--offset", offset, "--prior", repr(float(prior)), "--folds", str(int(folds))]
     for file in files:
         options += ["--measured", os.fspath(file)]
+    for name, error in (errors or {}).items():
+        options += ["--error", f"{name}={float(error)!r}"]
     if level is not None:
         options += ["--level", level]
     if device is not None:
         options += ["--device", device]
-    for key, value in (sets or {}).items():
-        options += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+    for pair in _toml.sets(sets or {}):
+        options += ["--set", pair]
     text = _program.call("calibrate", *options)
     place = pathlib.Path(folder)
     return Calibration(_columns(place / "calibration.csv"), _parameters(place / "parameters.csv"), text, place)

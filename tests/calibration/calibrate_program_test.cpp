@@ -59,6 +59,32 @@ TEST_CASE("calibrate: only an offset is left in free space, and all files are wr
   CHECK(valid.code == 0);
 }
 
+TEST_CASE("calibrate: the height of a transmitter in free space, with its standard error, and mistakes in names") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = nothing();
+  const std::string config = folder.file("c.toml", text_of(scene, ""));
+  std::string rows = "x,y,z,path_loss_db\n";
+  for (int i = 1; i <= 20; ++i) rows += fmt::format("{},0,2,{:.12f}\n", 2 * i, loss_db(std::hypot(2 * i, 8.7)));
+  const std::string measured = folder.file("m.csv", rows), out = folder.path("out");
+  const auto run = [&](const std::string& fit, const std::string& error) {
+    return run_program({"calibrate", "-c", config, "--measured", measured, "-o", out, "--fit", fit, "--error", error,
+                        "--offset", "none"});
+  };
+  const Outcome outcome = run("a.height , a.yaw", "a.height=2");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  check_contains(outcome.out, "a.height   10 m    10.7 m");
+  check_contains(outcome.out, "frames were solved with ends in other places");
+  const std::string fitted = contents(out + "/fitted.toml"), before = "position_m = [0.0, 0.0, ";
+  const size_t at = fitted.find(before);
+  REQUIRE(at != std::string::npos);
+  CHECK(std::abs(std::stod(fitted.substr(at + before.size())) - 10.7) < 1e-6);
+  check_refused(run("b.height", "b.height=1"), 2, "no transmitter is called \"b\"; did you mean \"a.height\"?");
+  check_refused(run("a.height", "a.x=1"), 2, "no parameter of this name is fitted");
+  check_refused(run("a.height", "a.height=wide"), 2, "give NAME=VALUE");
+}
+
 TEST_CASE("calibrate refuses what does not fit together, and says what to do") {
   const Folder folder;
   const SceneFile scene = nothing();

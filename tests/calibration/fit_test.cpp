@@ -172,3 +172,39 @@ TEST_CASE("held-out data have no effect") {
   CHECK(found.used == 30);
   CHECK(found.theta[0] == doctest::Approx(2).epsilon(1e-9));
 }
+
+TEST_CASE("slopes with a step to both sides leave out a jump on either side") {
+  Problem problem;
+  problem.data.resize(3);
+  problem.priors = {no_prior};
+  problem.steps = {{.size = 0.01, .both_sides = true}};
+  // One value jumps at 0.005, one at -0.005, and one has a bend.
+  problem.model = [](std::span<const double> theta) {
+    const double t = theta[0];
+    return std::vector<double>{3 * t + (t > 0.005 ? 7 : 0), -2 * t + (t < -0.005 ? 7 : 0), t * t};
+  };
+  Linearized both(problem);
+  const auto slopes = both.slopes({0});
+  CHECK(slopes[0][0] == doctest::Approx(3));
+  CHECK(slopes[0][1] == doctest::Approx(-2));
+  CHECK(std::abs(slopes[0][2]) <= 0.01 + 1e-12);
+  CHECK(both.evaluations() == 3);
+  problem.steps = {{.size = 0.01}};
+  Linearized one(problem);
+  CHECK(one.slopes({0})[0][0] == doctest::Approx(703));
+}
+
+TEST_CASE("a datum that loses its value on the way does not stop the fit") {
+  Problem problem;
+  for (int i = 0; i < 20; ++i) problem.data.push_back({.value = 0.1 * i});
+  problem.priors = {no_prior};
+  problem.model = [](std::span<const double> theta) {
+    std::vector<double> out;
+    for (int i = 0; i < 20; ++i) out.push_back(i == 7 && theta[0] > 0.5 ? -INFINITY : 0.1 * i * theta[0]);
+    return out;
+  };
+  const FitResult found = fitted(problem);
+  CHECK(found.used == 20);
+  CHECK(found.theta[0] == doctest::Approx(1).epsilon(1e-6));
+  CHECK(std::isfinite(found.errors[0]));
+}

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A floor and two walls whose materials are known: the levels that they give are measured, and the materials are found
 // again from others. Cases that need a device are skipped with a message if there is none.
+#include <algorithm>
 #include <random>
 
-#include "app/program.hpp"
-#include "calibration/calibration.hpp"
-#include "radio/links.hpp"
-#include "simulation/run.hpp"
-#include "wavetracer/config_file.hpp"
+#include "calibration/fitted_config.hpp"
+#include "calibration/measured_world.hpp"
+#include "calibration/recovery.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -32,45 +31,6 @@ std::vector<glm::dvec3> places(size_t count) {
   std::vector<glm::dvec3> out;
   for (size_t i = 0; i < count; ++i) out.push_back({along(random), across(random), 1.5});
   return out;
-}
-
-// The gains of these places, dB, in their order.
-std::vector<double> gains(const Folder& folder, const std::string& text, const std::vector<glm::dvec3>& at) {
-  std::string all = text;
-  for (size_t i = 0; i < at.size(); ++i)
-    all += fmt::format("[[receiver]]\nname = \"r{:04}\"\nposition_m = [{}, {}, {}]\n", i, at[i].x, at[i].y, at[i].z);
-  Simulation simulation(load_config(folder.file("true.toml", all)));
-  const FrameResult frame = simulation.run_frame(0);
-  std::vector<double> out;
-  for (const LinkFigures& link : link_figures(frame.paths, 0, frame.world.links, 5.9e9))
-    out.push_back(link.path_gain_db);
-  return out;
-}
-
-std::string table(const std::vector<glm::dvec3>& at, const std::vector<double>& levels) {
-  std::string out = "x_m,y_m,z_m,path_gain_db\n";
-  for (size_t i = 0; i < at.size(); ++i)
-    out += fmt::format("{:.17g},{:.17g},{},{:.17g}\n", at[i].x, at[i].y, at[i].z, levels[i]);
-  return out;
-}
-
-calibration::Calibration calibrated(const std::string& config, const std::string& measured,
-                                    calibration::Offsets offsets, std::vector<std::string> patterns = {"*"}) {
-  const calibration::Request request{.config = config,
-                                     .sets = {},
-                                     .measured = {measured},
-                                     .level = "",
-                                     .device = "",
-                                     .patterns = std::move(patterns),
-                                     .offsets = offsets};
-  return calibration::calibrate(request, {[](const std::string&) {}, [] { return false; }});
-}
-
-double fitted(const calibration::Calibration& result, const std::string& name) {
-  for (size_t p = 0; p < result.parameters.size(); ++p)
-    if (result.parameters[p].name() == name) return result.parameters[p].value(result.fit.theta[p]);
-  FAIL("no parameter " << name);
-  return 0;
 }
 
 const std::string true_materials =
@@ -105,14 +65,9 @@ TEST_CASE("materials are found again from levels without noise, with an offset a
     CHECK(found.agreements[0].held_out.sigma_db < 1e-2);
     if (offset != 0) CHECK(found.fit.offsets[0] == doctest::Approx(offset).epsilon(1e-3));
     // The configuration that is written gives the measured levels.
-    Config again = found.config;
-    for (size_t i = 0; i < at.size(); ++i)
-      again.receivers.push_back({fmt::format("r{:04}", i), {at[i].x, at[i].y, at[i].z}});
-    Simulation simulation(parse_config(resolved_config(again), "fitted.toml"));
-    const FrameResult frame = simulation.run_frame(0);
-    const auto links = link_figures(frame.paths, 0, frame.world.links, 5.9e9);
-    REQUIRE(links.size() == at.size());
-    for (size_t i = 0; i < at.size(); ++i) CHECK(std::abs(links[i].path_gain_db + offset - levels[i]) < 1e-3);
+    const std::vector<double> again = gains_of_fitted(found, at);
+    REQUIRE(again.size() == at.size());
+    for (size_t i = 0; i < at.size(); ++i) CHECK(std::abs(again[i] + offset - levels[i]) < 1e-3);
   }
 }
 
@@ -136,5 +91,73 @@ TEST_CASE("levels with noise: errors are as large as the standard errors say") {
     CHECK(std::abs(fitted(found, name) - truth) < 4 * error);
     CHECK(error < 0.2 * truth);
     CHECK(found.fit.told[p] > 0.5);
+  }
+}
+
+TEST_CASE("a law over frequency of which one property is fitted becomes constants that can be read") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = street();
+  const std::vector<glm::dvec3> at = places(60);
+  const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
+  const std::string law = "[[material]]\nname = \"material-0\"\na = 5.0\nb = 0.02\nc = 0.03\nd = 0.8\n";
+  const auto found = calibrated(folder.file("start.toml", street_text(scene, law)),
+                                folder.file("m.csv", table(at, levels)), "none", {"material-0.permittivity"});
+  REQUIRE(found.parameters.size() == 1);
+  CHECK(std::abs(found.fit.theta[0]) > 0.01);
+  REQUIRE(found.config.materials.size() == 1);
+  const MaterialConfig& material = std::as_const(found.config).materials[0];
+  CHECK(material.permittivity == doctest::Approx(fitted(found, "material-0.permittivity")));
+  CHECK(material.conductivity_s_m == doctest::Approx(0.03 * std::pow(5.9, 0.8)).epsilon(1e-9));
+  const std::vector<double> again = gains_of_fitted(found, at);
+  REQUIRE(again.size() == at.size());
+  for (size_t i = 0; i < at.size(); ++i) CHECK(std::abs(again[i] - found.points[i].after.gain_db) < 1e-9);
+}
+
+TEST_CASE("levels have several minima over the permittivity of a floor, and a fit ends in one that is no worse") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = street();
+  const std::vector<glm::dvec3> at = places(60);
+  const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
+  const std::string start = folder.file("start.toml", street_text(scene, true_permittivities)),
+                    measured = folder.file("m.csv", table(at, levels));
+  calibration::MeasuredWorld world(calibration::config_of_places(start, {}), {calibration::read_measured(measured, "")},
+                                   "");
+  const auto floor = std::ranges::find(world.materials().names, "material-0");
+  REQUIRE(floor != world.materials().names.end());
+  std::vector<double> permittivity, misfit_db;
+  for (int i = 0; i <= 200; ++i) {
+    std::vector<device::wt_material> records = world.materials().records;
+    permittivity.push_back(2 + 0.05 * i);
+    records[static_cast<size_t>(floor - world.materials().names.begin())].permittivity[0] = permittivity.back();
+    const std::vector<calibration::Computed> now = world.weigh({records, world.ends()}, 0);
+    double sum = 0;
+    for (size_t k = 0; k < at.size(); ++k) sum += std::pow(now[k].gain_db - levels[k], 2);
+    misfit_db.push_back(std::sqrt(sum / static_cast<double>(at.size())));
+  }
+  std::vector<double> minima;
+  for (size_t i = 1; i + 1 < misfit_db.size(); ++i)
+    if (misfit_db[i] < misfit_db[i - 1] && misfit_db[i] < misfit_db[i + 1]) {
+      minima.push_back(permittivity[i]);
+      MESSAGE("a minimum at permittivity ", permittivity[i], ": ", misfit_db[i], " dB");
+    }
+  CHECK(minima.size() > 1);
+  const auto least = std::ranges::min_element(misfit_db);
+  CHECK(permittivity[static_cast<size_t>(least - misfit_db.begin())] == doctest::Approx(6.5));
+  CHECK(*least < 1e-6);
+  const auto misfit_near = [&](double value) {
+    return misfit_db[static_cast<size_t>(std::lround((value - 2) / 0.05))];
+  };
+  for (const double from : minima) {
+    const std::string away = fmt::format(
+        "[[material]]\nname = \"material-0\"\npermittivity = {}\n[[material]]\nname = \"material-1\"\npermittivity = 3.0\n",
+        from);
+    const auto found =
+        calibrated(folder.file("away.toml", street_text(scene, away)), measured, "none", {"material-0.permittivity"});
+    const double to = fitted(found, "material-0.permittivity");
+    MESSAGE("a fit from ", from, " ends at ", to);
+    CHECK(std::ranges::any_of(minima, [&](double value) { return std::abs(value - to) < 0.05; }));
+    CHECK(misfit_near(to) <= misfit_near(from));
   }
 }

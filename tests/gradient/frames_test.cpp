@@ -18,7 +18,7 @@
 #include "radio/constants.hpp"
 #include "simulation/bends.hpp"
 #include "simulation/frame.hpp"
-#include "simulation/run.hpp"
+#include "simulation/town.hpp"
 #include "simulation/visible_paths.hpp"
 
 using namespace wavetracer;
@@ -125,17 +125,10 @@ std::map<uint8_t, size_t> check_frames(const Config& config, uint32_t frames) {
   return kinds;
 }
 
-Config town(uint64_t rays, uint32_t max_depth) {
-  Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
-                            {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
-  config.scene.generate = "--blocks 4x4";
-  return config;
-}
-
 }  // namespace
 
 TEST_CASE("derivatives of the paths of a town: reflections, walls that are passed, one edge and two") {
-  Config config = town(20000, 3);
+  Config config = small_town(20000, 3);
   config.trace.diffraction = true;
   config.trace.transmission = true;
   config.trace.max_diffractions = 2;
@@ -146,7 +139,7 @@ TEST_CASE("derivatives of the paths of a town: reflections, walls that are passe
 }
 
 TEST_CASE("derivatives of the paths of a town: rough surfaces, leaves, and ends of edges") {
-  Config config = town(2000, 2);
+  Config config = small_town(2000, 2);
   config.trace.scattering = true;
   config.trace.tile_m = 8;
   config.trace.diffraction = true;
@@ -162,12 +155,8 @@ TEST_CASE("derivatives of the paths of a town: rough surfaces, leaves, and ends 
 }
 
 TEST_CASE("derivatives of the paths of vehicles that drive, over two edges too") {
-  Config config = town(20000, 2);
-  config.receivers.clear();
-  config.trajectories.generate = "--seed 1 --vehicles 20 --seconds 1 --step 0.1";
-  for (const char* type : {"passenger", "delivery", "truck"})
-    config.mounts.push_back({.name = "roof", .on = type, .role = "receiver", .offset_m = {0, 0, 2}});
-  config.time.step_s = 0.1;
+  Config config = small_town(20000, 2);
+  let_vehicles_hear(config);
   config.trace.diffraction = true;
   config.trace.max_diffractions = 2;
   CHECK(check_frames(config, 2)[diffraction] > 100);

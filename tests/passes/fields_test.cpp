@@ -36,7 +36,7 @@ void check_chosen(Fields& fields, const FieldInputs& inputs, const WorldState& s
   for (uint32_t row = 0; row < paths.size(); row += 3) chosen.push_back(row);
   const RowChoice choice = fields.choose(inputs.rows, chosen);
   REQUIRE(choice.count == chosen.size());
-  fields.again(inputs, state, choice);
+  fields.again(inputs, choice);
   fields.begin_read_carrier({choice.count, 0});
   context().finish();
   const CarrierFields again = fields.carrier({choice.count, 0});

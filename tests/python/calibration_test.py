@@ -73,6 +73,12 @@ def main():
     levels_only = wt.calibrate(half_space, measured, FOLDER / "out", fit="none", offset="none", folds=0)
     assert levels_only.parameters == {} and np.isnan(levels_only.points["held_out_db"]).all()
 
+    lifted = wt.calibrate(half_space, table("lifted.csv", [(x, y, z - 0.25) for x, y, z in places], levels(
+        half_space.read_text(), places)), FOLDER / "out", fit="receivers.height", errors={"receivers.height": 1},
+        offset="none", folds=0)
+    rise = lifted.parameters["receivers.height"]
+    assert rise.unit == "m" and rise.before == 0 and abs(rise.fitted - 0.25) < 1e-3, rise
+
     try:
         wt.calibrate(start, table("bad.csv", places, truth, "1,2,three,-80\n"), FOLDER / "no")
     except wt.InputError as error:

@@ -8,21 +8,16 @@
 #include <limits>
 #include <optional>
 
+#include "one_mesh.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using doctest::Contains;
+using test::named;
+using test::one_mesh;
 
 namespace {
-
-RawScene one_mesh(const RawMaterial& material) {
-  RawScene raw;
-  raw.file = "scene.xml";
-  raw.materials = {material};
-  raw.meshes.push_back({"wall", "wall.ply", {}, {}, 0});
-  return raw;
-}
 
 using Field = std::optional<double> MaterialConfig::*;
 
@@ -33,8 +28,6 @@ MaterialConfig table(const std::string& name, std::initializer_list<std::pair<Fi
   for (const auto& [field, value] : fields) out.*field = value;
   return out;
 }
-
-RawMaterial named(const std::string& name) { return {name, "scene.xml:3", {}, {}, {}, {}}; }
 
 Material resolve(const RawMaterial& material, const std::vector<MaterialConfig>& overrides = {},
                  const SceneConfig& scene = {}, double frequency_hz = 5.9e9) {

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "one_mesh.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/info.hpp"
 #include "scene/materials.hpp"
@@ -11,6 +12,8 @@
 
 using namespace wavetracer;
 using doctest::Contains;
+using test::named;
+using test::one_mesh;
 
 namespace {
 
@@ -28,19 +31,9 @@ MaterialConfig plain(const std::string& name, double permittivity) {
   return out;
 }
 
-RawScene one_mesh(const RawMaterial& material) {
-  RawScene raw;
-  raw.file = "scene.xml";
-  raw.materials = {material};
-  raw.meshes.push_back({"wall", "wall.ply", {}, {}, 0});
-  return raw;
-}
-
 ResolvedMaterials resolve(const std::vector<MaterialConfig>& tables, const RawMaterial& material) {
   return resolve_materials(one_mesh(material), {}, tables, 5.9e9);
 }
-
-RawMaterial named(const std::string& name) { return {name, "scene.xml:3", {}, {}, {}, {}}; }
 
 // Adds a mesh of triangles with corners of its own.
 void add_mesh(RawScene& raw, const std::vector<std::array<glm::dvec3, 3>>& triangles) {

@@ -6,7 +6,7 @@
 
 #include "radio/fields.hpp"
 #include "simulation/frame.hpp"
-#include "simulation/run.hpp"
+#include "simulation/town.hpp"
 #include "simulation/visible_paths.hpp"
 
 using namespace wavetracer;
@@ -72,9 +72,7 @@ std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
 }
 
 Config town(uint64_t rays, uint32_t max_depth) {
-  Config config = config_of("", {{0, 0, 12}, {100, 3, 2}},
-                            {{60, -2, 1.5}, {-97, 4, 1.5}, {40, 7, 1.5}, {-3, -50, 5}, {103, 50, 2}}, rays, max_depth);
-  config.scene.generate = "--blocks 4x4";
+  Config config = small_town(rays, max_depth);
   const std::array antennas{"short-dipole", "dipole", "tr38901", "isotropic", "dipole"};
   const auto polarizations = std::to_array<Polarization>({"V", "cross", "VH", "H", "VH"});
   for (size_t i = 0; i < config.receivers.size(); ++i) {
@@ -156,11 +154,7 @@ TEST_CASE("fields on the device are the host's to the last bit: several crowns o
 
 TEST_CASE("fields on the device are the host's to the last bit: vehicles that drive, with Doppler shifts") {
   Config config = town(50000, 3);
-  config.receivers.clear();
-  config.trajectories.generate = "--seed 1 --vehicles 20 --seconds 1 --step 0.1";
-  for (const char* type : {"passenger", "delivery", "truck"})
-    config.mounts.push_back({.name = "roof", .on = type, .role = "receiver", .offset_m = {0, 0, 2}});
-  config.time.step_s = 0.1;
+  let_vehicles_hear(config);
   config.trace.diffraction = true;
   CHECK(check_same(config, 2)[diffraction] > 100);
 }
