@@ -63,7 +63,8 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--measured", request.measured,
                    "CSV file of measured values; its header names the columns x_m, y_m and z_m, or latitude, longitude "
-                   "and height_m, and path_gain_db, path_loss_db or power_dbm; may be repeated")
+                   "and height_m, and path_gain_db, path_loss_db or power_dbm; with delay_ns, azimuth_deg or "
+                   "bearing_deg its rows are components; may be repeated")
       ->allow_extra_args(false)
       ->required();
   command->add_option("-o,--output", options->directory, "Folder for the tables, the plot, the page and fitted.toml")
@@ -92,6 +93,9 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   command->add_option("--level", request.level, "Name of the column with the level, where there are several");
+  command->add_option("--crs", request.crs,
+                      "Coordinate system of the columns x (east) and y (north), such as EPSG:25832, or a PROJ string; "
+                      "the scene needs a georeference");
   command->add_option("--set", request.sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", request.device,

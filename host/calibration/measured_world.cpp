@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places that several points share are one receiver.
 #include "calibration/measured_world.hpp"
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,8 +8,9 @@
 #include <numeric>
 #include <ranges>
 #include <utility>
-#include "base/spelling.hpp"
 #include "calibration/fitted_config.hpp"
+#include "calibration/measured_ends.hpp"
+#include "calibration/spreads.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/material_table.hpp"
 #include "radio/path_power.hpp"
@@ -20,87 +20,10 @@
 namespace wavetracer::calibration {
 namespace {
 
-// Returns the configuration without what measured places take the part of.
-Config config_for_places(const std::string& file, const std::vector<std::string>& sets) {
-  Config config = config_of_places(file, sets);
-  if (config.transmitters.empty()) throw ConfigError(file + ": a [[transmitter]] is needed, whose level was measured");
-  if (config.receivers.size() > 1)
-    throw ConfigError(fmt::format(
-        "{}: it has {} [[receiver]] tables; measured places take the antenna of a single one, so keep one of them",
-        file, config.receivers.size()));
-  if (!config.receiver_grids.empty() || !config.stations.empty() || !config.mounts.empty())
-    throw ConfigError(file +
-                      ": measured places are the only receivers; remove [[receiver_grid]], [[station]] and [[mount]] "
-                      "tables");
-  if (config.trace.by_spheres()) throw ConfigError(file + ": trace.reception = \"sphere\" has no exact paths to fit");
-  config.cache.kind = "none";
-  config.output.waypoints = 0;
-  config.output.paths = true;
-  return config;
-}
-
-// Returns the receiver at a measured place. pattern: the receiver that gives its antenna and height, or nullptr.
-RadioEnd receiver_at(const MeasuredFile& file, const MeasuredPoint& point, const RadioEnd* pattern) {
-  RadioEnd out = pattern ? *pattern : RadioEnd{};
-  std::array<double, 3> place = point.position;
-  if (!file.has_z) {
-    const bool geographic = pattern && pattern->position_wgs84;
-    if (!pattern || geographic != file.degrees)
-      throw InputError(fmt::format(
-          "{}: there is no column {}: add it, or give the height by a [[receiver]] of the configuration with {}",
-          file.file, file.degrees ? "height_m" : "z_m", file.degrees ? "position_wgs84" : "position_m"));
-    place[2] = geographic ? (*pattern->position_wgs84)[2] : pattern->position_m[2];
-  }
-  out.position_wgs84.reset();
-  if (file.degrees)
-    out.position_wgs84 = place;
-  else
-    out.position_m = place;
-  return out;
-}
-
-uint32_t transmitter_of(const MeasuredFile& file, const MeasuredPoint& point, const Config& config) {
-  std::vector<std::string> names;
-  for (const RadioEnd& end : config.transmitters) names.push_back(end.name);
-  if (point.tx.empty()) {
-    if (names.size() == 1) return 0;
-    throw InputError(
-        fmt::format("{}:{}: the configuration has {} transmitters: name the one of each row in a column tx", file.file,
-                    point.line, names.size()));
-  }
-  const auto found = std::ranges::find(names, point.tx);
-  if (found == names.end())
-    throw InputError(fmt::format("{}:{}: tx = '{}' is no transmitter of the configuration{}", file.file, point.line,
-                                 point.tx, spelling_hint(point.tx, names)));
-  return static_cast<uint32_t>(found - names.begin());
-}
-
-// Replaces the receivers by the measured places, and returns the link of each point.
-std::vector<Link> place_receivers(Config& config, const std::vector<MeasuredFile>& files) {
-  const std::optional<RadioEnd> pattern =
-      config.receivers.empty() ? std::nullopt : std::optional(std::as_const(config.receivers)[0]);
-  std::vector<RadioEnd> ends;
-  std::vector<Link> links;
-  std::map<std::pair<bool, std::array<double, 3>>, uint32_t> known;
-  for (const MeasuredFile& file : files)
-    for (const MeasuredPoint& point : file.points) {
-      RadioEnd end = receiver_at(file, point, pattern ? &*pattern : nullptr);
-      const auto [at, added] = known.try_emplace({file.degrees, end.position_wgs84.value_or(end.position_m)},
-                                                 static_cast<uint32_t>(ends.size()));
-      if (added) {
-        end.name = fmt::format("{}:{}", file.file, point.line);
-        ends.push_back(std::move(end));
-      }
-      links.push_back({transmitter_of(file, point, config), at->second});
-    }
-  config.receivers = std::move(ends);
-  return links;
-}
-
 Config with_places(const std::string& file, const std::vector<std::string>& sets,
                    const std::vector<MeasuredFile>& files, std::vector<Link>& links) {
-  Config config = config_for_places(file, sets);
-  links = place_receivers(config, files);
+  Config config = config_of_places(file, sets);
+  links = place_receivers(config, file, files);
   config.text = echoed_config(config);
   return config;
 }
@@ -120,7 +43,7 @@ Paths chosen_paths(const Paths& paths, const std::vector<uint32_t>& rows) {
   out.tx_ports = paths.tx_ports;
   const auto choose = [&](auto column) { out.*column = chosen_values(paths.*column, rows); };
   for (const auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth}) choose(column);
-  for (const auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::doppler_hz}) choose(column);
+  for (const auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::aoa_phi_rad, &Paths::doppler_hz}) choose(column);
   choose(&Paths::a);
   choose(&Paths::group);
   choose(&Paths::group_weight);
@@ -178,18 +101,13 @@ std::vector<std::array<std::complex<double>, 4>> MeasuredWorld::fields(
   return frames_.fields_again(rows, frame_).a;
 }
 
-// Power in the sense of path_gain_db, and rms delay spread, of the rows of a link.
+// Power in the sense of path_gain_db, and spreads of delays and azimuths, of the rows of a link.
 Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, double rest) const {
   const double power = grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz) + rest;
-  double sum = 0, mean_s = 0, square = 0;
-  for (size_t row = first; row < end; ++row) {
-    const double own = power_of(paths, row);
-    sum += own;
-    mean_s += own * paths.delay_s[row];
-  }
-  mean_s /= sum;
-  for (size_t row = first; row < end; ++row) square += power_of(paths, row) * std::pow(paths.delay_s[row] - mean_s, 2);
-  return {10 * std::log10(power), 1e9 * std::sqrt(square / sum)};
+  Spreads spreads(first < end ? paths.delay_s[first] : 0);
+  for (size_t row = first; row < end; ++row)
+    spreads.add(power_of(paths, row), paths.delay_s[row], paths.aoa_phi_rad[row]);
+  return {10 * std::log10(power), spreads.delay_ns(), spreads.azimuth_deg()};
 }
 
 // Links are sorted as rows are.
