@@ -24,7 +24,7 @@ struct Request {
   std::vector<std::string> sets;  // in the form of --set
   std::vector<std::string> measured;
   std::string level, device;
-  std::string crs = {};                       // of MeasuredOptions
+  std::string crs = {};                       // see MeasuredOptions
   std::vector<std::string> patterns = {"*"};  // of chosen_parameters(); empty: nothing but offsets
   Offsets offsets = "all";
   double prior = 1;

@@ -246,10 +246,10 @@ std::string describe(const ImportSummary& s) {
         s.terrain->rms_error_m);
   if (s.trees + s.trees_of_rows + s.woods > 0)
     out += fmt::format(
-        "vegetation {} single trees, {} trees in rows and {} woods, which attenuate waves (docs/outdoors.md); "
+        "vegetation single trees {}, trees in rows {}, woods {}; they attenuate waves (docs/outdoors.md), and "
         "--no-vegetation leaves them out\n",
         s.trees, s.trees_of_rows, s.woods);
-  for (const auto& [name, count] : s.walls) out += fmt::format("walls      {} buildings of {}\n", count, name);
+  for (const auto& [name, count] : s.walls) out += fmt::format("walls      {} {}\n", name, count);
   if (s.straightened > 0)
     out += fmt::format(
         "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: "

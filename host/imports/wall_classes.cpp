@@ -14,7 +14,7 @@ constexpr double masonry_scattering = 0.4;
 constexpr int masonry_lobe = 4;
 constexpr const char* structured =
     "V. Degli-Esposti et al., IEEE Trans. Antennas Propag. 55 (2007), 143-153: a brick house with windows";
-constexpr const char* smooth = "smooth: Rayleigh's criterion, ITU-R P.526";
+constexpr const char* smooth = "no value was found; panes and sheets are smooth";
 
 // Values of building=* and the ITU material that such houses usually have. Countries differ.
 struct UsualWall {

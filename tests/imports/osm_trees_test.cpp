@@ -33,7 +33,7 @@ TEST_CASE("trees, rows and woods are volumes of leaves unless they are refused, 
   CHECK(summary.trees == 1);
   CHECK(summary.trees_of_rows == 4);
   CHECK(summary.woods == 1);
-  check_contains(describe(summary), "vegetation 1 single trees, 4 trees in rows and 1 woods");
+  check_contains(describe(summary), "vegetation single trees 1, trees in rows 4, woods 1;");
   CHECK(summary.guessed.at("wood without a height: 20 m used") == 1);
   CHECK(summary.guessed.at("tree without diameter_crown: half of its height used, a third with needles") == 4);
   REQUIRE(scene.volumes.size() == 6);
