@@ -15,7 +15,7 @@ namespace {
 
 struct CalibrateOptions {
   calibration::Request request;
-  std::string directory = "out/calibration", fit = "*", offsets = "all";
+  std::string directory = "out/calibration", fit = "*", offsets = "all", spreads = "delay";
 };
 
 std::vector<std::string> split_at_commas(const std::string& text) {
@@ -34,6 +34,7 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   calibration::Request request = options.request;
   request.offsets = calibration::Offsets::named(options.offsets);
+  request.spreads = calibration::FittedSpreads::named(options.spreads);
   request.patterns = options.fit == "none" ? std::vector<std::string>() : split_at_commas(options.fit);
   const std::filesystem::path folder = std::filesystem::absolute(options.directory).lexically_normal();
   check_output_folder(folder);
@@ -80,6 +81,12 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
                    "Points that share an unknown offset of levels: all, file, tx, or none of them")
       ->check(CLI::IsMember(
           std::vector<std::string>(calibration::Offsets::words.begin(), calibration::Offsets::words.end())))
+      ->capture_default_str();
+  command
+      ->add_option("--spreads", options->spreads,
+                   "Measured spreads that the fit uses: all, delay, azimuth or none; the others are only compared")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(calibration::FittedSpreads::words.begin(), calibration::FittedSpreads::words.end())))
       ->capture_default_str();
   command
       ->add_option("--prior", request.prior,

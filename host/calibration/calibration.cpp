@@ -118,7 +118,7 @@ class Calibrating {
     for (size_t i = 0; i < blocks.size(); ++i) out_.points[i].fold = blocks[i];
   }
 
-  // The data are the levels of all points, then the spreads of delays and of azimuths of those that have one.
+  // The data are the levels of all points, then those spreads of delays and of azimuths that are fitted.
   void state_problem() {
     problem_.kinds = 1 + spread_kinds.size();
     for (const FittedPoint& point : out_.points) {
@@ -129,13 +129,15 @@ class Calibrating {
       if (request_.offsets == "tx") datum.offset = offset_number(point.tx);
       problem_.data.push_back(datum);
     }
-    for (size_t kind = 0; kind < spread_kinds.size(); ++kind)
+    for (size_t kind = 0; kind < spread_kinds.size(); ++kind) {
+      if (request_.spreads != "all" && request_.spreads.word() != spread_kinds[kind].word) continue;
       for (size_t i = 0; i < out_.points.size(); ++i)
         if (const auto spread =
                 out_.files[out_.points[i].file].points[out_.points[i].point].*spread_kinds[kind].measured) {
           problem_.data.push_back({.value = spread_db(*spread), .kind = 1 + kind});
           spreads_.push_back({i, kind});
         }
+    }
     problem_.offsets = out_.offset_names.size();
     for (const Parameter& parameter : out_.parameters) problem_.priors.push_back(parameter.prior);
     problem_.model = [this](std::span<const double> theta) { return values(theta); };

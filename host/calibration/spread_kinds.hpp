@@ -9,12 +9,12 @@
 namespace wavetracer::calibration {
 
 struct SpreadKind {
-  const char* name;  // with its unit
+  const char *word, *name;  // word: of FittedSpreads; name: with its unit
   std::optional<double> MeasuredPoint::*measured;
   double Computed::*computed;
 };
 inline constexpr std::array spread_kinds{
-    SpreadKind{"delay, ns", &MeasuredPoint::delay_spread_ns, &Computed::delay_spread_ns},
-    SpreadKind{"azimuth, degrees", &MeasuredPoint::azimuth_spread_deg, &Computed::azimuth_spread_deg}};
+    SpreadKind{"delay", "delay, ns", &MeasuredPoint::delay_spread_ns, &Computed::delay_spread_ns},
+    SpreadKind{"azimuth", "azimuth, degrees", &MeasuredPoint::azimuth_spread_deg, &Computed::azimuth_spread_deg}};
 
 }  // namespace wavetracer::calibration
