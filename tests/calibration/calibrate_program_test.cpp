@@ -2,6 +2,7 @@
 // The program `wavetracer calibrate` in free space, where levels have a closed form, and its refusals. Cases that need
 // a device are skipped with a message if there is none.
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "app/program.hpp"
@@ -129,6 +130,35 @@ TEST_CASE("calibrate: spreads of components beside those of a mirror") {
     CHECK(cells[5] > 0.1);
   }
   CHECK(points == 5);
+}
+
+TEST_CASE("calibrate: places in the coordinates of a map, for a scene that has a place on the earth") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile ground({Quad{{-900, -900, 0}, {1800, 0, 0}, {0, 1800, 0}}});
+  // The scene counts from a point of UTM zone 32, so metres of the map are its metres.
+  const std::string reference = ground.path().parent_path().string() + "/georeference.json";
+  std::ofstream(reference)
+      << R"({"projection": "+proj=utm +zone=32 +ellps=WGS84 +units=m", "offset_m": [-691000, -5334000]})";
+  std::string rows = "x,y,height_m,path_gain_db\n";
+  for (int i = 1; i <= 5; ++i)
+    rows += fmt::format("{},{},10,{:.12f}\n", 691000 + 30 * i, 5334000 + 40 * i, -loss_db(50 * i));
+  const std::string config = folder.file("c.toml", text_of(ground, "")), measured = folder.file("m.csv", rows);
+  for (const char* crs : {"EPSG:32632", "+proj=utm +zone=32 +ellps=WGS84 +units=m"}) {
+    const Outcome outcome =
+        run_program({"calibrate", "-c", config, "--measured", measured, "-o", folder.path("out"), "--fit", "none",
+                     "--offset", "none", "--crs", crs, "--set", "trace.max_depth=0"});
+    CAPTURE(outcome.err);
+    CAPTURE(outcome.out);
+    REQUIRE(outcome.code == 0);
+    check_contains(outcome.out, "5 points, 5 paths found");
+    std::istringstream numbers(outcome.out.substr(outcome.out.find("as configured  5") + 16));
+    double offset_db = 1, sigma_db = 1;
+    numbers >> offset_db >> sigma_db;
+    CHECK(std::abs(offset_db) < 0.01);
+    CHECK(std::abs(sigma_db) < 0.01);
+  }
+  std::filesystem::remove(reference);
 }
 
 TEST_CASE("calibrate refuses what does not fit together, and says what to do") {
