@@ -2,7 +2,6 @@
 // A floor and two walls whose materials are known: the levels that they give are measured, and the materials are found
 // again from others. Cases that need a device are skipped with a message if there is none.
 #include <random>
-#include <utility>
 
 #include "app/program.hpp"
 #include "calibration/calibration.hpp"
@@ -56,16 +55,14 @@ std::string table(const std::vector<glm::dvec3>& at, const std::vector<double>& 
 }
 
 calibration::Calibration calibrated(const std::string& config, const std::string& measured,
-                                    calibration::Offsets offsets, std::vector<std::string> patterns = {"*"},
-                                    calibration::FittedSpreads spreads = "delay") {
+                                    calibration::Offsets offsets, std::vector<std::string> patterns = {"*"}) {
   const calibration::Request request{.config = config,
                                      .sets = {},
                                      .measured = {measured},
                                      .level = "",
                                      .device = "",
                                      .patterns = std::move(patterns),
-                                     .offsets = offsets,
-                                     .spreads = spreads};
+                                     .offsets = offsets};
   return calibration::calibrate(request, {[](const std::string&) {}, [] { return false; }});
 }
 
@@ -139,27 +136,5 @@ TEST_CASE("levels with noise: errors are as large as the standard errors say") {
     CHECK(std::abs(fitted(found, name) - truth) < 4 * error);
     CHECK(error < 0.2 * truth);
     CHECK(found.fit.told[p] > 0.5);
-  }
-}
-
-TEST_CASE("a fit uses the spreads that it is asked to use, and finds materials beside spreads that are wrong") {
-  if (!device_present()) return;
-  const Folder folder;
-  const SceneFile scene = street();
-  const std::vector<glm::dvec3> at = places(60);
-  const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
-  std::string rows = "x,y,z,path_gain_db,delay_spread_ns,azimuth_spread_deg\n";
-  for (size_t i = 0; i < at.size(); ++i)
-    rows += fmt::format("{:.17g},{:.17g},{},{:.17g},1,80\n", at[i].x, at[i].y, at[i].z, levels[i]);
-  const std::string start = folder.file("start.toml", street_text(scene, "")), measured = folder.file("m.csv", rows);
-  using calibration::FittedSpreads;
-  for (const auto& [spreads, used] : {std::pair{FittedSpreads("none"), 60},
-                                      {FittedSpreads("delay"), 120},
-                                      {FittedSpreads("azimuth"), 120},
-                                      {FittedSpreads("all"), 180}}) {
-    CAPTURE(spreads.word());
-    const auto found = calibrated(start, measured, "none", {"*.permittivity"}, spreads);
-    CHECK(found.fit.used == used);
-    CHECK(fitted(found, "material-1.permittivity") == doctest::Approx(3.0).epsilon(0.01));
   }
 }
