@@ -15,7 +15,7 @@ namespace {
 struct CalibrateOptions {
   calibration::Request request;
   std::vector<std::string> fit = {"*"};
-  std::string directory = "out/calibration", offsets = "all";
+  std::string directory = "out/calibration", offsets = "all", spreads = "delay";
 };
 
 std::vector<std::string> patterns_of(const std::vector<std::string>& fit) {
@@ -28,6 +28,7 @@ std::vector<std::string> patterns_of(const std::vector<std::string>& fit) {
 void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   calibration::Request request = options.request;
   request.offsets = calibration::Offsets::named(options.offsets);
+  request.spreads = calibration::FittedSpreads::named(options.spreads);
   request.patterns = patterns_of(options.fit);
   const std::filesystem::path folder = begin_study(options.directory);
   Progress progress;
@@ -42,6 +43,49 @@ void run_calibrate(const CalibrateOptions& options, Invocation& invocation) {
   std::cout << calibration::calibration_text(result) << "\n" << written_line(written.files) << std::flush;
 }
 
+// The options of the fit.
+void add_fit(CLI::App& command, CalibrateOptions& options) {
+  calibration::Request& request = options.request;
+  command
+      .add_option("--fit", options.fit,
+                  "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
+                  "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
+                  "the first two; also TRANSMITTER.height, .x, .y, .yaw, .pitch and .roll, and receivers.height, which "
+                  "* alone does not choose; none: only compare")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command
+      .add_option("--offset", options.offsets,
+                  "Points that share an unknown offset of levels: all, file, tx, or none of them")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(calibration::Offsets::words.begin(), calibration::Offsets::words.end())))
+      ->capture_default_str();
+  command
+      .add_option("--spreads", options.spreads,
+                  "Measured spreads that the fit uses: all, delay, azimuth or none; the others are only compared")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(calibration::FittedSpreads::words.begin(), calibration::FittedSpreads::words.end())))
+      ->capture_default_str();
+  command
+      .add_option("--prior", request.prior,
+                  "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
+                  "nearer to those of the configuration")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  command
+      .add_option("--error", request.errors,
+                  "NAME=VALUE: the uncertainty of the fitted parameters of that name before the measurement, instead "
+                  "of the usual one; the standard deviation in m or degrees, of a material the relative one; may be "
+                  "repeated")
+      ->allow_extra_args(false);
+  command
+      .add_option("--folds", request.folds,
+                  "Blocks of neighbouring places, each of which is predicted by a fit to the others; 0: none")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_calibrate(CLI::App& program, Invocation& invocation) {
@@ -54,45 +98,17 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--measured", request.measured,
                    "CSV file of measured values; its header names the columns x_m, y_m and z_m, or latitude, longitude "
-                   "and height_m, and path_gain_db, path_loss_db or power_dbm; may be repeated")
+                   "and height_m, and path_gain_db, path_loss_db or power_dbm; with delay_ns, azimuth_deg or "
+                   "bearing_deg its rows are components; may be repeated")
       ->allow_extra_args(false)
       ->required();
   command->add_option("-o,--output", options->directory, "Folder for the tables, the plot, the page and fitted.toml")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--fit", options->fit,
-          "Parameters to fit, separated by commas: MATERIAL or MATERIAL.PROPERTY with * and ? as in shells; "
-          "properties are permittivity, conductivity, thickness and scattering; a material alone stands for "
-          "the first two; also TRANSMITTER.height, .x, .y, .yaw, .pitch and .roll, and receivers.height, which "
-          "* alone does not choose; none: only compare")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  command
-      ->add_option("--offset", options->offsets,
-                   "Points that share an unknown offset of levels: all, file, tx, or none of them")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(calibration::Offsets::words.begin(), calibration::Offsets::words.end())))
-      ->capture_default_str();
-  command
-      ->add_option("--prior", request.prior,
-                   "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
-                   "nearer to those of the configuration")
-      ->check(CLI::Range(1e-3, 1e3))
-      ->capture_default_str();
-  command
-      ->add_option("--error", request.errors,
-                   "NAME=VALUE: the uncertainty of the fitted parameters of that name before the measurement, instead "
-                   "of the usual one; the standard deviation in m or degrees, of a material the relative one; may be "
-                   "repeated")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--folds", request.folds,
-                   "Blocks of neighbouring places, each of which is predicted by a fit to the others; 0: none")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
+  add_fit(*command, *options);
   command->add_option("--level", request.level, "Name of the column with the level, where there are several");
+  command->add_option("--crs", request.crs,
+                      "Coordinate system of the columns x (east) and y (north), such as EPSG:25832, or a PROJ string; "
+                      "the scene needs a georeference");
   command->add_option("--set", request.sets, "KEY=VALUE: set a key of the config, overriding the file; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--device", request.device,

@@ -176,11 +176,18 @@ void add_map_options(CLI::App& command, ConvertOptions& options) {
   add("--margin", map.margin_m, "Distance by which the ground extends beyond buildings, network and traffic, in metres")
       ->capture_default_str();
   add("--wall-material", map.wall_material, "ITU material if the map does not name one")->capture_default_str();
+  command
+      .add_flag(
+          "--wall-classes", map.wall_classes,
+          "Give walls classes by their tags, with a thickness and a roughness, and write their [[material]] tables "
+          "to materials.toml")
+      ->group(maps);
   add("--roof-material", map.roof_material, "ITU material if the map does not name one")->capture_default_str();
   add("--ground-material", map.ground_material, "ITU material of the ground")->capture_default_str();
   command
-      .add_flag("--vegetation", map.vegetation,
-                "For OSM maps: trees, rows of trees and woods as volumes that attenuate; Sionna RT does not know them")
+      .add_flag("--vegetation,!--no-vegetation", map.vegetation,
+                "Trees, rows of trees and woods of the map as volumes that attenuate (the default), or not: Sionna RT "
+                "does not know them")
       ->group(maps);
   command.add_flag("!--no-ground", map.ground, "Write buildings only, without ground")->group(maps);
 }

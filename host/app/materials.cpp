@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include "imports/wall_classes.hpp"
 #include "radio/constants.hpp"
 #include "radio/material.hpp"
 #include "scene/material_laws.hpp"
@@ -135,6 +136,33 @@ std::string vehicle_row(const VehicleMaterial& material) {
                      power(law.c, law.d), law.thickness_m, at, material.source);
 }
 
+constexpr const char* walls = R"(
+## Classes of walls
+`wavetracer convert MAP -o FOLDER --wall-classes` gives the walls of each building one of these classes, instead of a material of 0.1 m, and writes their `[[material]]` tables to `FOLDER/materials.toml`. Put these tables into the configuration and change what you know better. Without them the scene file itself has the thickness of the third column, and no scattering. The class follows from the first of the tags `building:facade:material`, `building:cladding` and `building:material` whose value is known. Without one it follows from the kind of `building`, such as `house` (brick) or `warehouse` (metal), or else from `--wall-material`. Kinds of buildings are an assumption that holds for middle Europe at best, so `convert` prints how often it was made. Roofs have no classes, and neither have city models.
+
+| class | made of | thickness, m, and its source | S, lobe, and their source |
+| --- | --- | --- | --- |
+)";
+
+constexpr const char* walls_foot = R"(
+The standards and papers were not at hand; the losses of concrete and wood were computed with the laws above at normal incidence, without echoes inside of the wall (test `imports`). S is the scattering coefficient (`scattering`), which acts with `trace.scattering = true` alone; the model knows no rms height of a surface. S = 0.4 with a lobe of 4 was found for a brick house with windows near 1 GHz, and stands for other masonry, too. [calibration.md](calibration.md#what-walls-are-worth) has what thickness and S are worth on measured levels: the thickness matters, and S hardly.
+
+**Walls inside of buildings** are in no map of footprints. A partition of plasterboard is two boards with air between them, and no slab of 0.1 m: give it `layers`, as in [calibration.md](calibration.md#what-walls-are-worth).
+)";
+
+std::string wall_row(const imports::WallClass& wall) {
+  std::string made = fmt::format("`{}`", wall.itu), thick = fmt::format("{:g}", wall.thickness_m);
+  if (!wall.layers.empty()) {
+    made.clear();
+    for (const imports::WallLayer& layer : wall.layers)
+      made += fmt::format("{}{:g} m of `{}`", made.empty() ? "" : ", ", layer.thickness_m, layer.material);
+    thick += " of glass";
+  }
+  const std::string rough = wall.scattering > 0 ? fmt::format("{:g}, {}", wall.scattering, wall.lobe) : "0";
+  return fmt::format("| `{}` | {} | {}: {} | {}: {} |\n", wall.name, made, thick, wall.why_thick, rough,
+                     wall.why_rough);
+}
+
 }  // namespace
 
 std::string materials_page() {
@@ -150,7 +178,9 @@ std::string materials_page() {
   }
   out += fmt::format(foot, most.reflected_db, most.reflected_of, most.loss_factor, most.loss_of) + vehicles;
   for (const VehicleMaterial& material : vehicle_materials()) out += vehicle_row(material);
-  return out;
+  out += walls;
+  for (const imports::WallClass& wall : imports::wall_classes()) out += wall_row(wall);
+  return out + walls_foot;
 }
 
 std::string materials_table(ItuEdition edition, double frequency_hz) {

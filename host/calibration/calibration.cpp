@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include "accuracy/latin_hypercube.hpp"
 #include "base/stopwatch.hpp"
 #include "calibration/agreements_of.hpp"
 #include "calibration/chosen_parameters.hpp"
 #include "calibration/fitted_config.hpp"
 #include "calibration/measured_world.hpp"
+#include "calibration/spread_kinds.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::calibration {
@@ -36,7 +38,8 @@ Step step_of(Property property) {
   return is_angle(property) ? Step{step_of_turns_deg / unit} : Step{step_of_places_m / unit, true};
 }
 
-double spread_db(double nanoseconds) { return 10 * std::log10(nanoseconds); }
+// The logarithm of a spread in its unit.
+double spread_db(double spread) { return 10 * std::log10(spread); }
 
 double largest_difference_db(const std::vector<Computed>& a, const std::vector<Computed>& b) {
   double out = 0;
@@ -82,11 +85,15 @@ class Calibrating {
  private:
   void read_files() {
     for (const std::string& file : request_.measured) {
-      out_.files.push_back(read_measured(file, request_.level));
+      out_.files.push_back(read_measured(file, {.level = request_.level, .crs = request_.crs}));
       const MeasuredFile& read = out_.files.back();
       if (read.left_out > 0)
-        out_.notes.push_back(
-            fmt::format("{}: {} rows without a level or a position are left out", file, read.left_out));
+        out_.notes.push_back(fmt::format("{}: {} rows {} are left out", file, read.left_out,
+                                         read.components > 0 ? "without a level, a position, a delay or an azimuth"
+                                                             : "without a level or a position"));
+      if (read.components > 0)
+        out_.notes.push_back(fmt::format("{}: {} components at {} places", file, read.components, read.points.size()));
+      out_.notes.insert(out_.notes.end(), read.notes.begin(), read.notes.end());
       if (!read.unused.empty())
         out_.notes.push_back(fmt::format("{}: these columns are not used: {}", file, fmt::join(read.unused, ", ")));
     }
@@ -125,9 +132,9 @@ class Calibrating {
     for (size_t i = 0; i < blocks.size(); ++i) out_.points[i].fold = blocks[i];
   }
 
-  // The data are the levels of all points, then the delay spreads of those that have one.
+  // The data are the levels of all points, then those spreads of delays and of azimuths that are fitted.
   void state_problem() {
-    problem_.kinds = 2;
+    problem_.kinds = 1 + spread_kinds.size();
     for (const FittedPoint& point : out_.points) {
       const MeasuredPoint& measured = out_.files[point.file].points[point.point];
       Datum datum{.value = measured.level_db, .below = measured.below};
@@ -136,11 +143,15 @@ class Calibrating {
       if (request_.offsets == "tx") datum.offset = offset_number(point.tx);
       problem_.data.push_back(datum);
     }
-    for (size_t i = 0; i < out_.points.size(); ++i)
-      if (const auto spread = out_.files[out_.points[i].file].points[out_.points[i].point].delay_spread_ns) {
-        problem_.data.push_back({.value = spread_db(*spread), .kind = 1});
-        spreads_.push_back(i);
-      }
+    for (size_t kind = 0; kind < spread_kinds.size(); ++kind) {
+      if (request_.spreads != "all" && request_.spreads.word() != spread_kinds[kind].word) continue;
+      for (size_t i = 0; i < out_.points.size(); ++i)
+        if (const auto spread =
+                out_.files[out_.points[i].file].points[out_.points[i].point].*spread_kinds[kind].measured) {
+          problem_.data.push_back({.value = spread_db(*spread), .kind = 1 + kind});
+          spreads_.push_back({i, kind});
+        }
+    }
     problem_.offsets = out_.offset_names.size();
     for (const Parameter& parameter : out_.parameters) {
       problem_.priors.push_back(parameter.prior);
@@ -158,7 +169,7 @@ class Calibrating {
     const std::vector<Computed> points = computed(theta);
     std::vector<double> out;
     for (const Computed& point : points) out.push_back(point.gain_db);
-    for (const size_t i : spreads_) out.push_back(spread_db(points[i].delay_spread_ns));
+    for (const auto& [i, kind] : spreads_) out.push_back(spread_db(points[i].*spread_kinds[kind].computed));
     return out;
   }
 
@@ -259,7 +270,7 @@ class Calibrating {
   void hold_out(size_t fold) {
     std::vector<bool> takes;
     for (const FittedPoint& point : out_.points) takes.push_back(point.fold != fold);
-    for (const size_t i : spreads_) takes.push_back(out_.points[i].fold != fold);
+    for (const auto& [i, kind] : spreads_) takes.push_back(out_.points[i].fold != fold);
     const FitResult fitted = fit(problem_, *model_, takes, out_.fit.theta);
     const std::vector<Computed> predicted = computed(fitted.theta);
     for (size_t i = 0; i < out_.points.size(); ++i)
@@ -273,7 +284,7 @@ class Calibrating {
   const study::Host& host_;
   std::optional<MeasuredWorld> world_;
   Problem problem_;
-  std::vector<size_t> spreads_;  // points whose delay spreads are data
+  std::vector<std::pair<size_t, size_t>> spreads_;  // points whose spreads are data, and the kinds of these spreads
   size_t folds_ = 0, evaluations_before_ = 0;
   std::optional<Linearized> model_;
   Calibration out_;

@@ -19,13 +19,18 @@ namespace wavetracer::calibration {
 // The points that share an offset between measured and computed levels.
 using Offsets = Choice<"all", "file", "tx", "none">;
 
+// The measured spreads that the fit uses; the others are only compared.
+using FittedSpreads = Choice<"all", "delay", "azimuth", "none">;
+
 struct Request {
   std::string config;             // file of the configuration
   std::vector<std::string> sets;  // in the form of --set
   std::vector<std::string> measured;
   std::string level, device;
+  std::string crs = {};                       // see MeasuredOptions
   std::vector<std::string> patterns = {"*"};  // of chosen_parameters(); empty: nothing but offsets
   Offsets offsets = "all";
+  FittedSpreads spreads = "delay";
   double prior = 1;                      // usual standard deviations are multiplied by it
   std::vector<std::string> errors = {};  // NAME=VALUE, see Priors
   uint32_t folds = 4;                    // blocks of places, each of which is held out once; 0 or 1: none are

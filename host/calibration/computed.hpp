@@ -3,9 +3,10 @@
 
 namespace wavetracer::calibration {
 
-// The computed values of a measured point: gain in dB, -inf without a path, and rms delay spread in ns.
+// The computed values of a measured point: gain in dB, -inf without a path, rms delay spread in ns, and circular spread
+// of the azimuths of arrival in degrees (calibration/spreads.hpp). Spreads are NaN without a path.
 struct Computed {
-  double gain_db = 0, delay_spread_ns = 0;
+  double gain_db = 0, delay_spread_ns = 0, azimuth_spread_deg = 0;
 };
 
 }  // namespace wavetracer::calibration

@@ -13,9 +13,10 @@ struct MeasuredPlaces {
   std::vector<Link> links;  // a link for each point of all files, one file after the other
 };
 
-// Puts receivers at the measured places. config: describes the world, the carrier and the transmitters; a single
-// [[receiver]] in it gives the places its antenna, orientation, and its height where files have none. Throws
-// ConfigError or InputError where the configuration does not fit the files.
+// Puts receivers at the measured places. config: describes the world, the carrier and the transmitters. A row takes its
+// antenna, orientation and, where the file has none, its height from the [[receiver]] that its column rx names, or from
+// the only one; its own yaw, pitch and roll replace those of that orientation. Caches and waypoints are switched off.
+// Throws ConfigError or InputError where the configuration does not fit the files.
 MeasuredPlaces measured_places(Config config, const std::vector<MeasuredFile>& files);
 
 }  // namespace wavetracer::calibration

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 #include <utility>
+#include "calibration/spreads.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/material_table.hpp"
 #include "radio/path_power.hpp"
@@ -31,7 +32,7 @@ Paths chosen_paths(const Paths& paths, const std::vector<uint32_t>& rows) {
   out.tx_ports = paths.tx_ports;
   const auto choose = [&](auto column) { out.*column = chosen_values(paths.*column, rows); };
   for (const auto column : {&Paths::frame, &Paths::tx, &Paths::rx, &Paths::depth}) choose(column);
-  for (const auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::doppler_hz}) choose(column);
+  for (const auto column : {&Paths::delay_s, &Paths::gain_db, &Paths::aoa_phi_rad, &Paths::doppler_hz}) choose(column);
   choose(&Paths::a);
   choose(&Paths::group);
   choose(&Paths::group_weight);
@@ -139,18 +140,13 @@ double MeasuredWorld::power_of_rows(const Paths& paths, size_t first, size_t end
   return grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz);
 }
 
-// Power and rms delay spread, of the rows of a link.
+// Power in the sense of path_gain_db, and spreads of delays and azimuths, of the rows of a link.
 Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, double rest) const {
   const double power = power_of_rows(paths, first, end) + rest;
-  double sum = 0, mean_s = 0, square = 0;
-  for (size_t row = first; row < end; ++row) {
-    const double own = power_of(paths, row);
-    sum += own;
-    mean_s += own * paths.delay_s[row];
-  }
-  mean_s /= sum;
-  for (size_t row = first; row < end; ++row) square += power_of(paths, row) * std::pow(paths.delay_s[row] - mean_s, 2);
-  return {10 * std::log10(power), 1e9 * std::sqrt(square / sum)};
+  Spreads spreads(first < end ? paths.delay_s[first] : 0);
+  for (size_t row = first; row < end; ++row)
+    spreads.add(power_of(paths, row), paths.delay_s[row], paths.aoa_phi_rad[row]);
+  return {10 * std::log10(power), spreads.delay_ns(), spreads.azimuth_deg()};
 }
 
 std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vector<double>& rest) const {

@@ -9,6 +9,7 @@
 #include "base/html_page.hpp"
 #include "base/pending_file.hpp"
 #include "base/xml_text.hpp"
+#include "calibration/spread_agreement.hpp"
 #include "plots/gnuplot.hpp"
 #include "study/page.hpp"
 #include "wavetracer/config_file.hpp"
@@ -48,6 +49,8 @@ std::string page_html(const Calibration& result, const std::string& command_line
   std::string text = fmt::format("<h1>Calibration: {}</h1>\n{}", xml_text(result.config.file),
                                  study::heading_html(heading, {how(result)}));
   text += svg + study::table_html(agreement_table(result)) + study::table_html(parameter_table(result));
+  if (const study::NumberTable spreads = spread_table(result); !spreads.rows.empty())
+    text += study::table_html(spreads);
   const std::vector<std::string> found = findings(result);
   if (!found.empty()) text += "<h2>Notes</h2>\n<ul>\n";
   for (const std::string& item : found) text += fmt::format("<li>{}.</li>\n", xml_text(item));
@@ -60,6 +63,8 @@ std::string page_html(const Calibration& result, const std::string& command_line
 std::string calibration_text(const Calibration& result) {
   std::string text =
       how(result) + "\n\n" + table_text(agreement_table(result)) + "\n" + table_text(parameter_table(result));
+  if (const study::NumberTable spreads = spread_table(result); !spreads.rows.empty())
+    text += "\n" + table_text(spreads);
   for (const std::string& item : findings(result)) text += "note: " + item + "\n";
   return text;
 }

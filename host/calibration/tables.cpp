@@ -96,16 +96,19 @@ std::vector<std::string> findings(const Calibration& result) {
 
 std::string points_csv(const Calibration& result) {
   Csv table({"file", "line", "tx", "group", "x_m", "y_m", "z_m", "block", "measured_db", "below", "before_db",
-             "fitted_db", "held_out_db", "measured_spread_ns", "before_spread_ns", "fitted_spread_ns"});
+             "fitted_db", "held_out_db", "measured_spread_ns", "before_spread_ns", "fitted_spread_ns",
+             "measured_azimuth_spread_deg", "before_azimuth_spread_deg", "fitted_azimuth_spread_deg"});
   const bool held_out = !result.agreements.empty() && result.agreements.front().held_out.points > 0;
   for (const FittedPoint& point : result.points) {
     const MeasuredFile& file = result.files[point.file];
     const MeasuredPoint& measured = file.points[point.point];
-    table.add(
-        file.file, measured.line, point.tx, measured.group, point.place_m.x, point.place_m.y, point.place_m.z,
-        point.fold, measured.level_db, measured.below, point.before.gain_db, point.after.gain_db + point.offset_db,
-        held_out ? point.held_out.gain_db + point.offset_held_out_db : std::nan(""),
-        measured.delay_spread_ns.value_or(std::nan("")), point.before.delay_spread_ns, point.after.delay_spread_ns);
+    table.add(file.file, measured.line, point.tx, measured.group, point.place_m.x, point.place_m.y, point.place_m.z,
+              point.fold, measured.level_db, measured.below, point.before.gain_db,
+              point.after.gain_db + point.offset_db,
+              held_out ? point.held_out.gain_db + point.offset_held_out_db : std::nan(""),
+              measured.delay_spread_ns.value_or(std::nan("")), point.before.delay_spread_ns,
+              point.after.delay_spread_ns, measured.azimuth_spread_deg.value_or(std::nan("")),
+              point.before.azimuth_spread_deg, point.after.azimuth_spread_deg);
   }
   return table.text();
 }

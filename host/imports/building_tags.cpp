@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "imports/vegetation_tags.hpp"
+#include "imports/wall_classes.hpp"
 
 namespace wavetracer::imports {
 namespace {
@@ -269,14 +270,16 @@ std::optional<Shape> building_shape(const Tags& tags, const ImportOptions& optio
     ++left_out["roof on posts"];
     return {};
   }
-  Shape shape{bottom_of(tags, options, guessed), top_of(tags, options, guessed), {}, {}};
+  Shape shape{
+      .bottom_m = bottom_of(tags, options, guessed), .top_m = top_of(tags, options, guessed), .walls = {}, .roof = {}};
   if (shape.bottom_m >= shape.top_m) {
     ++left_out["min_height is above the height"];
     return {};
   }
   const std::string_view roof = tag(tags, "roof:shape");
   if (!roof.empty() && roof != "flat") ++guessed["roof that is not flat: built flat at its full height"];
-  shape.walls = material(tags, "building:material", options.wall_material, guessed);
+  shape.walls = options.wall_classes ? wall_class_of(tags, options.wall_material, guessed)
+                                     : material(tags, "building:material", options.wall_material, guessed);
   shape.roof = material(tags, "roof:material", options.roof_material, guessed);
   return shape;
 }

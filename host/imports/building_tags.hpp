@@ -2,6 +2,7 @@
 // Reads heights and materials of a building from its tags, by the Simple 3D Buildings scheme of OpenStreetMap. People
 // write tags by hand: a value that cannot be read is replaced by a default and counted.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,9 +40,12 @@ std::optional<double> tagged_value(const Tags& tags, const TaggedValue& what, st
 // if unknown.
 std::string_view itu_material(std::string_view value);
 
+enum class Plant : uint8_t { none, tree, tree_of_row, wood };  // none: a building
+
 struct Shape {
   double bottom_m = 0, top_m = 0;  // heights above the ground; with bottom 0 it stands on the ground
-  std::string walls, roof;         // ITU names
+  std::string walls, roof;         // ITU names, or names of wall classes (imports/wall_classes.hpp)
+  Plant plant = Plant::none;
 };
 
 // Returns the shape to build; `guessed` counts values that the tags do not give. If nothing can be built, it returns

@@ -17,6 +17,7 @@
 #include "imports/plan.hpp"
 #include "imports/scene_files.hpp"
 #include "imports/terrain.hpp"
+#include "imports/wall_classes.hpp"
 #include "scene/materials.hpp"
 #include "wavetracer/error.hpp"
 
@@ -99,12 +100,26 @@ std::string total(const std::map<std::string, uint64_t>& counts) {
   return out;
 }
 
+// Returns the number that counts the solid.
+uint64_t& counted(ImportSummary& summary, const imports::Solid& solid) {
+  switch (solid.shape.plant) {
+    case imports::Plant::tree:
+      return summary.trees;
+    case imports::Plant::tree_of_row:
+      return summary.trees_of_rows;
+    case imports::Plant::wood:
+      return summary.woods;
+    default:
+      return solid.part ? summary.parts : summary.buildings;
+  }
+}
+
 void add_counts(ImportSummary& summary, const imports::Plan& plan) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   summary.lower_m = glm::dvec2(infinity);
   summary.upper_m = glm::dvec2(-infinity);
   for (const imports::Solid& solid : plan.solids) {
-    ++(!solid.is_building() ? summary.vegetation : solid.part ? summary.parts : summary.buildings);
+    ++counted(summary, solid);
     summary.courtyards += solid.polygon.holes.size();
     for (const imports::Point& p : solid.polygon.outer) {
       const glm::dvec2 m(static_cast<double>(p.x) / imports::grid_per_m,
@@ -128,8 +143,27 @@ ImportSummary write_city(const std::vector<imports::SceneMesh>& meshes, const Ge
   return summary;
 }
 
+// Writes the tables of the wall classes of the scene, unless there are some, which a user may have changed.
+void write_wall_tables(const imports::Plan& plan, ImportSummary& summary, const ImportOptions& options) {
+  for (const imports::Solid& solid : plan.solids)
+    if (imports::find_wall_class(solid.shape.walls)) ++summary.walls[solid.shape.walls];
+  std::vector<std::string> names;
+  for (const auto& [name, count] : summary.walls) names.push_back(name);
+  summary.materials = options.output / "materials.toml";
+  const std::string text = imports::wall_tables(names);
+  std::error_code error;
+  if (!std::filesystem::exists(summary.materials, error)) return write_file(summary.materials, text);
+  if (read_file(summary.materials) != text)
+    summary.warnings.push_back(
+        fmt::format("{}: this file is kept as it is, since you may have changed it; remove it to get the tables anew",
+                    summary.materials.string()));
+}
+
 ImportSummary import_model(std::string_view content, const std::string& name, const ImportOptions& options) {
   refuse_options_of_gdal(name, options);
+  if (options.wall_classes)
+    throw ConfigError(
+        fmt::format("{}: --wall-classes is for maps of footprints; a city model has no tags of walls", name));
   imports::ModelScene scene = imports::build_model(imports::is_citygml(content.substr(0, first_bytes))
                                                        ? imports::read_citygml(content, name, options)
                                                        : imports::read_cityjson(content, name, options),
@@ -163,7 +197,9 @@ ImportSummary import_map(const imports::Map& map, const std::string& name, const
   summary.straightened = plan.straightened;
   summary.straightened_by_m = plan.straightened_by_m;
   summary.rounding_m = map.rounding_m;
-  return write_city(meshes, georeference, std::move(summary), options);
+  summary = write_city(meshes, georeference, std::move(summary), options);
+  if (options.wall_classes) write_wall_tables(plan, summary, options);
+  return summary;
 }
 
 }  // namespace
@@ -208,7 +244,12 @@ std::string describe(const ImportSummary& s) {
         "{:.3f} m rms\n",
         s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
         s.terrain->rms_error_m);
-  if (s.vegetation > 0) out += fmt::format("vegetation {} trees and woods, by docs/outdoors.md\n", s.vegetation);
+  if (s.trees + s.trees_of_rows + s.woods > 0)
+    out += fmt::format(
+        "vegetation single trees {}, trees in rows {}, woods {}; they attenuate waves (docs/outdoors.md), and "
+        "--no-vegetation leaves them out\n",
+        s.trees, s.trees_of_rows, s.woods);
+  for (const auto& [name, count] : s.walls) out += fmt::format("walls      {} {}\n", name, count);
   if (s.straightened > 0)
     out += fmt::format(
         "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: "
@@ -218,6 +259,8 @@ std::string describe(const ImportSummary& s) {
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);
   out += fmt::format("use it     [scene]\n           file = \"{}\"\n", s.scene.string());
+  if (!s.materials.empty())
+    out += fmt::format("           # and the [[material]] tables of {}\n", s.materials.string());
   if (!s.net.empty()) out += fmt::format("           streets = \"{}\"\n", s.net.string());
   if (s.offset_m != glm::dvec2(0, 0)) {
     out += fmt::format(

@@ -32,10 +32,13 @@ struct ImportOptions {
   double level_height_m = 3;     // height of a level, for building:levels
   double default_height_m = 10;  // height of buildings without height and levels
   bool ground = true;  // adds a rectangle at z = 0 below all buildings, the road network (convBoundary) and the traffic
-  bool vegetation = false;  // OpenStreetMap only: adds trees, rows of trees and woods as volumes of leaves
-  double margin_m = 50;     // ground beyond the outermost objects
-  std::string ground_material = "concrete";                            // ITU names
+  bool vegetation = true;                    // adds trees, rows of trees and woods of the map as volumes of leaves
+  double margin_m = 50;                      // ground beyond the outermost objects
+  std::string ground_material = "concrete";  // ITU names
   std::string wall_material = "concrete", roof_material = "concrete";  // used where the file does not name a material
+  // Maps of footprints: walls have classes with a thickness and a roughness, whose tables are written to
+  // materials.toml.
+  bool wall_classes = false;
   // OpenStreetMap only: the .net.xml that SUMO's netconvert made of the same map. The scene then has its coordinates,
   // which are those of the vehicles; without it, a transverse Mercator projection about the middle of the city is used.
   std::filesystem::path net;
@@ -54,11 +57,13 @@ struct ImportOptions {
 };
 
 struct ImportSummary {
-  std::filesystem::path scene;               // OUTPUT/city.xml
-  std::filesystem::path net;                 // the network of the options: scene.streets of a configuration
-  uint64_t buildings = 0;                    // number of solids of whole buildings
-  uint64_t parts = 0;                        // number of solids of building:part
-  uint64_t vegetation = 0;                   // number of trees and woods
+  std::filesystem::path scene;            // OUTPUT/city.xml
+  std::filesystem::path materials;        // OUTPUT/materials.toml; empty without wall classes
+  std::map<std::string, uint64_t> walls;  // number of solids of each wall class
+  std::filesystem::path net;              // the network of the options: scene.streets of a configuration
+  uint64_t buildings = 0;                 // number of solids of whole buildings
+  uint64_t parts = 0;                     // number of solids of building:part
+  uint64_t trees = 0, trees_of_rows = 0, woods = 0;
   std::string heights;                       // for city models: the old and new height of their ground, in words
   uint64_t courtyards = 0;                   // number of holes in either
   uint64_t triangles = 0;                    // includes the ground

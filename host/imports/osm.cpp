@@ -117,8 +117,8 @@ class OsmReader {
   }
 
   void count_greenery(const osmium::OSMObject& object) {
-    if (vegetation_) return;
-    if (const std::string_view kind = greenery(object.tags()); !kind.empty()) ++map_.left_out[std::string(kind)];
+    if (const std::string_view kind = left_out_greenery(object.tags(), vegetation_); !kind.empty())
+      ++map_.left_out[std::string(kind)];
   }
 
   // Tells whether a closed way or a multipolygon with these tags is built.
@@ -137,7 +137,7 @@ class OsmReader {
     Footprint footprint;
     footprint.id = id;
     set_tags(footprint, tags);
-    footprint.tags["vegetation"] = "tree";
+    footprint.tags["vegetation"] = is_row(tags) ? "row" : "tree";
     footprint.outer = crown_ring(place_deg, tree_size(footprint.tags).crown_m);
     map_.footprints.push_back(std::move(footprint));
   }

@@ -10,10 +10,27 @@
 
 namespace wavetracer::imports {
 
-constexpr auto kept_tags = std::to_array<const char*>(
-    {"building", "building:part", "height", "building:height", "est_height", "min_height", "building:min_height",
-     "building:levels", "building:min_level", "building:levels:underground", "roof:levels", "roof:height", "roof:shape",
-     "layer", "building:material", "roof:material", "location", "diameter_crown", "leaf_type"});
+constexpr auto kept_tags = std::to_array<const char*>({"building",
+                                                       "building:part",
+                                                       "height",
+                                                       "building:height",
+                                                       "est_height",
+                                                       "min_height",
+                                                       "building:min_height",
+                                                       "building:levels",
+                                                       "building:min_level",
+                                                       "building:levels:underground",
+                                                       "roof:levels",
+                                                       "roof:height",
+                                                       "roof:shape",
+                                                       "layer",
+                                                       "building:material",
+                                                       "building:facade:material",
+                                                       "building:cladding",
+                                                       "roof:material",
+                                                       "location",
+                                                       "diameter_crown",
+                                                       "leaf_type"});
 
 inline bool is_yes(const osmium::TagList& tags, const char* key) {
   const char* const value = tags.get_value_by_key(key);
@@ -31,16 +48,24 @@ inline Tags kept_of(const osmium::TagList& tags) {
   return out;
 }
 
-// Returns the kind of an object that attenuates waves and is no building, or empty for other objects. It is built if
-// ImportOptions::vegetation asks for it.
+// Returns the kind of an object that attenuates waves and is no building, or empty for other objects. The first three
+// are built if ImportOptions::vegetation asks for them, the others never.
 inline std::string_view greenery(const osmium::TagList& tags) {
   if (is_tree(tags)) return "tree (natural=tree)";
   if (is_row(tags)) return "row of trees (natural=tree_row)";
   if (is_wood(tags)) return "forest (landuse=forest, natural=wood)";
+  if (tags.has_tag("barrier", "hedge")) return "hedge (barrier=hedge)";
+  if (tags.has_tag("natural", "scrub")) return "scrub (natural=scrub)";
+  if (tags.has_tag("landuse", "orchard")) return "orchard (landuse=orchard)";
   return {};
 }
 inline bool is_building(const osmium::TagList& tags) {
   return is_yes(tags, "building") || is_yes(tags, "building:part");
+}
+// Returns the kind of greenery that is not built, or empty. vegetation: trees, rows and woods are built.
+inline std::string_view left_out_greenery(const osmium::TagList& tags, bool vegetation) {
+  const bool built = is_building(tags) || (vegetation && (is_tree(tags) || is_row(tags) || is_wood(tags)));
+  return built ? std::string_view() : greenery(tags);
 }
 
 }  // namespace wavetracer::imports

@@ -22,7 +22,7 @@ struct Solid {
   Shape shape;
   Ring outline = {};  // outline of the building that it is a part of; empty if there is none
   double base_m = 0;  // height of the ground that it stands on
-  bool is_building() const { return !is_vegetation(shape.walls); }
+  bool is_building() const { return shape.plant == Plant::none; }
 };
 
 struct Plan {

@@ -12,6 +12,7 @@
 
 #include "base/file.hpp"
 #include "base/pending_folder.hpp"
+#include "imports/wall_classes.hpp"
 #include "scene/ply.hpp"
 #include "wavetracer/error.hpp"
 
@@ -69,6 +70,10 @@ void append(pugi::xml_node parent, const char* tag, const char* name, const std:
   pugi::xml_node node = parent.append_child(tag);
   node.append_attribute("name") = name;
   node.append_attribute("value") = value.c_str();
+}
+
+std::string bsdf_id(const std::string& material) {
+  return (find_wall_class(material) ? "mat-" : "mat-itu_") + material;
 }
 
 // Writes georeference.json, or removes that of an earlier import if this import has none.
@@ -163,11 +168,12 @@ void write_scene(const std::vector<SceneMesh>& meshes, const Georeference& geore
   std::set<std::string> materials;
   for (const SceneMesh& mesh : meshes) materials.insert(mesh.material);
   for (const std::string& material : materials) {
+    const WallClass* const wall = find_wall_class(material);
     pugi::xml_node bsdf = scene.append_child("bsdf");
     bsdf.append_attribute("type") = "itu-radio-material";
-    bsdf.append_attribute("id") = ("mat-itu_" + material).c_str();
-    append(bsdf, "string", "type", material);
-    append(bsdf, "float", "thickness", "0.1");
+    bsdf.append_attribute("id") = bsdf_id(material).c_str();
+    append(bsdf, "string", "type", wall ? wall->itu : material);
+    append(bsdf, "float", "thickness", wall ? fmt::format("{}", wall->thickness_m) : "0.1");
   }
   uint64_t written = 0;
   for (const SceneMesh& mesh : meshes) {
@@ -180,7 +186,7 @@ void write_scene(const std::vector<SceneMesh>& meshes, const Georeference& geore
     append(shape, "string", "filename", "meshes/" + file);
     append(shape, "boolean", "face_normals", "true");
     pugi::xml_node reference = shape.append_child("ref");
-    reference.append_attribute("id") = ("mat-itu_" + mesh.material).c_str();
+    reference.append_attribute("id") = bsdf_id(mesh.material).c_str();
     reference.append_attribute("name") = "bsdf";
   }
   files.commit();

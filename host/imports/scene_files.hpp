@@ -16,7 +16,7 @@ constexpr double foundation_m = 1;  // solids on the ground reach this far below
 struct SceneMesh {
   std::string file;      // without folder and suffix
   std::string name;      // name of the object
-  std::string material;  // ITU name
+  std::string material;  // ITU name, or a wall class
   std::vector<glm::dvec3> vertices;
   std::vector<Triangle> triangles;
 };

@@ -37,15 +37,17 @@ std::vector<TagField> tag_fields(const ImportOptions& options) {
     add(options.levels_field, "building:levels", {"building:levels", "levels", "num_floors"});
   for (const char* name : {"roof:height", "roof:levels", "min_height", "building:min_level", "building:part"})
     add({}, name, {name});
-  add({}, "building:material", {"building:material"});
+  for (const char* name : {"building:facade:material", "building:cladding", "building:material"}) add({}, name, {name});
   add({}, "roof:material", {"roof:material"});
+  for (const char* name : {"natural", "landuse", "building"}) add({}, name, {name});
   add({}, "name", {"name"});
   return out;
 }
 
 class FootprintTaker {
  public:
-  FootprintTaker(Map& map, const std::vector<TagField>& fields) : map_(map), fields_(fields) {}
+  FootprintTaker(Map& map, const std::vector<TagField>& fields, bool vegetation)
+      : map_(map), fields_(fields), vegetation_(vegetation) {}
 
   void take(const wt_maps_polygon& polygon) {
     if (layers_.empty() || layers_.back() != polygon.layer) layers_.emplace_back(polygon.layer);
@@ -68,12 +70,24 @@ class FootprintTaker {
       out.name = name->second;
       out.tags.erase(name);
     }
+    if (is_wood(out.tags)) {
+      if (!vegetation_) return void(++map_.left_out["forest (landuse=forest, natural=wood)"]);
+      out.tags["vegetation"] = "wood";
+    }
+    out.tags.erase("natural");
+    out.tags.erase("landuse");
     map_.footprints.push_back(std::move(out));
   }
 
  private:
+  static bool is_wood(const Tags& tags) {
+    return !says_yes(tags, "building") && !says_yes(tags, "building:part") &&
+           (tag(tags, "natural") == "wood" || tag(tags, "landuse") == "forest");
+  }
+
   Map& map_;
   const std::vector<TagField>& fields_;
+  bool vegetation_;
   std::vector<std::string> layers_;
 };
 
@@ -149,7 +163,7 @@ Map read_vector_map(const std::string& file, const ImportOptions& options) {
   const wt_maps_query query{options.layer.empty() ? nullptr : options.layer.c_str(), names.data(), names.size(),
                             max_corners + 1 + 100};
   Map map;
-  TakerCall call{FootprintTaker(map, fields), {}};
+  TakerCall call{FootprintTaker(map, fields, options.vegetation), {}};
   wt_maps_layers layers{};
   char error[WT_MAPS_ERROR_SIZE] = {};
   const int failed = module.footprints(file.c_str(), &query, &visit, &call, &layers, error);

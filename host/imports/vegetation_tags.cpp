@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights above 100 m and crowns wider than 50 m count as mistakes.
+// Heights above 100 m and crowns wider than 50 m count as mistakes. Heights that are not given are those of OSM2World
+// (TreeModule.java: 10 m for trees, 20 m for woods, and trees twice as high as wide).
 // Degrees are converted to metres by a sphere: a crown may be wrong by half a percent of its size.
 #include "imports/vegetation_tags.hpp"
 
@@ -10,7 +11,7 @@
 namespace wavetracer::imports {
 namespace {
 
-constexpr double highest_tree_m = 100, widest_crown_m = 50, usual_tree_m = 10, usual_wood_m = 15;
+constexpr double highest_tree_m = 100, widest_crown_m = 50, usual_tree_m = 10, usual_wood_m = 20;
 constexpr double m_per_degree = 111195;
 
 using Counts = std::map<std::string, uint64_t>;
@@ -70,14 +71,20 @@ std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
 }
 
 Shape vegetation_shape(const Tags& tags, std::map<std::string, uint64_t>& guessed) {
-  const bool tree = tag(tags, "vegetation") == "tree";
+  const std::string_view kind = tag(tags, "vegetation"), leaves = tag(tags, "leaf_type");
+  const bool tree = kind != "wood";
   Shape shape;
+  shape.plant = kind == "row" ? Plant::tree_of_row : tree ? Plant::tree : Plant::wood;
   const std::optional<double> height_m = tree_height_m(tags, guessed);
   shape.top_m = height_m.value_or(tree ? usual_tree_m : usual_wood_m);
   shape.bottom_m = tree ? shape.top_m / 3 : 0;
   if (tree) tree_crown_m(tags, shape.top_m, guessed);  // only counts: the outline has the crown already
-  if (!height_m) ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 15 m used"];
-  shape.walls = shape.roof = tag(tags, "leaf_type") == "broadleaved" ? "deciduous_vegetation" : "vegetation";
+  if (!height_m) ++guessed[tree ? "tree without a height: 10 m used" : "wood without a height: 20 m used"];
+  if (tree && tag(tags, "diameter_crown").empty())
+    ++guessed["tree without diameter_crown: half of its height used, a third with needles"];
+  if (!leaves.empty() && leaves != "broadleaved" && leaves != "needleleaved" && leaves != "mixed")
+    ++guessed["leaf_type that is not known: mixed vegetation used"];
+  shape.walls = shape.roof = leaves == "broadleaved" ? "deciduous_vegetation" : "vegetation";
   return shape;
 }
 

@@ -17,7 +17,7 @@ constexpr size_t most_trees_of_row = 1000, most_trees_of_rows = 200000;
 bool is_vegetation(std::string_view material);
 
 // Height and width of the crown, in metres, from the tags height and diameter_crown; the defaults are 10 m, and half of
-// the height, or a third for needles.
+// the height (as in OSM2World), or a third for needles.
 struct TreeSize {
   double height_m, crown_m;
 };
@@ -31,8 +31,9 @@ std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m);
 // long, it returns most_trees_of_row + 1 trees.
 std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg);
 
-// Returns a tree's crown, from a third of its height on, or a wood from the ground on, 15 m high by default.
-// leaf_type=broadleaved gives deciduous vegetation, any other value mixed vegetation.
+// Returns a tree's crown, from a third of its height on, or a wood from the ground on, 20 m high by default.
+// leaf_type=broadleaved gives deciduous vegetation, any other value mixed vegetation. The tag "vegetation" says what it
+// is: "tree", "row" for a tree of a row, or "wood". `guessed` counts values that the tags do not give.
 Shape vegetation_shape(const Tags& tags, std::map<std::string, uint64_t>& guessed);
 
 }  // namespace wavetracer::imports

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of the program: version, help, hints at misspelt words, usage errors.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <utility>
 #include "folders.hpp"
 #include "program.hpp"
 #include "refused.hpp"
@@ -101,4 +103,39 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"thesis", "rays"}), 2, "no experiment \"rays\"");
   check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "0"}), 2, "--blocks");
   CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("tables of wall classes that convert writes are tables of a configuration") {
+  const Folder folder;
+  std::string map = "<osm version=\"0.6\">\n";
+  int node = 0;
+  const auto add_house = [&](const char* material) {
+    const double south = 48.137 + 0.001 * node, north = south + 0.0002;
+    std::string corners;
+    for (const auto& [lat, lon] : {std::pair{south, 11.575}, {south, 11.5753}, {north, 11.5753}, {north, 11.575}}) {
+      map += fmt::format("<node id=\"{}\" lat=\"{:.7f}\" lon=\"{:.7f}\"/>\n", ++node, lat, lon);
+      corners += fmt::format("<nd ref=\"{}\"/>", node);
+    }
+    map += fmt::format(
+        "<way id=\"{0}\">{1}<nd ref=\"{2}\"/><tag k=\"building\" v=\"yes\"/>"
+        "<tag k=\"building:material\" v=\"{3}\"/></way>\n",
+        node, corners, node - 3, material);
+  };
+  for (const char* material : {"brick", "concrete", "stone", "glass", "metal", "wood"}) add_house(material);
+  const std::string file = folder.file("town.osm", map + "</osm>\n"), out = folder.path("town");
+  const Outcome converted = run_program({"convert", file, "-o", out, "--wall-classes"});
+  CAPTURE(converted.err);
+  REQUIRE(converted.code == 0);
+  const std::string tables = contents(out + "/materials.toml");
+  CHECK(std::ranges::count(tables, '\n') > 20);
+  const std::string config =
+      folder.file("c.toml", "scene.file = \"town/city.xml\"\ntrace.scattering = true\n" + ends + tables);
+  const Outcome valid = run_program({"validate", "-c", config});
+  CAPTURE(valid.err);
+  CHECK(valid.code == 0);
+  const Outcome info = run_program({"scene", "info", out + "/city.xml"});
+  for (const char* name : {"brick_wall", "concrete_wall", "stone_wall", "glass_wall", "metal_wall", "wood_wall"}) {
+    CHECK(contains(tables, fmt::format("name = \"{}\"", name)));
+    CHECK(contains(info.out, name));
+  }
 }

@@ -14,14 +14,14 @@ using test::check_contains;
 
 namespace {
 
-MeasuredFile read_text(const std::string& text, const std::string& level = "") {
+MeasuredFile read_text(const std::string& text, const std::string& level = "", const std::string& crs = "") {
   const test::TemporaryFolder folder;
-  return read_measured(folder.write("m.csv", text), level);
+  return read_measured(folder.write("m.csv", text), {.level = level, .crs = crs});
 }
 
-std::string mistake(const std::string& text, const std::string& level = "") {
+std::string mistake(const std::string& text, const std::string& level = "", const std::string& crs = "") {
   try {
-    read_text(text, level);
+    read_text(text, level, crs);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -95,4 +95,21 @@ TEST_CASE("mistakes name file, line and column") {
   check_contains(mistake("lat,lon,path_gain_db\n148,11,-80\n"), "is no place on the earth");
   check_contains(mistake("x,y,path_gain_db,delay_spread_ns\n1,2,-80,-3\n"), "delay_spread_ns = -3 is less than 0");
   check_contains(mistake("x,y,path_gain_db\n1,2,\n"), "no row below the header has a position and a level");
+}
+
+TEST_CASE("rows may turn their antenna and name their receiver") {
+  const MeasuredFile file =
+      read_text("x,y,path_gain_db,yaw_deg,roll_deg,rx,azimuth_spread_deg\n1,2,-80,30,,horn,25\n1,2,-80,,-5,omni,0\n");
+  REQUIRE(file.points.size() == 2);
+  CHECK(file.points[0].yaw_deg == 30);
+  CHECK_FALSE(file.points[0].pitch_deg);
+  CHECK_FALSE(file.points[0].roll_deg);
+  CHECK(file.points[0].rx == "horn");
+  CHECK(file.points[0].azimuth_spread_deg == 25);
+  CHECK_FALSE(file.points[1].yaw_deg);
+  CHECK(file.points[1].roll_deg == -5);
+  CHECK_FALSE(file.points[1].azimuth_spread_deg);  // 0 has no logarithm
+  check_contains(mistake("x,y,path_gain_db,yaw_deg\n1,2,-80,north\n"), "m.csv:2: yaw_deg = 'north' is not a finite");
+  check_contains(mistake("x,y,path_gain_db,azimuth_spread_deg\n1,2,-80,-1\n"),
+                 "azimuth_spread_deg = -1 is less than 0");
 }

@@ -122,7 +122,7 @@ TEST_CASE("levels have several minima over the permittivity of a floor, and a fi
   const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
   const std::string start = folder.file("start.toml", street_text(scene, true_permittivities)),
                     measured = folder.file("m.csv", table(at, levels));
-  calibration::MeasuredWorld world(calibration::config_of_places(start, {}), {calibration::read_measured(measured, "")},
+  calibration::MeasuredWorld world(calibration::config_of_places(start, {}), {calibration::read_measured(measured, {})},
                                    "");
   const auto floor = std::ranges::find(world.materials().names, "material-0");
   REQUIRE(floor != world.materials().names.end());

@@ -30,7 +30,7 @@ Calibration result() {
   out.files = {file};
   out.points[0].before = {-82, 5};
   out.points[0].after = {-79, 6};
-  out.points[1].before = out.points[1].after = {-INFINITY, NAN};
+  out.points[1].before = out.points[1].after = {-INFINITY, NAN, NAN};
   for (FittedPoint& point : out.points) point.offset_db = -1.5;
   out.parameters = {{"brick", Property::permittivity, 4, 0.5, {0}},
                     {"brick", Property::thickness, 0.1, 0.5, {0}},
@@ -71,7 +71,7 @@ TEST_CASE("the table of parameters has values, units and errors") {
 
 TEST_CASE("points without a path and without blocks have no numbers in their cells") {
   const std::string text = points_csv(result());
-  check_contains(text, "m.csv,2,a,los,0,0,0,0,-80,0,-82,-80.5,nan,nan,5,6\n");
-  check_contains(text, "m.csv,3,a,,0,0,0,0,-90,0,-inf,-inf,nan,nan,nan,nan\n");
+  check_contains(text, "m.csv,2,a,los,0,0,0,0,-80,0,-82,-80.5,nan,nan,5,6,nan,0,0\n");
+  check_contains(text, "m.csv,3,a,,0,0,0,0,-90,0,-inf,-inf,nan,nan,nan,nan,nan,nan,nan\n");
   check_contains(calibration_text(result()), "all (3)  as configured  2            1.50    0.71   1.000");
 }

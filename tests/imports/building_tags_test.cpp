@@ -125,7 +125,7 @@ TEST_CASE("trees whose tags cannot be read are counted") {
     CHECK(answer.shape->top_m == 10);
     CHECK(answer.guessed.at(reason) == 1);
   }
-  CHECK(ask({{"vegetation", "tree"}, {"height", "300"}}).guessed.size() == 2);
+  CHECK(ask({{"vegetation", "tree"}, {"height", "300"}, {"diameter_crown", "6"}}).guessed.size() == 2);
   CHECK(ask({{"vegetation", "tree"}, {"height", "20"}, {"diameter_crown", "6 m"}}).guessed.empty());
 }
 

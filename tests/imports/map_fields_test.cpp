@@ -31,3 +31,27 @@ TEST_CASE("a field is the one that is called exactly so; one that differs by cas
   check_contains(first.summary.warnings.at(0), "the first of them is used");
   CHECK(height(R"("building:levels": 2, "roof:height": "5 m")", "") == 11);
 }
+
+TEST_CASE("woods of a map of GDAL are volumes of leaves, houses in them are houses") {
+  if (!has_gdal()) return;
+  const TemporaryFolder folder;
+  const auto polygon = [](const Points& points, const std::string& properties) {
+    return feature("Polygon", "[" + ring(points) + "]", properties);
+  };
+  const fs::path file = folder.write(
+      "woods.geojson",
+      R"({"type": "FeatureCollection", "features": [)" +
+          polygon(rectangle(0, 0, 20, 20), R"("building": "yes", "natural": null, "landuse": "forest", "height": 9)") +
+          ", " +
+          polygon(rectangle(40, 0, 90, 40), R"("building": null, "natural": "wood", "landuse": null, "height": 12)") +
+          "]}");
+  const auto [summary, scene] = import_file(file, {});
+  CHECK(summary.buildings == 1);
+  CHECK(summary.woods == 1);
+  REQUIRE(scene.volumes.size() == 1);
+  ImportOptions without;
+  without.vegetation = false;
+  const Imported bare = import_file(file, without);
+  CHECK(bare.summary.left_out.at("forest (landuse=forest, natural=wood)") == 1);
+  CHECK(bare.scene.volumes.empty());
+}

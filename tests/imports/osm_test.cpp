@@ -189,7 +189,7 @@ TEST_CASE("the ground reaches below the network of --net and the traffic, with a
   CHECK_NOTHROW(import_text(map.text(), folder, options));
 }
 
-TEST_CASE("trees and forests, which no model is built of, are counted") {
+TEST_CASE("trees and forests that are not wanted are counted") {
   OsmText map;
   map.way(rectangle(0, 0, 10, 10), {{"building", "yes"}});
   map.way(rectangle(20, 0, 90, 90), {{"landuse", "forest"}});
@@ -201,7 +201,9 @@ TEST_CASE("trees and forests, which no model is built of, are counted") {
     text.insert(text.rfind("</osm>"), "<node id=\"" + std::to_string(90000 + i) +
                                           "\" lat=\"48.137\" lon=\"11.575\"><tag k=\"natural\" v=\"tree\"/></node>");
   const TemporaryFolder folder;
-  const auto [summary, scene] = import_text(text, folder);
+  ImportOptions options;
+  options.vegetation = false;
+  const auto [summary, scene] = import_text(text, folder, options);
   CHECK(summary.left_out == std::map<std::string, uint64_t>{{"tree (natural=tree)", 7},
                                                             {"row of trees (natural=tree_row)", 1},
                                                             {"forest (landuse=forest, natural=wood)", 2}});
@@ -241,58 +243,4 @@ TEST_CASE("coordinates in scientific notation are places, or refused where they 
     CAPTURE(bad);
     CHECK_THROWS_WITH_AS(with_node(bad), doctest::Contains("is no place on the globe"), InputError);
   }
-}
-
-TEST_CASE("trees, rows and woods are volumes of leaves where they are asked for, and buildings stay what they are") {
-  OsmText map;
-  map.way(rectangle(-40, -40, -20, -20), {{"building", "yes"}, {"height", "8"}});
-  map.tree(0, 0, {{"natural", "tree"}, {"height", "12"}, {"diameter_crown", "6"}, {"leaf_type", "broadleaved"}});
-  map.way({{10, -30}, {10, 0}}, {{"natural", "tree_row"}, {"height", "9 m"}, {"leaf_type", "needleleaved"}}, false);
-  const int outer = map.way(rectangle(20, 10, 60, 50), {}), inner = map.way(rectangle(30, 20, 40, 30), {});
-  map.relation({{outer, "outer"}, {inner, "inner"}}, {{"natural", "wood"}});
-  map.way(rectangle(45, 35, 50, 40), {{"building", "yes"}, {"building:part", "yes"}, {"height", "5"}});
-  const TemporaryFolder folder;
-  ImportOptions options;
-  const Imported without = import_text(map.text(), folder, options);
-  CHECK(without.summary.vegetation == 0);
-  CHECK(without.scene.volumes.empty());
-  CHECK(without.summary.left_out.size() == 3);
-  options.vegetation = true;
-  const auto [summary, scene] = import_text(map.text(), folder, options);
-  CHECK(summary.left_out.empty());
-  CHECK(summary.vegetation == 6);  // a tree, four in the row, a wood
-  CHECK(summary.guessed.at("wood without a height: 15 m used") == 1);
-  REQUIRE(scene.volumes.size() == 6);
-  CHECK(scene.triangles.size() == without.scene.triangles.size());
-  // For each material the number of volumes, and their cubic metres.
-  std::map<std::string, std::pair<size_t, double>> found;
-  double top = 0;
-  for (const Volume& volume : scene.volumes) {
-    double six = 0;
-    for (const auto& t : volume.triangles) {
-      six += glm::dot(t[0], glm::cross(t[1], t[2]));
-      for (const glm::dvec3& corner : t) top = std::max(top, corner.z + scene.origin_m.z);
-    }
-    auto& [count, cubic_m] = found[scene.materials[volume.material].name];
-    ++count;
-    cubic_m += six / 6;
-  }
-  CHECK(top == 15);
-  CHECK(found["deciduous_vegetation"].first == 1);
-  CHECK(std::abs(found["deciduous_vegetation"].second - 8 * 9 * 3.14159265) < 3);  // a round crown of 4 to 12 m
-  CHECK(found["vegetation"].first == 5);
-  CHECK(std::abs(found["vegetation"].second - (16 * 1500 + 4 * 6 * 2.25 * 3.14159265)) < 30);
-}
-
-TEST_CASE("a row of trees across the country is left out, and says so") {
-  OsmText map;
-  map.way(rectangle(-40, -40, -20, -20), {{"building", "yes"}});
-  map.way({{0, 0}, {9000, 0}}, {{"natural", "tree_row"}}, false);
-  map.way({{0, 0}, {90, 0}}, {{"natural", "tree_row"}}, false);
-  const TemporaryFolder folder;
-  ImportOptions options;
-  options.vegetation = true;
-  const Imported town = import_text(map.text(), folder, options);
-  CHECK(town.summary.vegetation == 12);
-  CHECK(town.summary.left_out.at("row of more than 1000 trees, or beyond 200,000 trees in rows") == 1);
 }

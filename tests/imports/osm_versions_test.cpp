@@ -37,7 +37,6 @@ TEST_CASE("a house, a courtyard and a tree that an editor has deleted are not bu
   const int tree = map.tree(5, 30, {{"natural", "tree"}});
   const TemporaryFolder folder;
   ImportOptions options;
-  options.vegetation = true;
   const std::string all = map.text();
   CHECK(import_text(all, folder, options).summary.buildings == 3);
   for (const std::string word :
@@ -46,7 +45,7 @@ TEST_CASE("a house, a courtyard and a tree that an editor has deleted are not bu
     const std::string text = with(with(with(all, "way", house, word), "relation", block, word), "node", tree, word);
     const auto [summary, scene] = import_text(text, folder, options);
     CHECK(summary.buildings == 1);
-    CHECK(summary.vegetation == 0);
+    CHECK(summary.trees == 0);
     CHECK(summary.left_out.at(gone) == 2);
     CHECK(has_object(scene, "way_" + std::to_string(kept)));
   }
@@ -58,10 +57,11 @@ TEST_CASE("a house, a courtyard and a tree that an editor has deleted are not bu
   const Imported open = import_text(with(all, "way", inner, "action='delete'"), folder, options);
   CHECK(open.summary.buildings == 2);
   CHECK(open.summary.left_out.at("multipolygon with a missing way, as if clipped at the border of an extract") == 1);
+  options.vegetation = false;
   CHECK_THROWS_WITH_AS(
       import_text(with(with(with(all, "way", kept, "action='delete'"), "way", house, "action='delete'"), "relation",
                        block, "action='delete'"),
-                  folder),
+                  folder, options),
       doctest::Contains("deleted in the editor"), InputError);
 }
 
@@ -151,8 +151,7 @@ TEST_CASE("a tree without a place is counted, and the others are planted") {
   text.replace(at, 4, "lap=");
   const TemporaryFolder folder;
   ImportOptions options;
-  options.vegetation = true;
   const Imported imported = import_text(text, folder, options);
-  CHECK(imported.summary.vegetation == 1);
+  CHECK(imported.summary.trees == 1);
   CHECK(imported.summary.left_out.at("tree without a place") == 1);
 }
