@@ -16,6 +16,17 @@ import measured_sets
 BOULDER_TRACE = {"trace.rays": 100_000, "trace.max_depth": 4, "trace.diffraction_rays": 2_000}
 HALLWAY_TRACE = {"trace.rays": 30_000, "trace.max_depth": 4, "trace.diffraction_rays": 1_000}
 FOLDS = 2
+# Partitions of the hallway: TOML that follows the configuration, and the parameters that are fitted. The scene file has
+# slabs of 0.1 m, a guess, so their thickness is fitted, too.
+BOARDS = """
+[scene.material_alias]
+"mat-itu_plasterboard" = "partition"
+
+[[material]]
+name = "partition"
+layers = [{ material = "plasterboard", thickness_m = 0.0125 }, { material = "vacuum", thickness_m = 0.075 }, { material = "plasterboard", thickness_m = 0.0125 }]
+"""
+PARTITIONS = {"slabs": ("", "*,*.thickness"), "two boards": (BOARDS, "*")}
 FOUND = ("before", "fitted", "held_out")  # columns of calibration.csv
 
 
@@ -30,14 +41,14 @@ def write_levels(file, position_m, level_db):
     file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def calibrated(config, position_m, level_db, trace):
+def calibrated(config, position_m, level_db, trace, fit="*"):
     """`wavetracer calibrate --folds 2` of these levels: ({agreement: of each of FOUND with the measured levels, seconds,
     parameters}, those columns of levels)."""
     with tempfile.TemporaryDirectory() as folder:
         table = pathlib.Path(folder) / "levels.csv"
         write_levels(table, position_m, level_db)
         begin = time.monotonic()
-        found = wt.calibrate(config, table, pathlib.Path(folder) / "out", folds=FOLDS, sets=trace)
+        found = wt.calibrate(config, table, pathlib.Path(folder) / "out", fit=fit, folds=FOLDS, sets=trace)
         seconds = time.monotonic() - begin
     columns = {name: found.points[f"{name}_db"] for name in FOUND}
     parameters = {name: {"before": each.before, "fitted": each.fitted, "unit": each.unit, "told_share": each.told_share}
@@ -102,25 +113,30 @@ def spreads(ours, theirs):
 
 # --- DICHASUS ---
 
+def hallway_config(folder, array, partitions):
+    """The configuration of an array with a dipole as the receiver, and these partitions."""
+    text = (folder / f"dc01_array{array}.toml").read_text(encoding="utf-8").replace('file = "', f'file = "{folder.resolve()}/')
+    return text + '\n[[receiver]]\nname = "place"\nposition_m = [0, 0, 0]\nantenna = "dipole"\n' + partitions
+
+
 def hallway(folder):
     """Rows of each array."""
     out = {"trace": HALLWAY_TRACE, "arrays": []}
     for array in (1, 2):
         position, level = measured_sets.hallway(folder, array)
         measured = level["measured"]
-        with tempfile.TemporaryDirectory() as work:
-            text = (folder / f"dc01_array{array}.toml").read_text(encoding="utf-8").replace(
-                'file = "', f'file = "{folder.resolve()}/')
-            config = pathlib.Path(work) / "hallway.toml"
-            config.write_text(text + '\n[[receiver]]\nname = "place"\nposition_m = [0, 0, 0]\nantenna = "dipole"\n',
-                              encoding="utf-8")
-            fit, columns = calibrated(config, position, measured, HALLWAY_TRACE)
+        fits, columns = {}, {}
+        for name, (partitions, fit) in PARTITIONS.items():
+            with tempfile.TemporaryDirectory() as work:
+                config = pathlib.Path(work) / "hallway.toml"
+                config.write_text(hallway_config(folder, array, partitions), encoding="utf-8")
+                fits[name], columns[name] = calibrated(config, position, measured, HALLWAY_TRACE, fit)
         clipped = level["sionna_itu"] <= level["sionna_itu"].min()
         out["arrays"].append({
-            "array": array, **fit, **{name: agrees(measured, level[name]) for name in measured_sets.PEERS},
+            "array": array, "partitions": fits, **{name: agrees(measured, level[name]) for name in measured_sets.PEERS},
             "clipped": {"places": int(clipped.sum()), "level_db": float(level["sionna_itu"].min()),
                         **{name: agrees(measured[~clipped], levels[~clipped]) for name, levels in (
-                            ("before", columns["before"]), ("sionna_itu", level["sionna_itu"]))}}})
+                            ("before", columns["slabs"]["before"]), ("sionna_itu", level["sionna_itu"]))}}})
     return out
 
 

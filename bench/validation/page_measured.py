@@ -54,8 +54,11 @@ def spread_table(result):
 
 
 def hallway_table(result):
-    rows = [[f"array {row['array']}, {name}", *cells(row[way])] for row in result["arrays"]
-            for way, name in {**WAYS, **PEERS}.items()]
+    rows = []
+    for row in result["arrays"]:
+        rows += [[f"array {row['array']}, {partitions}, {name}", *cells(found[way])]
+                 for partitions, found in row["partitions"].items() for way, name in WAYS.items()]
+        rows += [[f"array {row['array']}, {name}", *cells(row[peer])] for peer, name in PEERS.items()]
     return table(HEAD, rows)
 
 
@@ -67,7 +70,7 @@ def clipped(result):
 
 def moved(result, name):
     """A parameter of the fits for both arrays: before and fitted."""
-    found = [row["parameters"][name] for row in result["arrays"]]
+    found = [row["partitions"]["slabs"]["parameters"][name] for row in result["arrays"]]
     return f"from {found[0]['before']:.2g} to " + " and ".join(f"{each['fitted']:.2g}" for each in found)
 
 
@@ -95,10 +98,12 @@ def section(result):
     boulder, dichasus = result["boulder"], result["dichasus"]
     sight, hidden, covered = boulder["classes"]
     first, second = dichasus["arrays"]
-    configured = " and ".join(f"{row['before']['sigma_db']:.1f}" for row in (first, second))
-    held = " and ".join(f"{row['held_out']['sigma_db']:.1f}" for row in (first, second))
-    learned = " and ".join(f"{row['sionna_learned']['sigma_db']:.1f}" for row in (first, second))
-    seconds = ", ".join(f"{each['seconds']:.0f} s" for each in (boulder["fits"]["LOS"], boulder["fits"]["NLOS"], first, second))
+    def sigmas(partitions, way):
+        return " and ".join(f"{row['partitions'][partitions][way]['sigma_db']:.2f}" for row in (first, second))
+
+    learned = " and ".join(f"{row['sionna_learned']['sigma_db']:.2f}" for row in (first, second))
+    fits = [boulder["fits"]["LOS"], boulder["fits"]["NLOS"], *(row["partitions"][name] for row in (first, second) for name in row["partitions"])]
+    seconds = ", ".join(f"{each['seconds']:.0f} s" for each in fits)
     return f"""## Measured levels
 Two public sets of measured levels were at hand, one of streets and one of a hallway. The files of the [campaigns below](#measurement-campaigns) were not. The program is compared with the levels as configured, and after `wavetracer calibrate --folds {result['folds']}` has [fitted materials](calibration.md) to them; "held out" are halves of the places that are predicted by a fit to the other half. Sionna RT stands beside it on the same scenes.
 
@@ -114,11 +119,11 @@ This table has the spreads of the components up to {boulder["window_db"]:g} dB b
 
 {spread_table(boulder)}
 
-**A hallway.** DICHASUS dc01 has levels at {first["before"]["points"]} places of a hallway at 3.438 GHz, from two arrays, up to an unknown constant. The options were `{options(dichasus["trace"])}`, with transmission and one diffraction; the receiver is a dipole. The levels of Sionna RT are those that the authors of github.com/NVlabs/diff-rt-calibration publish beside the measured ones. They trained the materials called learned and neural on these measurements, so compare them with "fitted" and not with "held out". Sionna's levels with ITU materials end at {first["clipped"]["level_db"]:g} dB ({clipped(dichasus)}).
+**A hallway.** DICHASUS dc01 has levels at {first["partitions"]["slabs"]["before"]["points"]} places of a hallway at 3.438 GHz, from two arrays, up to an unknown constant. The options were `{options(dichasus["trace"])}`, with transmission and one diffraction; the receiver is a dipole. The scene file has its partitions as slabs of plasterboard of 0.1 m, which is a guess: with "slabs" the thickness of all materials is fitted, too (`--fit "*,*.thickness"`). With "two boards" partitions have `layers`: two boards of 12.5 mm with 75 mm of air between them, the best of the three gaps that were [tried on these data](calibration.md#what-walls-are-worth). The levels of Sionna RT are those that the authors of github.com/NVlabs/diff-rt-calibration publish beside the measured ones. They trained the materials called learned and neural on these measurements, so compare them with "fitted" and not with "held out". Sionna's levels with ITU materials end at {first["clipped"]["level_db"]:g} dB ({clipped(dichasus)}).
 
 {hallway_table(dichasus)}
 
-Beside other work, the fits took {seconds} (streets in sight, hidden, array 1, array 2).
+Beside other work, the fits took {seconds} (streets in sight, hidden, array 1 with slabs and with boards, array 2).
 
 ### What was learnt
 **In sight** levels of streets agree to {sight["before"]["sigma_db"]:.1f} dB, and the offset of {sight["before"]["offset_db"]:+.1f} dB is small. A fit to {sight["before"]["points"]} places in one street has nothing to find there: the places that are held out agree less well ({sight["held_out"]["sigma_db"]:.1f} dB).
@@ -129,6 +134,6 @@ Beside other work, the fits took {seconds} (streets in sight, hidden, array 1, a
 
 **Spreads** have the right size in hidden streets: medians of {hidden["ds"]["ours"] * 1e9:.0f} ns computed and {hidden["ds"]["measured"] * 1e9:.0f} ns measured, {hidden["asa"]["ours"]:.0f} and {hidden["asa"]["measured"]:.0f} degrees. In sight the computed ones are {sight["ds"]["ours"] / sight["ds"]["measured"]:.2f} (delay) and {sight["asa"]["ours"] / sight["asa"]["measured"]:.2f} (azimuth) times the measured ones, as in the comparison with models above: smooth walls give fewer echoes than real ones. Ranks are low, so spreads of single places are not predicted.
 
-**Indoors** sigma falls from {configured} dB as configured to {held} dB at places that were held out. That is what Sionna's learned materials reach on the places they were trained on ({learned} dB). The fit makes the plasterboard of the walls nearly lossless (conductivity {moved(dichasus, "plasterboard.conductivity")} S/m), which `calibrate` reports as suspicious: open doors may be the cause. Sionna's neural materials, which differ from point to point of a wall, fit {first["sionna_neural"]["sigma_db"]:.1f} and {second["sionna_neural"]["sigma_db"]:.1f} dB.
+**Indoors** sigma falls from {sigmas("slabs", "before")} dB as configured to {sigmas("slabs", "held_out")} dB at places that were held out, where plasterboard is thinner than the scene file says (thickness {moved(dichasus, "plasterboard.thickness")} m). Walls of the right kind do as much without any fit: with two boards sigma is {sigmas("two boards", "before")} dB as configured, and {sigmas("two boards", "held_out")} dB held out. Sionna's learned materials reach {learned} dB on the places they were trained on. Sionna's neural materials, which differ from point to point of a wall, fit {first["sionna_neural"]["sigma_db"]:.1f} and {second["sionna_neural"]["sigma_db"]:.1f} dB.
 
 {DATA}"""
