@@ -153,6 +153,9 @@ class Calibrating {
         }
     }
     problem_.offsets = out_.offset_names.size();
+    // Materials that are fitted with antennas in wrong places are led far away.
+    if (out_.parameters.size() > materials_count() && materials_count() > 0)
+      for (const Parameter& parameter : out_.parameters) problem_.first.push_back(is_of_end(parameter.property));
     for (const Parameter& parameter : out_.parameters) {
       problem_.priors.push_back(parameter.prior);
       problem_.steps.push_back(step_of(parameter.property));
@@ -227,11 +230,15 @@ class Calibrating {
     return moves() ? 0 : shares_left_out[std::min(round, shares_left_out.size() - 1)];
   }
 
+  // The parameters of materials, which come first.
+  size_t materials_count() const {
+    return static_cast<size_t>(std::ranges::count(
+        out_.parameters, false, [](const Parameter& parameter) { return is_of_end(parameter.property); }));
+  }
+
   // The configuration itself, and a sample of the priors of materials: levels have many minima over these alone.
   std::vector<std::vector<double>> starts() const {
-    const size_t all = problem_.priors.size();
-    const auto count = static_cast<size_t>(std::ranges::count_if(
-        out_.parameters, [](const Parameter& parameter) { return !is_of_end(parameter.property); }));
+    const size_t all = problem_.priors.size(), count = materials_count();
     std::vector<std::vector<double>> out{std::vector<double>(all, 0)};
     if (count == 0) return out;
     for (std::vector<double>& row :

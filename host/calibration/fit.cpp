@@ -1,56 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each datum has a cost, its slope and its curvature in the model's value, so that Huber's function and the probability
-// of being below a number (Tobin, Econometrica 26, 1958) are treated alike. The deviations s are found anew before each
-// step, as in iteratively reweighted least squares.
+// The deviations s of data are found anew before each step, as in iteratively reweighted least squares.
 #include "calibration/fit.hpp"
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+#include "calibration/residual_cost.hpp"
 #include "output/median.hpp"
 
 namespace wavetracer::calibration {
 namespace {
 
-constexpr double huber = 2;               // deviations beyond which the cost of a residual is linear
 constexpr double least_deviation = 1e-6;  // data without noise
 constexpr double least_gain = 1e-2;       // a smaller gain of the logarithm of the probability means nothing
 constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
-
-struct Cost {
-  double cost = 0, slope = 0, curvature = 0;  // the last two with respect to the model's value
-};
-
-// u: (number - model's value) / s.
-Cost normal_cost(double u, double s) {
-  const double size = std::abs(u);
-  if (size <= huber) return {0.5 * u * u, -u / s, 1 / (s * s)};
-  return {huber * (size - 0.5 * huber), -std::copysign(huber, u) / s, huber / (size * s * s)};
-}
-
-// The negative logarithm of the probability that the value is below the number.
-Cost below_cost(double u, double s) {
-  // Mills' ratio by its continued fraction where the normal distribution vanishes.
-  double ratio = 0, cost = 0;  // density / probability
-  if (u < -8) {
-    ratio = -u + 1 / (-u + 2 / (-u + 3 / (-u)));
-    cost = 0.5 * u * u + 0.5 * std::log(2 * std::numbers::pi) + std::log(ratio);
-  } else {
-    const double probability = 0.5 * std::erfc(-u / std::numbers::sqrt2);
-    ratio = std::exp(-0.5 * u * u) / std::sqrt(2 * std::numbers::pi) / probability;
-    cost = -std::log(probability);
-  }
-  return {cost, ratio / s, std::max(0.0, ratio * (ratio + u)) / (s * s)};
-}
 
 // Returns 0 for an empty list.
 double median_or_0(std::vector<double> values) { return values.empty() ? 0 : median(std::move(values)); }
 
 class Fit {
  public:
-  Fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start)
-      : problem_(problem), model_(model), size_(problem.priors.size() + problem.offsets) {
+  // only: the parameters that the fit changes, with the offsets; empty: all.
+  Fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start,
+      std::vector<bool> only = {})
+      : problem_(problem), model_(model), only_(std::move(only)), size_(problem.priors.size() + problem.offsets) {
     out_.theta = std::move(start);
     const std::vector<double>& values = model_.values(out_.theta);
     for (size_t i = 0; i < problem.data.size(); ++i)
@@ -82,6 +55,8 @@ class Fit {
   }
 
  private:
+  bool changes(size_t parameter) const { return only_.empty() || only_[parameter]; }
+
   double residual(const std::vector<double>& values, size_t i) const {
     const Datum& datum = problem_.data[i];
     return datum.value - values[i] - (datum.offset ? out_.offsets[*datum.offset] : 0);
@@ -112,17 +87,24 @@ class Fit {
   void find_objective() {
     find_deviations();
     const std::vector<double>& values = model_.values(out_.theta);
-    out_.objective = cost();
-    for (const size_t i : used_)
-      if (!problem_.data[i].below && std::isfinite(values[i]))
-        out_.objective += std::log(out_.deviations[problem_.data[i].kind]);
+    out_.objective = prior_cost();
+    for (const size_t i : used_) {
+      const Datum& datum = problem_.data[i];
+      const double s = out_.deviations[datum.kind], u = deviations_of(values, i);
+      out_.objective += datum.below ? std::min(below_cost(u, s).cost, tailed_cost(u)) : tailed_cost(u) + std::log(s);
+    }
   }
 
   // A datum that has lost its value keeps the residual of the last step at which it had one.
+  double deviations_of(const std::vector<double>& values, size_t i) const {
+    return (std::isfinite(values[i]) ? residual(values, i) : last_residuals_[i]) /
+           out_.deviations[problem_.data[i].kind];
+  }
+
   Cost cost_of(const std::vector<double>& values, size_t i) const {
     const Datum& datum = problem_.data[i];
     const bool lost = !std::isfinite(values[i]);
-    const double s = out_.deviations[datum.kind], u = (lost ? last_residuals_[i] : residual(values, i)) / s;
+    const double s = out_.deviations[datum.kind], u = deviations_of(values, i);
     const Cost cost = datum.below ? below_cost(u, s) : normal_cost(u, s);
     return lost ? Cost{cost.cost, 0, 0} : cost;
   }
@@ -152,7 +134,8 @@ class Fit {
     for (const size_t i : used_) {
       if (std::isfinite(values[i])) last_residuals_[i] = residual(values, i);
       row.setZero();
-      for (size_t p = 0; p < slopes.size(); ++p) row[static_cast<Eigen::Index>(p)] = slopes[p][i];
+      for (size_t p = 0; p < slopes.size(); ++p)
+        if (changes(p)) row[static_cast<Eigen::Index>(p)] = slopes[p][i];
       if (const auto offset = problem_.data[i].offset) row[static_cast<Eigen::Index>(slopes.size() + *offset)] = 1;
       const Cost cost = cost_of(values, i);
       sum += cost.cost;
@@ -162,7 +145,7 @@ class Fit {
     for (size_t p = 0; p < out_.theta.size(); ++p) {
       const auto at = static_cast<Eigen::Index>(p);
       const double weight = 1 / (problem_.priors[p] * problem_.priors[p]);
-      slope[at] += weight * out_.theta[p];
+      if (changes(p)) slope[at] += weight * out_.theta[p];
       curvature(at, at) += weight;
     }
     for (auto at = static_cast<Eigen::Index>(out_.theta.size()); at < size; ++at)
@@ -220,6 +203,7 @@ class Fit {
 
   const Problem& problem_;
   Linearized& model_;
+  const std::vector<bool> only_;
   const size_t size_;
   std::vector<size_t> used_;  // data that are fitted and had a value at the start
   std::vector<double> last_residuals_;
@@ -290,7 +274,9 @@ FitResult fit_from_best(const Problem& problem, Linearized& model, const std::ve
     if (best[i].second != 0) followed.push_back(best[i].second);
   FitResult out;
   for (const size_t start : followed) {
-    FitResult found = fit(problem, model, takes, starts[start]);
+    const std::vector<double> from =
+        problem.first.empty() ? starts[start] : Fit(problem, model, takes, starts[start], problem.first)().theta;
+    FitResult found = fit(problem, model, takes, from);
     if (start == 0 || found.objective < out.objective) out = std::move(found);
   }
   return out;

@@ -34,6 +34,7 @@ struct Problem {
   std::vector<Datum> data;
   std::vector<double> priors;  // standard deviation of each parameter about 0
   std::vector<Step> steps;     // a step for each parameter; empty: the usual one
+  std::vector<bool> first;     // parameters that fit_from_best() fits alone before all; empty: none
   size_t offsets = 0, kinds = 1;
   Model model;
 };
@@ -45,8 +46,8 @@ struct FitResult {
   std::vector<double> correlation;  // a square for theta, then offsets, row by row
   std::vector<double> told;  // for each parameter the share of its prior variance that the data have removed, 0 to 1
   size_t iterations = 0, used = 0;  // used: data with a value of the model
-  // Negative logarithm of the probability, but for a constant, with the deviations that were found: fits of the same
-  // data can be compared by it.
+  // Negative logarithm of the probability, but for a constant, with the deviations that were found and tails that let
+  // outliers weigh little (tailed_cost()): fits of the same data can be compared by it.
   double objective = 0;
   bool converged = false;
 };

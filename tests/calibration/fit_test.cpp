@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits of models whose answers are known: lines, whose least squares have closed forms, and an exponential.
 #include "calibration/fit.hpp"
+#include "calibration/residual_cost.hpp"
 
 #include <doctest/doctest.h>
 
@@ -207,4 +208,34 @@ TEST_CASE("a datum that loses its value on the way does not stop the fit") {
   CHECK(found.used == 20);
   CHECK(found.theta[0] == doctest::Approx(1).epsilon(1e-6));
   CHECK(std::isfinite(found.errors[0]));
+}
+
+TEST_CASE("costs have the slopes that they say, and the tails of Student's t outweigh no exact fit") {
+  for (const double u : {-9.0, -1.5, 0.3, 1.7, 5.0}) {
+    constexpr double s = 0.7, step = 1e-6;
+    CAPTURE(u);
+    for (const auto& cost : {normal_cost, below_cost}) {
+      const double rise = (cost(u - step / s, s).cost - cost(u + step / s, s).cost) / (2 * step);
+      CHECK(cost(u, s).slope == doctest::Approx(rise).epsilon(1e-5));
+    }
+  }
+  CHECK(tailed_cost(0) == 0);
+  CHECK(tailed_cost(2) == doctest::Approx(2.5 * std::log(2)));
+  CHECK(tailed_cost(1e7) < 80);
+}
+
+TEST_CASE("of two starts the one is followed to an exact fit that has an outlier") {
+  Problem problem;
+  for (int i = 0; i < 20; ++i) problem.data.push_back({.value = i == 4 ? 50.0 : 3.0 + 0.2 * i});
+  problem.priors = {no_prior};
+  // Between the two valleys is a ridge; the far one fits all data but one exactly, the near one fits none.
+  problem.model = [](std::span<const double> theta) {
+    std::vector<double> out;
+    const double t = theta[0], away = t > 2 ? t - 3 : 1 + t * t;
+    for (int i = 0; i < 20; ++i) out.push_back(3 + 0.2 * i + away * (1 + i % 3));
+    return out;
+  };
+  Linearized model(problem);
+  const FitResult found = fit_from_best(problem, model, std::vector<bool>(20, true), {{0}, {2.8}});
+  CHECK(found.theta[0] == doctest::Approx(3).epsilon(1e-6));
 }
