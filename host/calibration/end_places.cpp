@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/end_places.hpp"
 #include <algorithm>
+#include <array>
 #include <utility>
 #include "radio/antenna.hpp"
 
