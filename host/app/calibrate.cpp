@@ -15,7 +15,7 @@ namespace {
 struct CalibrateOptions {
   calibration::Request request;
   std::vector<std::string> fit = {"*"};
-  std::string directory = "out/calibration", offsets = "all", spreads = "delay";
+  std::string directory = "out/calibration", offsets = "all", spreads = "none";
 };
 
 std::vector<std::string> patterns_of(const std::vector<std::string>& fit) {

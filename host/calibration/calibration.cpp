@@ -11,6 +11,7 @@
 #include "base/stopwatch.hpp"
 #include "calibration/agreements_of.hpp"
 #include "calibration/chosen_parameters.hpp"
+#include "calibration/fit_data.hpp"
 #include "calibration/fitted_config.hpp"
 #include "calibration/measured_world.hpp"
 #include "calibration/spread_kinds.hpp"
@@ -37,9 +38,6 @@ Step step_of(Property property) {
   const double unit = unit_of_theta(property);
   return is_angle(property) ? Step{step_of_turns_deg / unit} : Step{step_of_places_m / unit, true};
 }
-
-// The logarithm of a spread in its unit.
-double spread_db(double spread) { return 10 * std::log10(spread); }
 
 double largest_difference_db(const std::vector<Computed>& a, const std::vector<Computed>& b) {
   double out = 0;
@@ -99,14 +97,6 @@ class Calibrating {
     }
   }
 
-  size_t offset_number(const std::string& name) {
-    auto& names = out_.offset_names;
-    const auto found = std::ranges::find(names, name);
-    if (found != names.end()) return static_cast<size_t>(found - names.begin());
-    names.push_back(name);
-    return names.size() - 1;
-  }
-
   void list_points() {
     const std::vector<glm::dvec3> places = world_->places();
     const std::vector<std::string> transmitters = world_->transmitters();
@@ -132,26 +122,13 @@ class Calibrating {
     for (size_t i = 0; i < blocks.size(); ++i) out_.points[i].fold = blocks[i];
   }
 
-  // The data are the levels of all points, then those spreads of delays and of azimuths that are fitted.
   void state_problem() {
+    FitData fitted = fit_data(request_, out_);
+    problem_.data = std::move(fitted.data);
     problem_.kinds = 1 + spread_kinds.size();
-    for (const FittedPoint& point : out_.points) {
-      const MeasuredPoint& measured = out_.files[point.file].points[point.point];
-      Datum datum{.value = measured.level_db, .below = measured.below};
-      if (request_.offsets == "all") datum.offset = offset_number("all points");
-      if (request_.offsets == "file") datum.offset = offset_number(out_.files[point.file].file);
-      if (request_.offsets == "tx") datum.offset = offset_number(point.tx);
-      problem_.data.push_back(datum);
-    }
-    for (size_t kind = 0; kind < spread_kinds.size(); ++kind) {
-      if (request_.spreads != "all" && request_.spreads.word() != spread_kinds[kind].word) continue;
-      for (size_t i = 0; i < out_.points.size(); ++i)
-        if (const auto spread =
-                out_.files[out_.points[i].file].points[out_.points[i].point].*spread_kinds[kind].measured) {
-          problem_.data.push_back({.value = spread_db(*spread), .kind = 1 + kind});
-          spreads_.push_back({i, kind});
-        }
-    }
+    spreads_ = std::move(fitted.spreads);
+    out_.offset_names = std::move(fitted.offset_names);
+    out_.notes.insert(out_.notes.end(), fitted.notes.begin(), fitted.notes.end());
     problem_.offsets = out_.offset_names.size();
     // Materials that are fitted with antennas in wrong places are led far away.
     if (out_.parameters.size() > materials_count() && materials_count() > 0)

@@ -30,7 +30,7 @@ struct Request {
   std::string crs = {};                       // see MeasuredOptions
   std::vector<std::string> patterns = {"*"};  // of chosen_parameters(); empty: nothing but offsets
   Offsets offsets = "all";
-  FittedSpreads spreads = "delay";
+  FittedSpreads spreads = "none";
   double prior = 1;                      // usual standard deviations are multiplied by it
   std::vector<std::string> errors = {};  // NAME=VALUE, see Priors
   uint32_t folds = 4;                    // blocks of places, each of which is held out once; 0 or 1: none are

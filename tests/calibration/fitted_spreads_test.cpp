@@ -45,5 +45,5 @@ TEST_CASE("a fit uses the levels, and the spreads that it is asked to use") {
       CHECK(point.before.azimuth_spread_deg > 0);
     }
   }
-  CHECK(calibration::Request{}.spreads == FittedSpreads("delay"));
+  CHECK(calibration::Request{}.spreads == FittedSpreads("none"));
 }
