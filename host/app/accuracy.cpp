@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/map_formats.hpp"
 #include "app/named_files.hpp"
+#include "app/number_range.hpp"
 #include "app/study_host.hpp"
 #include "app/written_files.hpp"
 #include "coverage/chance_map.hpp"
@@ -128,7 +129,10 @@ void add_input_options(CLI::App& command, AccuracyOptions& options) {
       command.add_flag("--inputs", options.varies,
                        "Vary positions, heights, materials and vehicles instead, and give each link an interval");
   const auto number = [&](const char* name, auto& value, const char* words, double least, double most) {
-    return command.add_option(name, value, words)->check(CLI::Range(least, most))->capture_default_str()->needs(varies);
+    return command.add_option(name, value, words)
+        ->check(number_range(least, most))
+        ->capture_default_str()
+        ->needs(varies);
   };
   number("--samples", inputs.samples, "With --inputs: samples of a Latin hypercube", 2, 1000000);
   number("--seed", inputs.seed, "With --inputs: seed of the samples", 0, 1e18);
@@ -187,10 +191,10 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
   command->add_flag("--certify", request.certify,
                     "Compare rays with beams, which find all paths (trace.discovery), instead of with more rays");
   command->add_option("--frames", request.frames, "Number of frames of a drive to measure, spread evenly over it")
-      ->check(CLI::Range(1, 1000000))
+      ->check(number_range(1, 1000000))
       ->capture_default_str();
   command->add_option("--repeat", request.repeats, "Compute each frame N times and use the median time")
-      ->check(CLI::Range(1, 1000000))
+      ->check(number_range(1, 1000000))
       ->capture_default_str();
   add_input_options(*command, *options);
   command->callback([options, &invocation] { run_accuracy(*options, invocation); });

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/number_range.hpp"
 #include "app/study_host.hpp"
 #include "app/written_files.hpp"
 #include "calibration/report.hpp"
@@ -71,7 +72,7 @@ void add_fit(CLI::App& command, CalibrateOptions& options) {
       .add_option("--prior", request.prior,
                   "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
                   "nearer to those of the configuration")
-      ->check(CLI::Range(1e-3, 1e3))
+      ->check(number_range(1e-3, 1e3))
       ->capture_default_str();
   command
       .add_option("--error", request.errors,
@@ -82,7 +83,7 @@ void add_fit(CLI::App& command, CalibrateOptions& options) {
   command
       .add_option("--folds", request.folds,
                   "Blocks of neighbouring places, each of which is predicted by a fit to the others; 0: none")
-      ->check(CLI::Range(0, 100))
+      ->check(number_range(0, 100))
       ->capture_default_str();
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "app/number_range.hpp"
 #include "app/report.hpp"
 #include "jobs/devices_option.hpp"
 #include "jobs/drive.hpp"
@@ -241,7 +242,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--repeat", options->repeat,
                    "Compute each frame N times and report the median times; what is written stays the same")
-      ->check(CLI::Range(1, 1000000));
+      ->check(number_range(1, 1000000));
   command->add_option("--devices", options->devices,
                       "all, gpu, cpu or indices such as 0,1,2: one process per device, and they share the run. "
                       "With mpirun or srun: the devices that the ranks of each host use in turn");
@@ -249,7 +250,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->add_option("--processes", options->processes,
                    "Number of processes that share the run and the CPU cores; they are distributed over --devices, "
                    "or all use --device")
-      ->check(CLI::Range(1, 1024));
+      ->check(number_range(1, 1024));
   command->add_option(
       "--shard", options->shard,
       "K/N: compute only part K (from 0 to N - 1) of N parts, on any machine; `wavetracer merge` joins the parts");

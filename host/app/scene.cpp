@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/materials.hpp"
 #include "app/named_files.hpp"
+#include "app/number_range.hpp"
 #include "base/file.hpp"
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
@@ -55,7 +56,7 @@ void add_materials(CLI::App& scene) {
       "materials", "List the radio materials that are known by name, with their values at a frequency");
   const auto options = std::make_shared<Options>();
   command->add_option("--frequency", options->frequency_hz, "Frequency in Hz, like the key radio.frequency_hz")
-      ->check(CLI::Range(1e6, 1e12))
+      ->check(number_range(1e6, 1e12))
       ->capture_default_str();
   command->add_option("--edition", options->edition, "Edition of ITU-R P.2040, like the key scene.itu_edition")
       ->check(CLI::IsMember(std::vector<std::string>(ItuEdition::words.begin(), ItuEdition::words.end())))

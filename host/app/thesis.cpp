@@ -9,6 +9,7 @@
 #include <optional>
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
+#include "app/number_range.hpp"
 #include "app/study_host.hpp"
 #include "app/written_files.hpp"
 #include "jobs/interrupt.hpp"
@@ -117,19 +118,19 @@ void add_thesis(CLI::App& program, Invocation& invocation) {
       "Smallest and largest number of rays, A:B; default: those of the figure, on CPUs fewer for experiments "
       "with caches");
   command->add_option("--repeat", options->repeats, "Number of measurements of each point; the median counts")
-      ->check(CLI::Range(1, 1000000))
+      ->check(number_range(1, 1000000))
       ->capture_default_str();
   command
       ->add_option(
           "--frames", options->frames,
           "Number of frames that follow the first one of a drive and are averaged over; default 500, on CPUs 20; "
           "of figure-6.13 99, of coherence-frames 200")
-      ->check(CLI::Range(1, 1000000));
+      ->check(number_range(1, 1000000));
   command
       ->add_option("--minutes", options->minutes,
                    "Figures of orders (6.1, 6.18) begin no number of rays that would end later than this; "
                    "default 3 on a GPU and 10 on a CPU, without a limit where --rays is given")
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(number_range(0.001, 1e6));
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
   command->footer("");  // removes the program's footer, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });

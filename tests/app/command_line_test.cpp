@@ -17,6 +17,26 @@ TEST_CASE("--version and --help") {
   CHECK(version.out.starts_with("wavetracer " WAVETRACER_VERSION "\n"));
 }
 
+TEST_CASE("help has ranges of numbers in words, and refusals name them") {
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"help", "run"},
+                             {"help", "scene", "materials"},
+                             {"help", "thesis"},
+                             {"help", "accuracy"},
+                             {"help", "calibrate"},
+                             {"help", "view"}}) {
+    CAPTURE(words.back());
+    const Outcome help = run_program(words);
+    CHECK(help.code == 0);
+    CHECK_FALSE(contains(help.out, " in ["));
+  }
+  CHECK(contains(run_program({"help", "calibrate"}).out, "--folds UINT:0 to 100=4"));
+  CHECK(contains(run_program({"help", "run"}).out, "1 to 1,000,000"));
+  const Outcome refused = run_program({"calibrate", "-c", "a.toml", "--measured", "b.csv", "--folds", "101"});
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "--folds: Value 101 not in range 0 to 100"));
+}
+
 TEST_CASE("help is about what was asked: a command on a page, the keys of configurations by themselves") {
   using Words = std::vector<std::string>;
   for (const Words& words : {Words{"--help"},

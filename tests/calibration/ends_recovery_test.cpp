@@ -119,7 +119,7 @@ TEST_CASE("with noise and over edges, errors of places are as large as the stand
   for (const auto& [name, truth, most] :
        {std::tuple{"mast.x", 0.3, 0.3}, {"mast.y", 0, 0.3}, {"mast.yaw", 33, 1.0}, {"receivers.height", 0.4, 0.4}}) {
     CAPTURE(name);
-    MESSAGE(name, " ", fitted(found, name), " +- ", error_of(found, name));
+    MESSAGE(std::string(name), " ", fitted(found, name), " +- ", error_of(found, name));
     CHECK(std::abs(fitted(found, name) - truth) < 4 * error_of(found, name));
     CHECK(error_of(found, name) < most);
   }
