@@ -101,6 +101,16 @@ std::vector<std::string> key_names() {
   return names;
 }
 
+// Names the keys that begin with the word, or else the one that is spelled nearly alike.
+std::string key_hint(const std::string& word) {
+  std::vector<std::string> beginning;
+  for (const std::string& key : key_names())
+    if (key.starts_with(word)) beginning.push_back(key);
+  if (beginning.empty()) return spelling_hint(word, key_names());
+  if (beginning.size() == 1) return fmt::format("; did you mean \"{}\"?", beginning.front());
+  return fmt::format("; these keys begin so: {}", fmt::join(beginning, ", "));
+}
+
 const CLI::App& find_command(const CLI::App& program, const std::vector<std::string>& path) {
   const CLI::App* at = &program;
   for (const std::string& word : path) {
@@ -109,9 +119,8 @@ const CLI::App& find_command(const CLI::App& program, const std::vector<std::str
       std::vector<std::string> known = command_names(*at);
       if (at == &program) {
         known.push_back(config_topic);
-        const std::string nearest_key = spelling_hint(word, key_names());
-        if (word.find('.') != word.npos && !nearest_key.empty())
-          throw ConfigError(fmt::format("help: there is no key \"{}\"{}", word, nearest_key));
+        if (const std::string hint = key_hint(word); word.find('.') != word.npos && !hint.empty())
+          throw ConfigError(fmt::format("help: there is no key \"{}\"{}", word, hint));
       }
       throw ConfigError(
           fmt::format("help: there is nothing about \"{}\"{}; there is help about {}", word, command_hint(word, known),

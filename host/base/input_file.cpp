@@ -22,6 +22,14 @@ const char* kind_of(std::filesystem::file_type type) {
   }
 }
 
+// The folder that a relative path was looked for in.
+std::string place_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();
+  if (path.is_absolute() || error) return "";
+  return fmt::format("; it was looked for in {}", whole.parent_path().string());
+}
+
 }  // namespace
 
 std::string backslash_hint(const std::filesystem::path& path) {
@@ -43,8 +51,7 @@ std::string input_file_problem(const std::filesystem::path& path, const char* wh
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found)
-    return "no such file; paths are relative to the file that names them" + backslash_hint(path);
+  if (status.type() == fs::file_type::not_found) return "no such file" + place_of(path) + backslash_hint(path);
   if (status.type() == fs::file_type::none) return fmt::format("cannot be opened: {}", error.message());
   if (fs::is_directory(status)) return fmt::format("is a folder; name {} inside it", what);
   if (!fs::is_regular_file(status))

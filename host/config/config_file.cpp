@@ -338,8 +338,9 @@ Config load_config(const std::filesystem::path& file, const std::vector<std::str
   if (const std::string problem = input_file_problem(file, "a configuration", most_bytes); !problem.empty())
     fail(problem);
   std::ifstream in(file, std::ios::binary);
+  if (!in) fail("you have no permission to read it");
   std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) fail("it is empty, or you have no permission to read it");
+  if (!(text << in.rdbuf())) fail("it is empty");
   return parse_config(text.str(), file.string(), sets);
 }
 

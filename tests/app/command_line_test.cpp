@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 #include "folders.hpp"
 #include "program.hpp"
@@ -78,7 +79,17 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
   CHECK(contains(scene.out, "Usage: wavetracer scene"));
   CHECK(contains(scene.out, "\n  scene.file\n"));
   check(run_program({"help", "trace.ray"}), 2, "help: there is no key \"trace.ray\"; did you mean \"trace.rays\"?");
+  check(run_program({"help", "trace.diffr"}), 2,
+        "\"trace.diffr\"; these keys begin so: trace.diffraction, trace.diffraction_rays");
   check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
+}
+
+TEST_CASE("a configuration that is not there, and an empty one") {
+  const Folder folder;
+  const std::string here = std::filesystem::current_path().string();
+  check(run_program({"run", "-c", "nowhere.toml"}), 2, "no such file; it was looked for in " + here + ";");
+  check(run_program({"run", "-c", folder.path("nowhere.toml")}), 2, "no such file; `wavetracer init`");
+  check(run_program({"run", "-c", folder.file("empty.toml", "")}), 2, "cannot be read as a config file: it is empty;");
 }
 
 TEST_CASE("misspelt commands, options and choices are answered with what was meant") {
