@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import re
 import weakref
 from collections.abc import Iterable, Iterator, Mapping
 from types import TracebackType
@@ -44,6 +45,17 @@ def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str 
                          ) from None
 
 
+def _as_given(error: ConfigError, place: str, where: str | None, sets: list[str]) -> ConfigError:
+    """The error with the places that the caller knows. The library has the text of the configuration under the name
+    "config". place: its name for the caller, or "" for a dict, which has no lines; keywords name their keys."""
+    name = re.escape(os.path.join(where or "", "config"))
+    lines = []
+    for line in str(error).splitlines():
+        line = re.sub(rf"^{name}:(\d+:\d+: )", lambda found: place and f"{place}:{found[1]}", line)
+        lines.append(next((line.removeprefix(f"--set {one}: ") for one in sets if line.startswith(f"--set {one}: ")), line))
+    return ConfigError("\n".join(lines))
+
+
 class Simulation(Unique):
     """A scene on an OpenCL device.
 
@@ -67,8 +79,12 @@ class Simulation(Unique):
         texts = (Text * len(lines))(*lines)
         if device is not None and (isinstance(device, bool) or not isinstance(device, (str, int, np.integer))):
             raise TypeError(f"device is a part of a device's name, or its index, not {shown(device)}")
-        handle = call(library.wavetracer_open, encoded(content, "config"), os.fsencode(where) if where else None, texts,
-                      len(lines), encoded(str(device), "device") if device is not None else None)
+        try:
+            handle = call(library.wavetracer_open, encoded(content, "config"), os.fsencode(where) if where else None, texts,
+                          len(lines), encoded(str(device), "device") if device is not None else None)
+        except ConfigError as error:
+            place = "" if isinstance(config, Mapping) else "config" if config is content else str(config)
+            raise _as_given(error, place, where, [line.decode() for line in lines]) from None
         self._session = Session(handle)
         weakref.finalize(self, self._session.close)
         self.transmitters: list[str] = [text(library.wavetracer_transmitter_name(handle, i))

@@ -49,6 +49,24 @@ def same(paths, wanted):
         assert np.array_equal(paths.links[name], wanted.links[name], equal_nan=name not in ("los",)), name
 
 
+def check_config_errors(folder):
+    """Errors of configurations have the place that the caller knows: a line of a file or a text, a key of a dict."""
+    file = folder / "street.toml"
+    folder.mkdir(parents=True)
+    file.write_text("[trace]\nrays = -4\n")
+    wrong = "trace.rays = -4 is out of range"
+    for config, sets, whole in ((file, {}, f"{file}:2:8: {wrong}"), (str(file), {}, f"{file}:2:8: {wrong}"),
+                                ("[trace]\nrays = -4\n", {}, f"config:2:8: {wrong}"),
+                                (CONFIG | {"trace": {"rays": -4}}, {}, wrong), (CONFIG, {"trace": {"rays": -4}}, wrong),
+                                (CONFIG, {"trace.rays": -4}, wrong)):
+        try:
+            wavetracer.Simulation(config, **sets)
+        except wavetracer.ConfigError as error:
+            assert str(error).startswith(whole), error
+        else:
+            raise AssertionError(f"no error for {config} with {sets}")
+
+
 def check_copies(folder):
     """Copies of objects of the library are refused with a hint what to copy instead; values are copied."""
     simulation = wavetracer.Simulation(CONFIG)
@@ -321,6 +339,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     shutil.rmtree(folder, ignore_errors=True)
     check_distributed()
+    check_config_errors(folder / "errors")
     check_copies(folder / "copies")
     check_copied_arrays_and_carriers()
     check_types(folder / "types")
