@@ -37,9 +37,11 @@ struct Pattern {
   bool of_ends() const { return is_of_end(properties.front()); }
 };
 
-Pattern parse_pattern(const std::string& text) {
+// materials: their names, which may have dots.
+Pattern parse_pattern(const std::string& text, const std::vector<std::string>& materials) {
   const size_t dot = text.rfind('.');
-  if (dot == std::string::npos) return {text, text, {Property::permittivity, Property::conductivity}, true};
+  if (dot == std::string::npos || std::ranges::find(materials, text) != materials.end())
+    return {text, text, {Property::permittivity, Property::conductivity}, true};
   const std::string last = text.substr(dot + 1);
   if (const auto property = property_named(last)) return {text, text.substr(0, dot), {*property}};
   std::vector<std::string> known = property_names(false);
@@ -104,7 +106,7 @@ class Chooser {
 
   std::vector<Parameter> operator()(const std::vector<std::string>& patterns) {
     for (const std::string& text : patterns) {
-      const Pattern pattern = parse_pattern(text);
+      const Pattern pattern = parse_pattern(text, world_.names);
       if (pattern.of_ends())
         choose_ends(pattern);
       else
@@ -185,8 +187,11 @@ class Chooser {
 }  // namespace
 
 bool move_paths(const std::vector<std::string>& patterns) {
-  return std::ranges::any_of(
-      patterns, [](const std::string& text) { return moves_paths(parse_pattern(text).properties.front()); });
+  return std::ranges::any_of(patterns, [](const std::string& text) {
+    const size_t dot = text.rfind('.');
+    const auto property = dot == std::string::npos ? std::nullopt : property_named(text.substr(dot + 1));
+    return property && moves_paths(*property);
+  });
 }
 
 std::vector<Parameter> chosen_parameters(const NamedRecords& world, const EndPlaces& ends,

@@ -74,6 +74,14 @@ TEST_CASE("patterns choose what can be fitted, and each once") {
   check_contains(notes[2], "glass.clear.conductivity is not fitted: it is 0 in the configuration; give it a value");
 }
 
+TEST_CASE("a material whose name has a dot is chosen by its name, with and without a property") {
+  std::vector<std::string> notes;
+  CHECK(names({"glass.clear"}, notes) == std::vector<std::string>{"glass.clear.permittivity"});
+  CHECK(names({"glass.clear.permittivity"}, notes) == std::vector<std::string>{"glass.clear.permittivity"});
+  CHECK_FALSE(move_paths({"glass.clear", "*"}));
+  CHECK(move_paths({"*", "mast.height"}));
+}
+
 TEST_CASE("mistakes in patterns") {
   check_contains(pattern_mistake("concrete.permitivity"), "did you mean \"permittivity\"?");
   check_contains(pattern_mistake("concret"), "no surface has the material \"concret\"; did you mean \"concrete\"?");
