@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/agreement.hpp"
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -71,6 +72,15 @@ Statistics statistics_of(std::span<const LevelPair> pairs) {
   out.sigma_db = std::sqrt(sum / static_cast<double>(off.size() - 1));
   out.spearman = study::pearson(ranks_of(measured), ranks_of(computed));
   return out;
+}
+
+std::string held_out_warning(const Agreement& all) {
+  constexpr double tolerated = 1.05;
+  if (!(all.held_out.sigma_db > tolerated * all.before.sigma_db)) return "";
+  return fmt::format(
+      "places that were held out agree less well than as configured ({:.2f} dB against {:.2f} dB): the data do not "
+      "support this fit; fit fewer parameters, give smaller uncertainties by --prior, or keep the configuration",
+      all.held_out.sigma_db, all.before.sigma_db);
 }
 
 std::vector<unsigned> spatial_blocks(std::span<const double> x, std::span<const double> y, unsigned count) {

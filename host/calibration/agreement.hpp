@@ -30,6 +30,10 @@ struct Agreement {
   Statistics before, after, held_out;
 };
 
+// Returns a sentence for points that agree less well where they were held out than as configured, by more than 5% of
+// sigma: then the data do not support the fit. Empty for others.
+std::string held_out_warning(const Agreement& all);
+
 // Divides places into blocks of about the same number of points, by halves along the longer side. Returns the block of
 // each, 0 to count - 1.
 std::vector<unsigned> spatial_blocks(std::span<const double> x, std::span<const double> y, unsigned count);

@@ -74,6 +74,8 @@ class Calibrating {
     }
     out_.fit_s = watch.lap();
     out_.agreements = agreements_of(out_, folds_ > 0);
+    if (const std::string why = held_out_warning(out_.agreements.front()); folds_ > 0 && !why.empty())
+      out_.notes.push_back(why);
     out_.frames_solved = world_->frames_solved();
     out_.config = fitted_config(config, inputs(out_.fit.theta), world_->materials().frequency_hz, out_.parameters);
     note_receivers();

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <random>
 
+#include "check_contains.hpp"
+
 using namespace wavetracer::calibration;
+using wavetracer::test::check_contains;
 
 TEST_CASE("equal values share the mean of their ranks") {
   CHECK(ranks_of(std::vector<double>{3, 1, 2}) == std::vector<double>{3, 1, 2});
@@ -51,4 +54,13 @@ TEST_CASE("blocks have the same number of places, and no two of them overlap alo
     CHECK(count[block] <= 26);
     if (block > 0) CHECK(most[block - 1] <= least[block]);
   }
+}
+
+TEST_CASE("a fit that predicts worse than the configuration is said to do so") {
+  Agreement all{"all", {50, 50, 1.7, 2.06, 0.9}, {50, 50, 0, 2.04, 0.9}, {50, 50, -0.2, 2.58, 0.8}};
+  check_contains(held_out_warning(all), "(2.58 dB against 2.06 dB): the data do not support this fit");
+  all.held_out.sigma_db = 2.1;
+  CHECK(held_out_warning(all).empty());
+  all.held_out = {};
+  CHECK(held_out_warning(all).empty());
 }
