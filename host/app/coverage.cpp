@@ -10,10 +10,13 @@
 #include "app/commands.hpp"
 #include "app/map_formats.hpp"
 #include "app/saved_frames.hpp"
+#include "base/digits.hpp"
 #include "config/retired_keys.hpp"
 #include "coverage/coverage_map.hpp"
 #include "coverage/kml.hpp"
+#include "coverage/street_cells.hpp"
 #include "coverage/write_map.hpp"
+#include "imports/road_network.hpp"
 #include "results/link_table.hpp"
 #include "results/run_choice.hpp"
 #include "wavetracer/config_file.hpp"
@@ -24,6 +27,7 @@ namespace {
 struct CoverageOptions {
   std::string run, folder, grid, tx, frames;
   std::optional<uint32_t> frame;
+  bool on_streets = false;
   std::vector<std::string> layers, formats = {"csv"};
 };
 
@@ -55,6 +59,21 @@ FrameRows chosen_rows(const SavedRun& run, const CoverageOptions& options) {
 
 void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
 
+// Leaves the cells on streets in the maps. They are those of one grid.
+void keep_streets(std::vector<coverage::Map>& maps, const Config& config) {
+  if (maps.front().plane)
+    throw ConfigError(
+        fmt::format("--on-streets: the grid \"{}\" stands upright, and streets lie on the ground", maps.front().grid));
+  const std::vector<Street> streets = known_streets(config);
+  if (streets.empty())
+    throw ConfigError(
+        "--on-streets: no streets are known; give the configuration of the run a SUMO network with scene.streets");
+  const std::vector<bool> on = coverage::cells_on_streets(maps.front(), streets);
+  for (coverage::Map& map : maps) coverage::keep_cells(map, on);
+  std::cerr << fmt::format("wavetracer: {} of {} cells are on streets\n",
+                           grouped(static_cast<uint64_t>(std::ranges::count(on, true))), grouped(on.size()));
+}
+
 void make_coverage(const CoverageOptions& options) {
   check_map_formats(options.formats);
   const SavedRun run(options.run);
@@ -71,8 +90,9 @@ void make_coverage(const CoverageOptions& options) {
   const FrameRows rows = chosen_rows(run, options);
   const LinkTable table = link_table(run);
   if (!table.warning.empty()) warn(table.warning);
-  const std::vector<coverage::Map> maps = coverage::coverage_maps(run, config.radio, rows.first, rows.last, table, grid,
-                                                                  {.tx = tx, .layers = options.layers});
+  std::vector<coverage::Map> maps = coverage::coverage_maps(run, config.radio, rows.first, rows.last, table, grid,
+                                                            {.tx = tx, .layers = options.layers});
+  if (options.on_streets) keep_streets(maps, config);
   for (const std::string& problem : maps.front().left_out) warn(problem);
   const auto noted = std::ranges::find_if(maps, [](const coverage::Map& map) { return !map.notes.empty(); });
   if (noted != maps.end()) warn(fmt::format("frame {}: {}", noted->frame, noted->notes.front()));
@@ -113,6 +133,8 @@ void add_coverage(CLI::App& program) {
                                fmt::join(coverage::layer_names(), ", ")))
       ->delimiter(',')
       ->allow_extra_args(false);
+  command->add_flag("--on-streets", options->on_streets,
+                    "Leave out the cells that are on no street: those of scene.streets, or of the generated city");
   add_map_formats(*command, options->formats);
   command->callback([options] { make_coverage(*options); });
 }

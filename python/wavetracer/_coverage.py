@@ -116,7 +116,8 @@ def _dataset(folder: pathlib.Path) -> xarray.Dataset:
 
 
 def coverage(run: Source, *, grid: str | None = None, tx: str | None = None, frame: int | None = None,
-             frames: Iterable[int] | str | None = None, layers: Iterable[str] | None = None) -> xarray.Dataset:
+             frames: Iterable[int] | str | None = None, layers: Iterable[str] | None = None,
+             on_streets: bool = False) -> xarray.Dataset:
     """The map of a [[receiver_grid]] in one frame as an xarray.Dataset: variables of shape (y, x), NaN where a cell has
     no value, with units and long_name as attributes, over coordinates x, y and z in metres, and lon and lat in degrees
     if the scene has a georeference. On a vertical plane variables have the shape (z, along), where along is the distance
@@ -127,7 +128,8 @@ def coverage(run: Source, *, grid: str | None = None, tx: str | None = None, fra
     there are several. tx: the transmitter that serves all cells; the strongest of each cell if not given. frame: its
     number; the first one if not given. frames: instead of it, numbers of frames, such as range(0, 10), or "all".
     layers: names, such as "path_gain_db", "sinr_db" and "best_server" (a place in the attribute `transmitters`); all
-    that the run can tell if not given. docs/formats.md has their formulas. Raises ImportError without xarray.
+    that the run can tell if not given; docs/formats.md has their formulas. on_streets: cells that are on no street of
+    scene.streets, or of the generated city, have no values. Raises ImportError without xarray.
     """
     _xarray()
     options, folder = _options(grid, tx, layers), _folder_of(run)
@@ -141,7 +143,7 @@ def coverage(run: Source, *, grid: str | None = None, tx: str | None = None, fra
             simulation.run(folder, wanted, progress=False).close()
             if simulation is not run:
                 simulation.close()
-        options += named
+        options += named + (["--on-streets"] if on_streets else [])
         _program.call("coverage", folder, "-o", pathlib.Path(work) / "maps", "--format", "npy", *options)
         maps = _dataset(pathlib.Path(work) / "maps")
     return maps if frames is None or numbers is None else _of_frames(maps, numbers)

@@ -163,6 +163,8 @@ def free_space(program, folder):
     assert {Path(line) for line in done.stdout.split()} == set(maps.iterdir())
     rows, names = table(maps / "coverage.csv"), list(json.loads((maps / "coverage.json").read_text())["layers"])
     assert len(rows) == 30 * 15 and len(names) == 14
+    refused = run(program, "coverage", place / "out", "--on-streets", code=2).stderr
+    assert "no streets are known; give the configuration of the run a SUMO network with scene.streets" in refused, refused
     check_free_space(rows)
     check_arrays(maps, rows, names, (15, 30))
     local = check_tiff(maps, rows, "sinr_db", "dB", (0, 0))["coordinateSystem"]["wkt"]
@@ -203,6 +205,19 @@ def city(program, folder):
             done = run(program, "coverage", out, "--grid", "street", *options)
             assert "snr_db, sinr_db need radio.bandwidth_hz" in done.stderr, done.stderr
             check_city(h5, table(out / "coverage/coverage.csv"), power, tx)
+    streets(program, out)
+
+
+def streets(program, out):
+    """The streets of this city are 20 m wide and cross at 0, 0; the next ones are 100 m away."""
+    run(program, "coverage", out, "--grid", "street", "--layers", "path_gain_db,paths")
+    whole = table(out / "coverage/coverage.csv")
+    done = run(program, "coverage", out, "--grid", "street", "--layers", "path_gain_db,paths", "--on-streets")
+    rows = table(out / "coverage/coverage.csv")
+    on = (abs(column(rows, "x_m")) <= 10) | (abs(column(rows, "y_m")) <= 10)
+    assert f"{on.sum()} of {len(rows)} cells are on streets" in done.stderr and 0 < on.sum() < len(rows), done.stderr
+    for name in ("path_gain_db", "paths"):
+        same(column(rows, name), np.where(on, column(whole, name), np.nan))
 
 
 def maps(program, folder):

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of streets alone.
+#pragma once
+#include <span>
+#include <vector>
+#include "coverage/coverage_map.hpp"
+#include "scene/streets.hpp"
+
+namespace wavetracer::coverage {
+
+// Returns for each cell of a horizontal map whether its middle lies on a street: at most half of the street's width
+// from its centre line, seen from above. streets: in file coordinates.
+std::vector<bool> cells_on_streets(const Map& map, std::span<const Street> streets);
+
+// Takes the values of the cells that are not chosen.
+void keep_cells(Map& map, const std::vector<bool>& chosen);
+
+}  // namespace wavetracer::coverage
