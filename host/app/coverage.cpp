@@ -60,7 +60,7 @@ FrameRows chosen_rows(const SavedRun& run, const CoverageOptions& options) {
 void warn(const std::string& text) { std::cerr << "wavetracer: warning: " << text << "\n"; }
 
 // Leaves the cells on streets in the maps. They are those of one grid.
-void keep_streets(std::vector<coverage::Map>& maps, const Config& config) {
+void keep_cells_on_streets(std::vector<coverage::Map>& maps, const Config& config) {
   if (maps.front().plane)
     throw ConfigError(
         fmt::format("--on-streets: the grid \"{}\" stands upright, and streets lie on the ground", maps.front().grid));
@@ -69,7 +69,7 @@ void keep_streets(std::vector<coverage::Map>& maps, const Config& config) {
     throw ConfigError(
         "--on-streets: no streets are known; give the configuration of the run a SUMO network with scene.streets");
   const std::vector<bool> on = coverage::cells_on_streets(maps.front(), streets);
-  for (coverage::Map& map : maps) coverage::keep_cells(map, on);
+  for (coverage::Map& map : maps) coverage::keep_streets(map, on);
   std::cerr << fmt::format("wavetracer: {} of {} cells are on streets\n",
                            grouped(static_cast<uint64_t>(std::ranges::count(on, true))), grouped(on.size()));
 }
@@ -92,7 +92,7 @@ void make_coverage(const CoverageOptions& options) {
   if (!table.warning.empty()) warn(table.warning);
   std::vector<coverage::Map> maps = coverage::coverage_maps(run, config.radio, rows.first, rows.last, table, grid,
                                                             {.tx = tx, .layers = options.layers});
-  if (options.on_streets) keep_streets(maps, config);
+  if (options.on_streets) keep_cells_on_streets(maps, config);
   for (const std::string& problem : maps.front().left_out) warn(problem);
   const auto noted = std::ranges::find_if(maps, [](const coverage::Map& map) { return !map.notes.empty(); });
   if (noted != maps.end()) warn(fmt::format("frame {}: {}", noted->frame, noted->notes.front()));

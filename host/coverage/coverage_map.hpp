@@ -171,6 +171,7 @@ struct Map {
   std::vector<const LayerKind*> layers = {};  // those that the run can tell, in the order of layer_kinds or as asked
   std::vector<std::string> left_out = {};     // why layers are not there
   std::vector<std::string> notes = {};        // words about paths that layers do not include
+  bool only_streets = false;                  // cells that are on no street were left without values
   std::optional<VerticalPlane> plane = {};    // nothing: the map is horizontal, or lies on the ground
   uint32_t samples = 0;                       // samples of the inputs; 0: the map is that of a run
   std::vector<Threshold> thresholds = {};     // with samples

@@ -45,9 +45,10 @@ std::vector<bool> cells_on_streets(const Map& map, std::span<const Street> stree
   return out;
 }
 
-void keep_cells(Map& map, const std::vector<bool>& chosen) {
+void keep_streets(Map& map, const std::vector<bool>& on_street) {
+  map.only_streets = true;
   for (size_t cell = 0; cell < map.cells.size(); ++cell) {
-    if (chosen[cell]) continue;
+    if (on_street[cell]) continue;
     map.cells[cell] = {};
     if (!map.chances.empty()) map.chances[cell] = {};
   }

@@ -12,7 +12,7 @@ namespace wavetracer::coverage {
 // from its centre line, seen from above. streets: in file coordinates.
 std::vector<bool> cells_on_streets(const Map& map, std::span<const Street> streets);
 
-// Takes the values of the cells that are not chosen.
-void keep_cells(Map& map, const std::vector<bool>& chosen);
+// Leaves the cells without values that are not on streets.
+void keep_streets(Map& map, const std::vector<bool>& on_street);
 
 }  // namespace wavetracer::coverage

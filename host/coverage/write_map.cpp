@@ -109,6 +109,7 @@ std::string MapWriter::description() const {
                {"step_m", {first_.step_m.x, first_.step_m.y}},
                {"vertical", nullptr},
                {"projection", nullptr}});
+  if (first_.only_streets) json["only_streets"] = true;
   if (const auto& plane = first_.plane)
     json["vertical"] = {{"from_m", {plane->from_m.x, plane->from_m.y}},
                         {"to_m", {plane->to_m.x, plane->to_m.y}},

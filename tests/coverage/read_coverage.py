@@ -216,6 +216,7 @@ def streets(program, out):
     rows = table(out / "coverage/coverage.csv")
     on = (abs(column(rows, "x_m")) <= 10) | (abs(column(rows, "y_m")) <= 10)
     assert f"{on.sum()} of {len(rows)} cells are on streets" in done.stderr and 0 < on.sum() < len(rows), done.stderr
+    assert json.loads((out / "coverage/coverage.json").read_text())["only_streets"] is True
     for name in ("path_gain_db", "paths"):
         same(column(rows, name), np.where(on, column(whole, name), np.nan))
 

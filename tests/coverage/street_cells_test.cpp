@@ -65,7 +65,8 @@ TEST_CASE("streets that miss the map, points, and cells that lose their values")
   expected[5] = true;
   CHECK(cells_on_streets(map, point) == expected);
   map.chances.assign(12, {.samples = 3});
-  keep_cells(map, expected);
+  keep_streets(map, expected);
+  CHECK(map.only_streets);
   CHECK(map.reached_cells() == 1);
   CHECK(map.reached(5));
   CHECK(map.cells[5].path_gain_db == -80);
