@@ -63,18 +63,9 @@ def street_paths(config, position_m):
     """The figures of links.py and the sight of each place, in arrays, from one frame."""
     text = config.read_text(encoding="utf-8") + "".join(
         f'\n[[receiver]]\nname = "p{i:04}"\nposition_m = {list(map(float, at))}\n' for i, at in enumerate(position_m))
-    with wt.Simulation(text, folder=config.parent, **nested(BOULDER_TRACE)) as simulation:
+    with wt.Simulation(text, folder=config.parent, **BOULDER_TRACE) as simulation:
         paths = simulation.run_frame().paths
     return {**links.figures(paths, 1, len(position_m)), "los": links.line_of_sight(paths, 1, len(position_m))}
-
-
-def nested(keys):
-    """{"trace.rays": 1} as {"trace": {"rays": 1}}."""
-    out = {}
-    for key, value in keys.items():
-        table, name = key.split(".")
-        out.setdefault(table, {})[name] = value
-    return out
 
 
 def streets(folder, sionna):
@@ -141,7 +132,7 @@ def hallway(folder):
 
 
 def all_sets(data, sionna):
-    """The results of both sets, and the points of the figure of the streets. data: the folder with boulder and dichasus; sionna: the file
-    of sionna_levels.py."""
+    """The results of both sets, and the points of the figure of the streets. data: the folder with boulder and dichasus;
+    sionna: the file of sionna_levels.py."""
     street, points = streets(data / "boulder", sionna)
     return {"folds": FOLDS, "boulder": street, "dichasus": hallway(data / "dichasus")}, points

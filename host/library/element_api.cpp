@@ -34,16 +34,10 @@ void copy_positions(const char* function, const Config& config, const std::vecto
     for (int axis = 0; axis < 3; ++axis) *to++ = p[axis];
 }
 
-void check_row(const char* function, const wavetracer_frame& frame, size_t row) {
-  if (row >= frame.result.paths.size())
-    throw ConfigError(std::string(function) + ": there is no path " + std::to_string(row) + ", only " +
-                      std::to_string(frame.result.paths.size()) + " counted from 0");
-}
-
 // Returns the element model of a frame and its carrier, after the checks that the functions about paths share.
 ElementModel model_of(const char* function, const wavetracer_simulation& self, const wavetracer_frame& frame,
                       uint32_t carrier) {
-  if (frame.owner != self.number) throw ConfigError(std::string(function) + ": the frame is of another simulation");
+  check_owner(function, self, frame);
   const size_t carriers = 1 + frame.result.carriers.size();
   if (carrier >= carriers)
     throw ConfigError(std::string(function) + ": there is no carrier " + std::to_string(carrier) + ", only " +

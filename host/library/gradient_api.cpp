@@ -31,7 +31,8 @@ static_assert(static_cast<int>(GradientGap::not_solved) == WAVETRACER_GAP_NOT_SO
               static_cast<int>(GradientGap::singular) == WAVETRACER_GAP_SINGULAR &&
               static_cast<int>(GradientGap::jump) == WAVETRACER_GAP_JUMP);
 
-GradientChoice choice_of(const char* function, unsigned wrt, const size_t* rows, size_t row_count, size_t paths) {
+GradientChoice choice_of(const char* function, unsigned wrt, const size_t* rows, size_t row_count,
+                         const wavetracer_frame& frame) {
   constexpr unsigned known = WAVETRACER_WRT_MATERIALS | WAVETRACER_WRT_POSITIONS | WAVETRACER_WRT_ORIENTATIONS;
   if (wrt == 0 || (wrt & ~known) != 0)
     throw ConfigError(std::string(function) + ": wrt is " + std::to_string(wrt) +
@@ -42,9 +43,7 @@ GradientChoice choice_of(const char* function, unsigned wrt, const size_t* rows,
   if (!rows) return out;
   out.paths.emplace();
   for (size_t i = 0; i < row_count; ++i) {
-    if (rows[i] >= paths)
-      throw ConfigError(std::string(function) + ": there is no path " + std::to_string(rows[i]) + ", only " +
-                        std::to_string(paths) + " counted from 0");
+    check_row(function, frame, rows[i]);
     out.paths->push_back(static_cast<uint32_t>(rows[i]));
   }
   return out;
@@ -94,8 +93,8 @@ wavetracer_gradient* wavetracer_frame_gradient(wavetracer_simulation* self, cons
     const char* const here = "wavetracer_frame_gradient";
     needed(self, here, "self");
     const wavetracer_frame& of = needed(frame, here, "frame");
-    if (of.owner != self->number) throw ConfigError(std::string(here) + ": the frame is of another simulation");
-    const wavetracer::GradientChoice choice = choice_of(here, wrt, rows, row_count, of.result.paths.size());
+    check_owner(here, *self, of);
+    const wavetracer::GradientChoice choice = choice_of(here, wrt, rows, row_count, of);
     const Turn turn(*self, here);
     return packed_gradient(self->simulation.gradient(of.result, choice), of.result.paths);
   });

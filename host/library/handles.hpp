@@ -122,4 +122,16 @@ T& needed(T* pointer, const char* function, const char* argument) {
   return *pointer;
 }
 
+// Throws ConfigError if the frame is of another simulation.
+inline void check_owner(const char* function, const wavetracer_simulation& self, const wavetracer_frame& frame) {
+  if (frame.owner != self.number) throw ConfigError(std::string(function) + ": the frame is of another simulation");
+}
+
+// Throws ConfigError if the frame has no path of this row.
+inline void check_row(const char* function, const wavetracer_frame& frame, size_t row) {
+  if (row >= frame.result.paths.size())
+    throw ConfigError(std::string(function) + ": there is no path " + std::to_string(row) + ", only " +
+                      std::to_string(frame.result.paths.size()) + " counted from 0");
+}
+
 }  // namespace wavetracer::c_api

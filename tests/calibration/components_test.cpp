@@ -4,37 +4,20 @@
 
 #include <cmath>
 
+#include "calibration/measured_text.hpp"
 #include "calibration/spread_agreement.hpp"
 #include "calibration/spreads.hpp"
 #include "check_contains.hpp"
-#include "temporary_folder.hpp"
-#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::calibration;
 using test::check_contains;
-
-namespace {
-
-MeasuredFile read_components(const std::string& text, const std::string& crs = "") {
-  const test::TemporaryFolder folder;
-  return read_measured(folder.write("c.csv", text), {.level = "", .crs = crs});
-}
-
-std::string refusal(const std::string& text, const std::string& crs = "") {
-  try {
-    read_components(text, crs);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
+using test::mistake;
+using test::read_text;
 
 TEST_CASE("two equal components: half of their distance in delay, and the spread of their angle") {
   // |e^0 + e^(j 90 deg)| / 2 = 1/sqrt(2), so the spread is sqrt(ln 2) = 47.70 degrees.
-  const MeasuredFile file = read_components("x,y,power_db,delay_ns,azimuth_deg\n1,2,-80,100,0\n1,2,-80,140,90\n");
+  const MeasuredFile file = read_text("x,y,power_db,delay_ns,azimuth_deg\n1,2,-80,100,0\n1,2,-80,140,90\n");
   REQUIRE(file.points.size() == 1);
   CHECK(file.components == 2);
   CHECK(file.points[0].line == 2);
@@ -46,7 +29,7 @@ TEST_CASE("two equal components: half of their distance in delay, and the spread
 TEST_CASE("powers weigh: three components of 1, 2 and 1") {
   // Losses of 90, 90 - 10 lg 2 and 90 dB at 0, 10 and 20 ns: mean 10, variance (100 + 0 + 100) / 4 = 50. Azimuths of
   // -60, 0 and 60 degrees: (0.5 + 2 + 0.5) / 4 = 3/4 along 0.
-  const MeasuredFile file = read_components(
+  const MeasuredFile file = read_text(
       "position,x,y,path_loss_db,delay_ns,azimuth_deg,elevation_deg\np,1,2,90,0,-60,0\n"
       "p,1,2,86.98970004336019,10,0,0\np,1,2,90,20,420,0\n");
   REQUIRE(file.points.size() == 1);
@@ -61,16 +44,16 @@ TEST_CASE("azimuths have no beginning, and bearings count the other way: both gi
   const char* rows = "0,0,-80,350\n0,0,-80,10\n";
   const double across = std::sqrt(-2 * std::log(std::cos(M_PI / 18))) * 180 / M_PI;
   for (const std::string name : {"azimuth_deg", "bearing_deg"}) {
-    const MeasuredFile file = read_components("x,y,path_gain_db," + name + "\n" + rows);
+    const MeasuredFile file = read_text("x,y,path_gain_db," + name + "\n" + rows);
     CHECK(*file.points[0].azimuth_spread_deg == doctest::Approx(across).epsilon(1e-9));
     CHECK_FALSE(file.points[0].delay_spread_ns);  // no column of delays
   }
-  const MeasuredFile one = read_components("x,y,path_gain_db,azimuth_deg\n0,0,-80,350\n");
+  const MeasuredFile one = read_text("x,y,path_gain_db,azimuth_deg\n0,0,-80,350\n");
   CHECK_FALSE(one.points[0].azimuth_spread_deg);  // one component has no spread
 }
 
 TEST_CASE("places, transmitters, receivers and turns are points of their own; the order is that of the file") {
-  const MeasuredFile file = read_components(
+  const MeasuredFile file = read_text(
       "x,y,path_gain_db,delay_ns,tx,rx,yaw_deg\n5,5,-80,1,a,r,0\n1,1,-80,1,a,r,0\n5,5,-80,2,b,r,0\n5,5,-80,3,a,s,0\n"
       "5,5,-80,4,a,r,90\n5,5,-80,9,a,r,0\n");
   REQUIRE(file.points.size() == 5);
@@ -81,21 +64,21 @@ TEST_CASE("places, transmitters, receivers and turns are points of their own; th
 }
 
 TEST_CASE("components without a number are counted; mistakes name the line") {
-  CHECK(read_components("x,y,path_gain_db,delay_ns\n1,1,-80,\n1,1,-80,2\n1,1,,2\n").left_out == 2);
-  check_contains(refusal("x,y,path_gain_db,delay_ns\n1,1,<-80,2\n"), "c.csv:2: a component needs a power of its own");
-  check_contains(refusal("x,y,path_gain_db,delay_ns\n1,1,-99999,2\n"), "path_gain_db = -99999 is no power");
-  check_contains(refusal("x,y,path_gain_db,delay_ns,position\n1,1,-80,2,p\n1,2,-80,2,p\n"),
-                 "c.csv:3: the place or the group differs from that of line 2, but position = 'p' is the same");
-  check_contains(refusal("x,y,path_gain_db,delay_ns,delay_spread_ns\n1,1,-80,2,3\n"),
+  CHECK(read_text("x,y,path_gain_db,delay_ns\n1,1,-80,\n1,1,-80,2\n1,1,,2\n").left_out == 2);
+  check_contains(mistake("x,y,path_gain_db,delay_ns\n1,1,<-80,2\n"), "m.csv:2: a component needs a power of its own");
+  check_contains(mistake("x,y,path_gain_db,delay_ns\n1,1,-99999,2\n"), "path_gain_db = -99999 is no power");
+  check_contains(mistake("x,y,path_gain_db,delay_ns,position\n1,1,-80,2,p\n1,2,-80,2,p\n"),
+                 "m.csv:3: the place or the group differs from that of line 2, but position = 'p' is the same");
+  check_contains(mistake("x,y,path_gain_db,delay_ns,delay_spread_ns\n1,1,-80,2,3\n"),
                  "since there is a column delay_ns, and their spreads are computed; remove the column delay_spread_ns");
-  check_contains(refusal("x,y,path_gain_db,azimuth_deg,bearing_deg\n1,1,-80,2,3\n"), "remove one of them");
-  check_contains(refusal("x,y,path_gain_db,delay_ns\n1,1,-80,\n"),
+  check_contains(mistake("x,y,path_gain_db,azimuth_deg,bearing_deg\n1,1,-80,2,3\n"), "remove one of them");
+  check_contains(mistake("x,y,path_gain_db,delay_ns\n1,1,-80,\n"),
                  "and a delay and an azimuth where there are columns");
 }
 
 TEST_CASE("x and y of a coordinate system become degrees") {
   // On the central meridian of UTM zone 32 (9 degrees east) x is 500000; the equator has y = 0.
-  const MeasuredFile utm = read_components("x,y,z,height_m,path_gain_db\n500000,0,7,2,-80\n", "EPSG:32632");
+  const MeasuredFile utm = read_text("x,y,z,height_m,path_gain_db\n500000,0,7,2,-80\n", {.crs = "EPSG:32632"});
   CHECK(utm.degrees);
   CHECK(std::abs(utm.points[0].position[0]) < 1e-9);
   CHECK(utm.points[0].position[1] == doctest::Approx(9).epsilon(1e-12));
@@ -104,19 +87,21 @@ TEST_CASE("x and y of a coordinate system become degrees") {
   // A metre of latitude at the equator: a(1 - e^2) radians, times the scale of 0.9996.
   const double metre_deg = 180 / M_PI / (6378137 * (1 - 0.00669437999014) * 0.9996);
   for (const char* crs : {"EPSG:32632", "+proj=utm +zone=32 +ellps=WGS84 +units=m"}) {
-    const MeasuredFile north = read_components("x,y,height_m,path_gain_db\n500000,100,2,-80\n", crs);
+    const MeasuredFile north = read_text("x,y,height_m,path_gain_db\n500000,100,2,-80\n", {.crs = crs});
     CHECK(north.points[0].position[0] == doctest::Approx(100 * metre_deg).epsilon(1e-6));
   }
-  const MeasuredFile swapped = read_components("x,y,height_m,path_gain_db\n5334000,691000,2,-80\n", "EPSG:25832");
+  const MeasuredFile swapped = read_text("x,y,height_m,path_gain_db\n5334000,691000,2,-80\n", {.crs = "EPSG:25832"});
   REQUIRE(swapped.notes.size() == 1);
   check_contains(swapped.notes[0], "only with x as north and y as east");
   CHECK(swapped.points[0].position[0] == doctest::Approx(48.1).epsilon(0.01));
-  check_contains(refusal("lat,lon,path_gain_db\n48,11,-80\n", "EPSG:25832"),
+  check_contains(mistake("lat,lon,path_gain_db\n48,11,-80\n", {.crs = "EPSG:25832"}),
                  "--crs says in which coordinate system x and y");
-  check_contains(refusal("x,y,path_gain_db\n500000,0,-80\n", "EPSG:99999"),
+  check_contains(mistake("x,y,path_gain_db\n500000,0,-80\n", {.crs = "EPSG:99999"}),
                  "--crs: the coordinate system 'EPSG:99999'");
-  check_contains(refusal("x,y,path_gain_db\n500000,0,-80\n", "+proj=nonsense"), "PROJ does not know the projection");
-  check_contains(refusal("x,y,path_gain_db\n5,5,-80\n", "EPSG:25832"), "is not in the area of its coordinate system");
+  check_contains(mistake("x,y,path_gain_db\n500000,0,-80\n", {.crs = "+proj=nonsense"}),
+                 "PROJ does not know the projection");
+  check_contains(mistake("x,y,path_gain_db\n5,5,-80\n", {.crs = "EPSG:25832"}),
+                 "is not in the area of its coordinate system");
 }
 
 TEST_CASE("nothing that arrives has no spread, and long delays keep their digits") {

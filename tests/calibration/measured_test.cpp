@@ -4,31 +4,14 @@
 
 #include <doctest/doctest.h>
 
+#include "calibration/measured_text.hpp"
 #include "check_contains.hpp"
-#include "temporary_folder.hpp"
-#include "wavetracer/error.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::calibration;
 using test::check_contains;
-
-namespace {
-
-MeasuredFile read_text(const std::string& text, const std::string& level = "", const std::string& crs = "") {
-  const test::TemporaryFolder folder;
-  return read_measured(folder.write("m.csv", text), {.level = level, .crs = crs});
-}
-
-std::string mistake(const std::string& text, const std::string& level = "", const std::string& crs = "") {
-  try {
-    read_text(text, level, crs);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
+using test::mistake;
+using test::read_text;
 
 TEST_CASE("columns are found by their names, in any order and case") {
   const MeasuredFile gains = read_text("group,z_m,Y_M,X_m,path_gain_db,tx,delay_spread_ns\nlos,3,2,1,-80.5,a,12\n");
@@ -75,10 +58,10 @@ TEST_CASE("levels below the noise are marked, rows without a level are counted")
 TEST_CASE("--level chooses among several columns") {
   const std::string text = "x,y,rsrp,path_gain_db\n1,2,-90,-80\n";
   CHECK(read_text(text).points[0].level_db == -80);
-  const MeasuredFile rsrp = read_text(text, "RSRP");
+  const MeasuredFile rsrp = read_text(text, {.level = "RSRP"});
   CHECK(rsrp.points[0].level_db == -90);
   CHECK(rsrp.level == Level::power_dbm);
-  check_contains(mistake(text, "snr"), "m.csv:1: there is no column 'snr', which --level asks for");
+  check_contains(mistake(text, {.level = "snr"}), "m.csv:1: there is no column 'snr', which --level asks for");
 }
 
 TEST_CASE("mistakes name file, line and column") {

@@ -4,13 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "wavetracer/wavetracer.h"
+#include "c_checks.h"
 
-static int failures = 0;
-#define CHECK(condition) \
-  ((condition) ? (void)0 : (void)(++failures, fprintf(stderr, "line %d: %s\n", __LINE__, #condition)))
-
-static const double speed_of_light_m_s = 299792458.0, pi = 3.14159265358979323846;
+static const double pi = 3.14159265358979323846;
 
 /* Two ends in the middle of a street, line of sight alone: one path of a known length. */
 static const char* const config =
@@ -19,16 +15,6 @@ static const char* const config =
     "[[receiver]]\nname = \"r\"\nposition_m = [30, 0, 2]\n"
     "[[receiver]]\nname = \"both\"\npolarization = \"VH\"\nposition_m = [40, 0, 2]\n"
     "[trace]\nrays = 1000\nmax_depth = 0\n";
-
-static void check_error(wavetracer_error* error, int code, const char* part) {
-  CHECK(error != NULL);
-  CHECK(wavetracer_error_code(error) == code);
-  if (!strstr(wavetracer_error_message(error), part)) {
-    ++failures;
-    fprintf(stderr, "no \"%s\" in \"%s\"\n", part, wavetracer_error_message(error));
-  }
-  wavetracer_error_free(error);
-}
 
 static const double* doubles(const wavetracer_frame* frame, const char* name, size_t rows, size_t width) {
   wavetracer_column column = {NULL, 0, 0, 0};

@@ -4,13 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "c_checks.h"
 #include "wavetracer/gradient.h"
-
-static int failures = 0;
-#define CHECK(condition) \
-  ((condition) ? (void)0 : (void)(++failures, fprintf(stderr, "line %d: %s\n", __LINE__, #condition)))
-
-static const double speed_of_light_m_s = 299792458.0;
 
 /* Two ends in the middle of a street: line of sight, and a reflection off the ground and off walls. */
 static const char* const config =
@@ -25,16 +20,6 @@ static wavetracer_column column(const wavetracer_gradient* gradient, const char*
   CHECK(out.rows == rows);
   CHECK(out.type == type);
   return out;
-}
-
-static void check_error(wavetracer_error* error, int code, const char* part) {
-  CHECK(error != NULL);
-  CHECK(wavetracer_error_code(error) == code);
-  if (!strstr(wavetracer_error_message(error), part)) {
-    ++failures;
-    fprintf(stderr, "no \"%s\" in \"%s\"\n", part, wavetracer_error_message(error));
-  }
-  wavetracer_error_free(error);
 }
 
 /* The first path is the direct one. Its length changes as the ends part, and its coefficient falls with the length. */
