@@ -71,7 +71,6 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                                           .receiver_of_end = ends.receiver_of_end,
                                           .links = ends.links,
                                           .wedges = wedges.wedges,
-                                          .boxes = scene.surfaces,
                                           .out = list,
                                           .counters = counters.buffer(),
                                           .args = own,

@@ -52,6 +52,7 @@ void WedgeSight::operator()(const DeviceScene& scene, const WedgeList& wedges, c
                                           .surfaces = scene.exact_surfaces,
                                           .first_sides = first_sides_,
                                           .sides = sides_,
+                                          .boxes = scene.surfaces,
                                           .wedges = wedges.wedges,
                                           .table = trie,
                                           .keys = prefixes.keys,

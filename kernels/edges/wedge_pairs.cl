@@ -76,13 +76,12 @@ inline int begins_group(const global uint* keys, const global wt_wedge_prefix* p
 
 // Leaves each prefix of the group the pieces of the edge v that it may cross on its way to the edge w. Returns 0 if
 // none has any.
-inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_surface* boxes,
-                         const global wt_wedge* v, const global wt_wedge* w, prefix_group* group) {
+inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
+                         prefix_group* group) {
   const wt_edge_view to = wt_edge_seen_from(v, w);
   uint any = 0;
   for (uint k = 0; k < group->count; ++k) {
-    group->pieces[k] =
-        prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], boxes, &to);
+    group->pieces[k] = prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], &to);
     any |= group->pieces[k];
   }
   return any;
@@ -112,9 +111,9 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
                         const global wt_exact_surface* surfaces, const global uint* first_sides,
                         const global double* sides, global uint* kept, const global uint* keys, const global uint* runs,
                         const global wt_wedge_prefix* prefixes, const global uint* receiver_of_end,
-                        const global ushort* links, const global wt_wedge* wedges, const global wt_surface* boxes,
-                        global wt_wedge_candidate* out, global wt_counters* counters, wt_wedge_join_arguments args,
-                        wt_sight_arguments sight_args, uint run_count) {
+                        const global ushort* links, const global wt_wedge* wedges, global wt_wedge_candidate* out,
+                        global wt_counters* counters, wt_wedge_join_arguments args, wt_sight_arguments sight_args,
+                        uint run_count) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
   const uint wedge_a = wt_wedge_of(keys[i]);
@@ -131,7 +130,7 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     const uint wedge_b = wt_wedge_of(keys[runs[r]]), last = wt_wedge_key(wedge_b, group.most);
     const uint was_known = known_of(kept, sight_args.kept_wedges, wedge_a, wedge_b);
     const global wt_wedge* w = wedges + wedge_b;
-    if (was_known == ALL_PAIRS || !leave_pieces(prefixes, boxes, v, w, &group)) continue;
+    if (was_known == ALL_PAIRS || !leave_pieces(prefixes, v, w, &group)) continue;
     const int a_is_low = wedge_a < wedge_b;
     const global wt_wedge *low = a_is_low ? v : w, *high = a_is_low ? w : v;
     uint known = was_known || in_sight(low, high) ? was_known : ALL_PAIRS;
@@ -139,13 +138,14 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     const wt_edge_view back = wt_edge_seen_from(w, v);
     for (uint j = runs[r]; j < end && keys[j] <= last; ++j) {
       const global wt_wedge_prefix* b = prefixes + j;
-      const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, boxes, &back);
+      const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, &back);
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];
         const uint pieces_a = group.pieces[k];
         const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_end, links, args.groups);
         if (!pieces_a || receiver == WT_NONE) continue;
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
+        if (!(wanted & (known >> 16 | ~known)) || !wt_may_bend(v, w, a, b)) continue;
         known = look(&sight, low, high, wanted, known, &hiders);
         if (known >> 16 & wanted)
           wt_emit_candidate(a->node, b->node, wedge_a, wedge_b, receiver, a->quarters & b->quarters, &batch, out,

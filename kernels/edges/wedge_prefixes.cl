@@ -44,6 +44,8 @@ inline void list_view(uint wedge, double3 at, const wt_onlooker* from, uint seen
   keys[slot] = wt_wedge_key(wedge, from->depth);
   prefixes[slot].quarters = seen_by;
   prefixes[slot].pieces = 0xFFFFFFFFu;  // wedge_sight has not tested it
+  prefixes[slot].first = -1.0f;
+  prefixes[slot].final = (float)wedges[wedge].length + 1.0f;
   prefixes[slot].node = from->node;
   prefixes[slot].end = from->end;
   prefixes[slot].depth = from->depth;

@@ -86,7 +86,7 @@ inline const std::vector<Record> other_records{
      {FIELD(wt_wedge_prefix, node), FIELD(wt_wedge_prefix, end), FIELD(wt_wedge_prefix, depth),
       FIELD(wt_wedge_prefix, last), FIELD(wt_wedge_prefix, image), FIELD(wt_wedge_prefix, along),
       FIELD(wt_wedge_prefix, away), FIELD(wt_wedge_prefix, length), FIELD(wt_wedge_prefix, quarters),
-      FIELD(wt_wedge_prefix, pieces)}},
+      FIELD(wt_wedge_prefix, pieces), FIELD(wt_wedge_prefix, first), FIELD(wt_wedge_prefix, final)}},
     {"wt_wedge_candidate",
      sizeof(wt_wedge_candidate),
      {FIELD(wt_wedge_candidate, node), FIELD(wt_wedge_candidate, back), FIELD(wt_wedge_candidate, wedges),

@@ -24,7 +24,7 @@ TEST_CASE("wedge_pairs: all that solves is a candidate, and pairs that do not se
   const Run deeper = join(more, 1, 3, true);
   CHECK(check(more, deeper, 3, true).solved > count.solved);
   more.links.resize(as_many(7, 5));
-  CHECK(join(more, 2, 4, true).candidates.size() > (1 << 14));  // the list has grown
+  CHECK(join(more, 2, 5, true).candidates.size() > (1 << 14));  // the list has grown
   const Run one = join(world, 0, 1, false);
   for (const Joined& candidate : join(world, 0, 1, true).candidates) CHECK(one.candidates.contains(candidate));
 }

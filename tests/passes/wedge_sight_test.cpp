@@ -52,7 +52,8 @@ bool sees(const SightWorld& world, const std::vector<bool>& blocks, const Sequen
 }
 
 struct SightCount {
-  size_t pieces = 0, unseen = 0, hidden = 0;  // unseen: at all points that were tried; hidden: so called
+  size_t pieces = 0, unseen = 0, hidden = 0;             // unseen: at all points that were tried; hidden: so called
+  size_t points = 0, seen_points = 0, shown_points = 0;  // shown: between the first and the final place of the prefix
 };
 
 SightCount check(const SightWorld& world, bool transmission) {
@@ -80,9 +81,14 @@ SightCount check(const SightWorld& world, bool transmission) {
     const Wedge& wedge = world.scene.wedges[keys[i] >> WT_WEDGE_DEPTH_BITS];
     for (uint32_t piece = 0; piece < WT_WEDGE_PIECES; ++piece, ++count.pieces) {
       bool any = false;
-      for (int k = 0; k <= 8 && !any; ++k) {
+      for (int k = 0; k <= 8; ++k, ++count.points) {
         const double x = wedge.length_m * (piece + k / 8.0) / WT_WEDGE_PIECES;
-        any = sees(world, blocks, sequence, wedge.start + x * wedge.along);
+        const bool sees_it = sees(world, blocks, sequence, wedge.start + x * wedge.along);
+        const bool shown = seen[i].pieces && x >= seen[i].first && x <= seen[i].final;
+        CHECK_FALSE((sees_it && !shown));
+        count.seen_points += sees_it;
+        count.shown_points += shown;
+        any = any || sees_it;
       }
       const bool hidden = !(seen[i].pieces >> piece & 1);
       CHECK_FALSE((hidden && any));
@@ -103,7 +109,13 @@ TEST_CASE("random worlds, no mirror to two: no piece that is seen is called hidd
     all.pieces += one.pieces;
     all.unseen += one.unseen;
     all.hidden += one.hidden;
+    all.points += one.points;
+    all.seen_points += one.seen_points;
+    all.shown_points += one.shown_points;
   }
+  MESSAGE(all.seen_points, " of ", all.points, " points are seen, ", all.shown_points, " are between the places");
+  CHECK(all.seen_points > 1000);
+  CHECK(all.shown_points < 3 * all.seen_points);
   MESSAGE(all.hidden, " of ", all.pieces, " pieces are called hidden, ", all.unseen, " are not seen");
   CHECK(all.pieces > 10'000);
   CHECK(all.hidden <= all.unseen);

@@ -158,6 +158,8 @@ typedef struct {
   float length;      // length of the edge
   wt_uint quarters;  // quarters that found it
   wt_uint pieces;    // pieces of the edge that it may see
+  float first;       // place on the edge before which it sees nothing
+  float final;       // place on the edge behind which it sees nothing
 } wt_wedge_prefix;
 
 // The key that sorts such prefixes: the wedge, then the depth, so that those that are short enough stand together.
