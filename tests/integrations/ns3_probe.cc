@@ -4,16 +4,24 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include <map>
+
 #include "ns3/config.h"
 #include "ns3/constant-position-mobility-model.h"
 #include "ns3/constant-velocity-mobility-model.h"
+#include "ns3/isotropic-antenna-model.h"
 #include "ns3/node.h"
+#include "ns3/pointer.h"
 #include "ns3/simulator.h"
 #include "ns3/spectrum-model.h"
 #include "ns3/spectrum-signal-parameters.h"
 #include "ns3/string.h"
+#include "ns3/three-gpp-spectrum-propagation-loss-model.h"
+#include "ns3/uinteger.h"
+#include "ns3/uniform-planar-array.h"
 #include "ns3/wavetracer-channel.h"
 #include "ns3/wavetracer-helper.h"
+#include "ns3/wavetracer-matrix-channel-model.h"
 #include "ns3/wavetracer-propagation-model.h"
 #include "ns3/wavetracer-spectrum-propagation-loss-model.h"
 
@@ -33,14 +41,43 @@ void AddNode(const Vector& position) {
   nodes.back()->AggregateObject(mobility);
 }
 
-// The power of 1 W/Hz that arrives at each frequency.
-std::vector<double> Spectrum(size_t a, size_t b) {
+// A signal of 1 W/Hz at four frequencies.
+Ptr<SpectrumSignalParameters> Sent() {
   static const Ptr<SpectrumModel> bands = Create<SpectrumModel>(std::vector<double>{5.895e9, 5.9e9, 5.905e9, 5.915e9});
   const Ptr<SpectrumSignalParameters> sent = Create<SpectrumSignalParameters>();
   sent->psd = Create<SpectrumValue>(bands);
   *sent->psd = 1.0;
+  return sent;
+}
+
+// The power that arrives of it at each frequency.
+std::vector<double> Spectrum(size_t a, size_t b) {
+  const Ptr<SpectrumSignalParameters> sent = Sent();
   const auto model = CreateObject<WavetracerSpectrumPropagationLossModel>();
   const Ptr<SpectrumValue> got = model->CalcRxPowerSpectralDensity(sent, Place(a), Place(b));
+  return {got->ConstValuesBegin(), got->ConstValuesEnd()};
+}
+
+// The same by the antenna path of 3GPP, between arrays of two by two elements, or of one. All elements have the weight
+// 1/2.
+std::vector<double> MatrixSpectrum(size_t a, size_t b, uint32_t side) {
+  static std::map<std::pair<size_t, uint32_t>, Ptr<UniformPlanarArray>> arrays;
+  static const auto model = CreateObject<ThreeGppSpectrumPropagationLossModel>();
+  static const bool first = [] {
+    model->SetChannelModel(CreateObject<WavetracerMatrixChannelModel>());
+    return true;
+  }();
+  const auto array = [&](size_t node) {
+    Ptr<UniformPlanarArray>& out = arrays[{node, side}];
+    if (out || !first) return out;
+    out = CreateObjectWithAttributes<UniformPlanarArray>("NumRows", UintegerValue(side), "NumColumns",
+                                                         UintegerValue(side), "AntennaElement",
+                                                         PointerValue(CreateObject<IsotropicAntennaModel>()));
+    out->SetBeamformingVector(PhasedArrayModel::ComplexVector(side * side, 0.5));
+    return out;
+  };
+  const Ptr<SpectrumSignalParameters> sent = Sent();
+  const Ptr<SpectrumValue> got = model->CalcRxPowerSpectralDensity(sent, Place(a), Place(b), array(a), array(b));
   return {got->ConstValuesBegin(), got->ConstValuesEnd()};
 }
 
@@ -56,7 +93,9 @@ void Show(const std::string& label) {
                          {"gain_db", loss->CalcRxPower(0, Place(a), Place(b))},
                          {"delay_s", delay->GetDelay(Place(a), Place(b)).GetSeconds()},
                          {"los", WavetracerChannel::Get()->IsLineOfSight(Place(a), Place(b))},
-                         {"spectrum", Spectrum(a, b)}});
+                         {"spectrum", Spectrum(a, b)},
+                         {"matrix", MatrixSpectrum(a, b, 1)},
+                         {"arrays", MatrixSpectrum(a, b, 2)}});
   const Ptr<WavetracerChannel> channel = WavetracerChannel::Get();
   std::cout << nlohmann::json{{"label", label}, {"links", links}, {"frames", channel->GetFrames()}} << std::endl;
 }

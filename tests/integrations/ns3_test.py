@@ -38,10 +38,20 @@ def near(one, other, most=1e-9):
     return one == other or abs(one - other) <= most
 
 
-def power_at(link, hz):
-    """The power gain of a link of an answer at a frequency."""
-    return abs(sum(complex(re[0], im[0]) * cmath.exp(-2j * math.pi * ((hz * tau) % 1))
-                   for re, im, tau in zip(link["a_re"], link["a_im"], link["delay_s"]))) ** 2
+def array_factor(side, theta, phi):
+    """The factor of an array in the plane of y and z, with half a wavelength between elements, whose weights are 1/2."""
+    return sum(0.5 * cmath.exp(1j * math.pi * (column * math.sin(theta) * math.sin(phi) + row * math.cos(theta)))
+               for row in range(side) for column in range(side))
+
+
+def power_at(link, hz, side=None):
+    """The power gain of a link of an answer at a frequency; side: between arrays of so many rows and columns."""
+    total = 0
+    for k, (re, im, tau) in enumerate(zip(link["a_re"], link["a_im"], link["delay_s"])):
+        factor = 1 if side is None else (array_factor(side, link["aod_theta_rad"][k], link["aod_phi_rad"][k]) *
+                                         array_factor(side, link["aoa_theta_rad"][k], link["aoa_phi_rad"][k]))
+        total += complex(re[0], im[0]) * cmath.exp(-2j * math.pi * ((hz * tau) % 1)) * factor
+    return abs(total) ** 2
 
 
 def models():
@@ -64,7 +74,12 @@ def models():
     frames = [each["frames"] for each in said.values()]
     expect(list(said) == ["first", "moved at the same time", "driven", "driven, again", "kept", "later"], list(said))
     expect(frames == [1, 2, 3, 3, 3, 4], f"questions to the server: {frames}")
-    expect(said["driven, again"]["links"] == said["driven"]["links"] == said["kept"]["links"], "kept channels")
+    for label in ("driven, again", "kept"):
+        for one, other in zip(said[label]["links"], said["driven"]["links"]):
+            expect(all(one[key] == other[key] for key in ("gain_db", "delay_s", "los", "spectrum")), (label, one, other))
+            for key in ("matrix", "arrays"):  # a Doppler shift is added and taken back, with errors of rounding
+                expect(all(math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12) for a, b in zip(one[key], other[key])),
+                       (label, one, other))
     heard = 0
     for label, answer in truth.items():
         links = {(names[link["tx"]], names[link["rx"]]): link for link in answer["links"]}
@@ -82,6 +97,11 @@ def models():
             expect(near(mine["delay_s"], min(link["delay_s"]), 1e-9), (label, mine, link["delay_s"]))
             for hz, power in zip((5.895e9, 5.9e9, 5.905e9, 5.915e9), mine["spectrum"]):
                 expect(math.isclose(power_at(link, hz), power, rel_tol=1e-6), (label, hz, power_at(link, hz), power))
+            # The antenna path of 3GPP has gains relative to that of the link, and no more Doppler shift than the channels.
+            for side, powers in ((1, mine["matrix"]), (2, mine["arrays"])):
+                for hz, power in zip((5.895e9, 5.9e9, 5.905e9, 5.915e9), powers):
+                    expected = power_at(link, hz, side) / 10 ** (link["path_gain_db"] / 10)
+                    expect(math.isclose(expected, power, rel_tol=1e-6, abs_tol=1e-9), (label, side, hz, expected, power))
     expect(heard >= 16, f"{heard} links with paths")
     print(f"{heard} links of four nodes as the server has them, at four instants")
 

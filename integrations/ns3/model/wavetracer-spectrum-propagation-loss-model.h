@@ -18,6 +18,8 @@ class WavetracerSpectrumPropagationLossModel : public SpectrumPropagationLossMod
   Ptr<SpectrumValue> DoCalcRxPowerSpectralDensity(Ptr<const SpectrumSignalParameters> params,
                                                   Ptr<const MobilityModel> a,
                                                   Ptr<const MobilityModel> b) const override;
+  // Nothing is random. ns-3.37 has no such function of the base class, later versions ask for it.
+  int64_t DoAssignStreams(int64_t) { return 0; }
 };
 
 }  // namespace ns3
