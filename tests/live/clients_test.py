@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 from live_server import SOURCE, Server, expect
 
@@ -14,7 +15,7 @@ try:
 except ImportError:
     print("skipped: no NumPy (Debian: python3-numpy)")
     sys.exit(77)
-from wavetracer.live import LiveClient
+from wavetracer.live import LiveClient, LiveError
 
 CLIENT = sys.argv[3]
 STEP_S, SPEED_M_S = 0.1, 14.0
@@ -68,6 +69,28 @@ def same(one, other):
     expect(vehicles[0] == vehicles[1] and one.vertices["position_m"].shape[1] == 3, "vertices")
 
 
+def with_a_token():
+    """The example gives the token of a file, and a client without one is refused."""
+    with tempfile.NamedTemporaryFile("w") as secret:
+        secret.write("sixteen-letters-and-more\n")
+        secret.flush()
+        os.chmod(secret.name, 0o600)
+        with Server(config=CONFIG, more=["--token-file", secret.name]) as server:
+            try:
+                LiveClient(server.name)
+                raise SystemExit("failed: welcome without a token")
+            except LiveError as error:
+                expect(error.reason == "token" and error.code == 1, error)
+            example([server.name, "--token-file", secret.name])
+
+
+def example(arguments):
+    """What docs/examples/live_client.py prints of two frames."""
+    return subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/live_client.py"), "--frames", "2",
+                           "--server", *arguments], check=True, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": os.path.join(SOURCE, "python")}).stdout
+
+
 def main():
     with Server(config=CONFIG) as server:
         done = subprocess.run([CLIENT, server.name, "3"], check=True, capture_output=True, text=True)
@@ -83,9 +106,7 @@ def main():
         for encoding in ("json", "cbor"):
             with LiveClient(server.name, encoding=encoding, detail="vertices") as client:
                 both.append([client.channels(step * STEP_S, poses(step), cold=True) for step in range(2)])
-        example = subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/live_client.py"), "--server",
-                                  server.name, "--frames", "2"], check=True, capture_output=True, text=True,
-                                 env={**os.environ, "PYTHONPATH": os.path.join(SOURCE, "python")}).stdout
+        printed = example([server.name])
         refused = subprocess.run([CLIENT, "tcp:127.0.0.1:1"], capture_output=True, text=True)
     expect(len(lines) == len(answers) == 21, f"{len(lines)} lines, {len(answers)} answers")
     form = re.compile(r"([0-9.]+) s: (\S+) -> (\S+): (\d+) paths, the strongest has (\S+) dB, (\S+) ns, (\S+) Hz")
@@ -101,7 +122,8 @@ def main():
     expect(len(both[1][0]) == 4 and both[1][0].paths["a"].shape[1:] == (1, 1), both)
     power = np.abs(both[1][0].paths["a"][:, 0, 0]) ** 2
     expect(np.allclose(10 * np.log10(power), both[1][0].paths["gain_db"], atol=1e-9), "gains of coefficients")
-    expect("0.100 s: 2 of 4 links" in example and "rsu -> eastwards/roof: " in example, example)
+    expect("0.100 s: 2 of 4 links" in printed and "rsu -> eastwards/roof: " in printed, printed)
+    with_a_token()
     expect(refused.returncode == 1 and "live_client: no server answers at tcp:127.0.0.1:1" in refused.stderr, refused)
     print("clients in C++ and Python agree")
 

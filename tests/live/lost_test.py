@@ -259,12 +259,21 @@ def hanging_up():
     def never(number, question, one):
         return False
 
+    def idle(number, question, one):  # as a server ends a connection that was silent for live.idle_timeout_s
+        if number > 1:
+            one.sendall(answer(question["frame"], -80.0))
+            return True
+        one.sendall(json.dumps({"message": "error", "code": "timeout", "fatal": True, "text": "silent"}).encode() + b"\n")
+        return False
+
     *_, instants, connections = with_both(make, ["frame 1", "frame 2", "at 1 1.2 1.4 1.6 1.8 2"])
     gains = [each["path_gain_db"] for each in instants["instants"]]
     expect(gains == [[-1.0], [-1.2], [-1.4], [-1.6], [-1.8], [-2.0]] and connections == 2, (gains, connections))
     lost, connections = with_both(lambda: never, ["frame 0"], retries=3)
     expect(lost["reason"] == "lost" and "3 tries to connect again have failed" in lost["text"], lost)
     expect(connections == 4, connections)
+    once, connections = with_both(lambda: idle, ["frame 0"])
+    expect(once["instants"][0]["path_gain_db"] == [-80.0] and connections == 2, (once, connections))
 
 
 def killed_server():
