@@ -85,7 +85,7 @@ def with_a_token():
 
 
 def example(arguments):
-    """What docs/examples/live_client.py prints of two frames."""
+    """Returns what docs/examples/live_client.py prints of two frames."""
     return subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/live_client.py"), "--frames", "2",
                            "--server", *arguments], check=True, capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": os.path.join(SOURCE, "python")}).stdout
