@@ -2,10 +2,15 @@
 // A client of `wavetracer serve`: poses of vehicles in, channels out as columns; docs/live.md has the protocol.
 // It needs C++17, POSIX, nlohmann's json (Debian: nlohmann-json3-dev) and a little-endian machine, and no library.
 #pragma once
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
