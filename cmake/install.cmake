@@ -54,6 +54,9 @@ install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${d
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/design DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# The module of ns-3, to be copied into its tree.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/integrations DESTINATION ${CMAKE_INSTALL_DATADIR}/wavetracer)
+
 # Installs the Python package: below /usr, Debian's Python finds it; with another prefix, PYTHONPATH must name its
 # folder.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/wavetracer DESTINATION lib/python3/dist-packages

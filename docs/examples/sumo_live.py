@@ -11,15 +11,17 @@ converted for the server, yaw from +x counter-clockwise and the middle of the ve
 of the type that is called as its vehicle class (passenger, truck, bus, ...), or as --default-type; one that has no
 place, or is outside of the scene, is left out and counted. --between N also asks for the channels at N instants of
 every step, from the vehicles that both of its ends have: SUMO steps by tenths of a second, radios by milliseconds.
-It needs SUMO's TraCI (Debian: sumo-tools).
+It needs SUMO's TraCI (Debian: sumo-tools), NumPy, and wavetracer.live (in the source tree: PYTHONPATH=python).
 """
 import argparse
+import contextlib
 import json
 import math
 import os
 import sys
 
-from live_client import Server, print_links, read_token
+from live_client import print_links
+from wavetracer import live
 
 sys.path.append(os.path.join(os.environ.get("SUMO_HOME", "/usr/share/sumo"), "tools"))
 
@@ -63,17 +65,36 @@ class Places:
         return out, len(poses) - len(out)
 
 
+def follow(traci, client, options, output):
+    """Sends the vehicles of each step, prints their channels, and writes them if there is an output."""
+    places = Places(client.world, options.default_type)
+    last_s = None
+    for _ in range(options.steps):
+        traci.simulationStep()
+        vehicles, left_out = places.vehicles(traci, options.offset)
+        now_s = traci.simulation.getTime()
+        channels = client.channels(now_s, vehicles)
+        inner = range(1, options.between + 1 if last_s is not None else 1)
+        instants = client.at_each([last_s + k * (now_s - last_s) / (options.between + 1) for k in inner])
+        for each in instants:
+            print_links(each, 1)
+        print_links(channels, 3)
+        if left_out:
+            print(f"  {left_out} vehicles had no place, or were outside of the scene")
+        if output:
+            output.writelines(json.dumps(each.answer) + "\n" for each in instants)
+            output.write(json.dumps({"vehicles": vehicles, **channels.answer}) + "\n")
+        last_s = now_s
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--server", default="tcp:127.0.0.1:7710")
-    parser.add_argument("--token-file")
+    live.add_arguments(parser, encoding="json")
     parser.add_argument("--offset", type=float, nargs=3, default=[0, 0, 0], metavar=("X", "Y", "Z"))
     parser.add_argument("--default-type", default="passenger")
     parser.add_argument("--steps", type=int, default=100)
-    parser.add_argument("--detail", choices=["links", "paths", "vertices"], default="links")
-    parser.add_argument("--encoding", choices=["json", "cbor"], default="json", help="of the channels")
     parser.add_argument("--between", type=int, default=0, metavar="N", help="instants of a step, beside its ends")
-    parser.add_argument("-o", "--output", help="file for the answers, one line of JSON a step")
+    parser.add_argument("-o", "--output", help="file for the answers, one line of JSON per instant")
     parser.add_argument("sumo", nargs="+", help="command that starts SUMO")
     options = parser.parse_args()
     if options.output and options.encoding == "cbor":
@@ -82,34 +103,16 @@ def main():
         import traci
     except ImportError:
         sys.exit("no TraCI: install sumo-tools, or set SUMO_HOME")
-    traci.start(options.sumo)
-    output = open(options.output, "w", encoding="utf-8") if options.output else None
-    hello = {"detail": options.detail, "encoding": options.encoding}
-    try:
-        with Server(options.server, read_token(options.token_file), **hello) as server:
-            places = Places(server.world, options.default_type)
-            last_s = None
-            for _ in range(options.steps):
-                traci.simulationStep()
-                vehicles, left_out = places.vehicles(traci, options.offset)
-                now_s = traci.simulation.getTime()
-                answer = server.channels(now_s, vehicles)
-                for k in range(options.between if last_s is not None else 0):
-                    inner = server.at(last_s + (k + 1) * (now_s - last_s) / (options.between + 1))
-                    print_links(inner, 1)
-                    if output:
-                        output.write(json.dumps(inner) + "\n")
-                last_s = now_s
-                print_links(answer, 3)
-                if left_out:
-                    print(f"  {left_out} vehicles had no place, or were outside of the scene")
-                if output:
-                    output.write(json.dumps({"vehicles": vehicles, **answer}) + "\n")
-    finally:
-        traci.close()
-        if output:
-            output.close()
+    with contextlib.ExitStack() as stack:
+        client = stack.enter_context(live.connect(options))
+        output = stack.enter_context(open(options.output, "w", encoding="utf-8")) if options.output else None
+        traci.start(options.sumo)
+        stack.callback(traci.close)
+        follow(traci, client, options, output)
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except live.Error as error:
+        sys.exit(f"sumo_live: {error}")

@@ -5,7 +5,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -16,7 +15,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "wavetracer/error.hpp"
 
@@ -69,25 +67,25 @@ bool is_loopback(const sockaddr& address) {
   return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
 }
 
-using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
-
-Addresses resolve(const std::string& host, const std::string& port) {
-  addrinfo hints{};
-  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int failed = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); failed != 0)
-    throw ConfigError(
-        fmt::format("--listen tcp:{}:{}: {}; give a numeric address and a port from 0 to 65535, "
-                    "such as tcp:127.0.0.1:7710 or tcp:[::1]:7710",
-                    host, port, gai_strerror(failed)));
-  return {found, freeaddrinfo};
-}
-
 }  // namespace
 
 Descriptor::~Descriptor() {
   if (value_ >= 0) close(value_);
+}
+
+Addresses resolve(const Endpoint& endpoint) {
+  addrinfo hints{};
+  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
+  hints.ai_socktype = endpoint.datagrams ? SOCK_DGRAM : SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (const int failed = getaddrinfo(endpoint.host.c_str(), endpoint.port.c_str(), &hints, &found); failed != 0) {
+    const char* kind = endpoint.datagrams ? "udp" : "tcp";
+    throw ConfigError(
+        fmt::format("--listen {0}:{1}:{2}: {3}; give a numeric address and a port from 0 to 65535, "
+                    "such as {0}:127.0.0.1:7710 or {0}:[::1]:7710",
+                    kind, endpoint.host, endpoint.port, gai_strerror(failed)));
+  }
+  return {found, freeaddrinfo};
 }
 
 Endpoint parse_endpoint(const std::string& text) {
@@ -99,8 +97,9 @@ Endpoint parse_endpoint(const std::string& text) {
     return out;
   }
   const size_t colon = text.rfind(':');
-  if (!text.starts_with("tcp:") || colon < 4 || colon + 1 == text.size())
-    throw ConfigError(fmt::format("--listen {}: give unix:PATH or tcp:ADDRESS:PORT", text));
+  out.datagrams = text.starts_with("udp:");
+  if ((!text.starts_with("tcp:") && !out.datagrams) || colon < 4 || colon + 1 == text.size())
+    throw ConfigError(fmt::format("--listen {}: give unix:PATH, tcp:ADDRESS:PORT or udp:ADDRESS:PORT", text));
   out.host = text.substr(4, colon - 4);
   out.port = text.substr(colon + 1);
   if (out.host.size() > 2 && out.host.front() == '[' && out.host.back() == ']')
@@ -108,7 +107,7 @@ Endpoint parse_endpoint(const std::string& text) {
   if (out.host == "localhost") out.host = "127.0.0.1";
   if (out.port.find_first_not_of("0123456789") != out.port.npos || out.port.size() > 5 || std::stoi(out.port) > 65535)
     throw ConfigError(fmt::format("--listen {}: the port must be a number from 0 to 65535", text));
-  out.loopback = is_loopback(*resolve(out.host, out.port)->ai_addr);
+  out.loopback = is_loopback(*resolve(out)->ai_addr);
   return out;
 }
 
@@ -146,7 +145,7 @@ void Listener::listen_unix(const std::string& path) {
 }
 
 void Listener::listen_tcp(const Endpoint& endpoint) {
-  const Addresses addresses = resolve(endpoint.host, endpoint.port);
+  const Addresses addresses = resolve(endpoint);
   const addrinfo& address = *addresses;
   socket_ = Descriptor(socket(address.ai_family, socket_kind, 0));
   const int on = 1;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place where a server listens: unix:PATH or tcp:ADDRESS:PORT, with numeric addresses, so that no name server is
-// asked. It uses POSIX sockets. Descriptors are closed on exec and are non-blocking.
+// The place where a server listens: unix:PATH, tcp:ADDRESS:PORT or udp:ADDRESS:PORT, with numeric addresses, so that no
+// name server is asked. It uses POSIX sockets. Descriptors are closed on exec and are non-blocking.
 #pragma once
+#include <netdb.h>
+
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -25,13 +28,18 @@ class Descriptor {
 
 struct Endpoint {
   bool unix_socket = false;
+  bool datagrams = false;  // udp
   std::string path;        // path of a Unix socket
-  std::string host, port;  // for TCP; the host is an IPv4 or IPv6 address
+  std::string host, port;  // for TCP and UDP; the host is an IPv4 or IPv6 address
   bool loopback = false;   // only programs on this machine can connect
 };
 
 // Throws ConfigError.
 Endpoint parse_endpoint(const std::string& text);
+
+using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
+// Returns the address to bind to for TCP or UDP. Throws ConfigError.
+Addresses resolve(const Endpoint& endpoint);
 
 // Listens while it exists. A Unix socket is a file of mode 0600, removed at the end; the socket of a dead server is
 // replaced, but no other file is.

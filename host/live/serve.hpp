@@ -6,15 +6,20 @@
 #include <string>
 
 #include "live/server.hpp"
+#include "live/van3twin_server.hpp"
 #include "wavetracer/config.hpp"
 
 namespace wavetracer::live {
 
+enum class Protocol { live, van3twin };
+
 struct ServeOptions {
-  std::string listen = "tcp:127.0.0.1:7710";  // unix:PATH or tcp:ADDRESS:PORT
-  std::string device;                         // in the form of Simulation's argument
-  std::string token_file;                     // empty: no token is needed
-  FrameSolved solved = {};                    // called with every frame, on the solver's thread
+  Protocol protocol = Protocol::live;
+  std::string listen;          // empty: tcp:127.0.0.1:7710, or udp:127.0.0.1:8103 for VaN3Twin
+  std::string device;          // in the form of Simulation's argument
+  std::string token_file;      // empty: no token is needed
+  FrameSolved solved = {};     // called with every frame, on the solver's thread
+  van3twin::Options van3twin;  // for this protocol only
 };
 
 // ready: called once, with the name of the endpoint. Everything that needs no device is checked first. Throws

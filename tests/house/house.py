@@ -30,7 +30,7 @@ SKIPPED = 77
 FOLDERS = ("bench", "host", "include", "kernels", "tests")
 SUFFIXES = {".cpp", ".hpp", ".h", ".c", ".cl", ".clh"}
 # These folders of tests are about more than one folder of host/.
-OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "kernels", "python", "reference", "robustness",
+OF_THE_WHOLE = {"consumers", "documents", "drivers", "fuzz", "hard", "house", "install", "integrations", "kernels", "python", "reference", "robustness",
                 "validation"}
 MOST_LINES, MOST_KERNEL_LINES, MOST_FUNCTION_LINES = 300, 200, 60
 

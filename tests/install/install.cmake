@@ -38,6 +38,10 @@ step(cc -std=c99 -Wall -Wextra -Werror -pedantic ${SOURCE}/docs/examples/pkg_con
 set(ENV{LD_LIBRARY_PATH} ${library_folder})
 step(${WORK}/c_example ${SOURCE}/configs/city.toml trace.rays=20000)
 expect("frame 0: [1-9][0-9]* paths\n.* ns .* dB")
+# The client of the server takes headers alone.
+step(c++ -std=c++17 -Wall -Wextra -Werror -I${prefix}/include ${SOURCE}/docs/examples/live_client.cpp -o ${WORK}/live_client)
+execute_process(COMMAND ${WORK}/live_client unix:${WORK}/no_server RESULT_VARIABLE result ERROR_VARIABLE said)
+expect("^live_client: no server answers at .*start one with .wavetracer serve -c ")
 # Files that a configuration names are searched beside it, wherever the program was started.
 file(WRITE ${WORK}/beside/room.toml "[scene]\nfile = \"room/room.xml\"\n[trace]\nrays = 1000\n"
   "[[transmitter]]\nname = \"t\"\nposition_m = [1, 1, 1]\n[[receiver]]\nname = \"r\"\nposition_m = [2, 1, 1]\n")

@@ -228,8 +228,11 @@ TEST_CASE("endpoints") {
   CHECK(parse_endpoint("tcp:localhost:7710").loopback);
   CHECK(!parse_endpoint("tcp:0.0.0.0:7710").loopback);
   CHECK(!parse_endpoint("tcp:[::]:7710").loopback);
+  CHECK(!parse_endpoint("tcp:127.0.0.1:7710").datagrams);
+  CHECK(parse_endpoint("udp:127.0.0.1:8103").datagrams);
+  CHECK(!parse_endpoint("udp:0.0.0.0:8103").loopback);
   for (const char* wrong : {"", "tcp:", "tcp:127.0.0.1", "tcp:127.0.0.1:", "tcp:127.0.0.1:65536", "tcp:127.0.0.1:-1",
-                            "tcp:example.org:80", "udp:127.0.0.1:1", "unix:", "127.0.0.1:80"})
+                            "tcp:example.org:80", "udp:127.0.0.1", "sctp:127.0.0.1:1", "unix:", "127.0.0.1:80"})
     CHECK_THROWS_AS(parse_endpoint(wrong), ConfigError);
   CHECK_THROWS_AS(parse_endpoint("unix:/" + std::string(200, 'a')), ConfigError);
 }

@@ -30,6 +30,10 @@ ROUTES = """<routes><vType id="car" vClass="passenger" length="5" sigma="0"/>
 <vehicle id="second" type="car" route="r" depart="3"/></routes>"""
 
 
+# sumo_live.py takes the package of the source tree.
+ENVIRONMENT = {**os.environ, "PYTHONPATH": os.path.join(SOURCE, "python")}
+
+
 def main():
     tools = os.path.join(os.environ.get("SUMO_HOME", "/usr/share/sumo"), "tools")
     if not shutil.which("sumo") or not shutil.which("netgenerate") or not os.path.isdir(os.path.join(tools, "traci")):
@@ -46,11 +50,11 @@ def main():
             subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/sumo_live.py"), "--server",
                             server.name, "--offset", "-100", "-100", "0", "--steps", "15", "--detail", "paths", "-o",
                             out, "--", "sumo", "-n", net, "-r", routes, "--fcd-output", fcd, "--precision", "6",
-                            "--no-step-log"], check=True, stdout=subprocess.DEVNULL)
+                            "--no-step-log"], check=True, stdout=subprocess.DEVNULL, env=ENVIRONMENT)
             between = subprocess.run([sys.executable, "-B", os.path.join(SOURCE, "docs/examples/sumo_live.py"), "--server",
                                       server.name, "--offset", "-100", "-100", "0", "--steps", "6", "--between", "4",
                                       "--encoding", "cbor", "--", "sumo", "-n", net, "-r", routes, "--no-step-log"],
-                                     check=True, capture_output=True, text=True).stdout
+                                     check=True, capture_output=True, text=True, env=ENVIRONMENT).stdout
             times = [float(line.split()[0]) for line in between.splitlines() if " links have paths" in line]
             expect(times == [k / 5 for k in range(5, 31)], f"instants between the steps: {times}")
         with open(out, encoding="utf-8") as file:

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavetracer-channel.h"
+
+#include "ns3/double.h"
+#include "ns3/fatal-error.h"
+#include "ns3/log.h"
+#include "ns3/simulator.h"
+#include "ns3/string.h"
+#include "ns3/uinteger.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include "wavetracer/live_client.hpp"
+
+namespace ns3 {
+
+NS_LOG_COMPONENT_DEFINE("WavetracerChannel");
+NS_OBJECT_ENSURE_REGISTERED(WavetracerChannel);
+
+namespace {
+
+Ptr<WavetracerChannel>& OfProcess() {
+  static Ptr<WavetracerChannel> channel;
+  return channel;
+}
+
+void GiveUp() {
+  if (OfProcess()) OfProcess()->Dispose();
+  OfProcess() = nullptr;
+}
+
+bool Same(const Vector& a, const Vector& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+std::string ReadToken(const std::string& path) {
+  std::ifstream file(path);
+  std::string token;
+  if (!(file >> token)) NS_FATAL_ERROR("wavetracer: the token file " << path << " cannot be read, or is empty");
+  return token;
+}
+
+constexpr double speedOfLight = 299792458.0;
+
+}  // namespace
+
+struct WavetracerChannel::Connection {
+  wavetracer::LiveClient client;
+};
+
+// A node: a vehicle with a type, or a station without one.
+struct WavetracerChannel::End {
+  Ptr<const MobilityModel> mobility;
+  std::string name;  // of its antenna on the server
+  std::string id, type;
+  double headingDeg = 0;
+  bool headingIsSet = false;
+  Vector asked;  // the position of the last question
+};
+
+// The channels of one instant.
+struct WavetracerChannel::Frame {
+  Frame(wavetracer::LiveChannels answer, Time when) : time(when), channels(std::move(answer)) {
+    ports = channels.answer().at("rx_ports").get<size_t>() * channels.answer().at("tx_ports").get<size_t>();
+    firstPath.assign(1, 0);
+    for (const uint32_t count : channels.paths) firstPath.push_back(firstPath.back() + count);
+    delayS = channels.path("delay_s");
+    a = channels.path("a");
+    dopplerHz = channels.path("doppler_hz");
+    for (const char* name : {"aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad"})
+      angles.push_back(channels.path(name));
+  }
+  Time time;
+  wavetracer::LiveChannels channels;
+  size_t ports;
+  std::vector<size_t> firstPath;  // per link, and one more
+  std::vector<double> gainDb, delayS, dopplerHz, a;
+  std::vector<std::vector<double>> angles;
+  std::vector<int64_t> rows;  // per pair of ends: the link, or -1
+};
+
+TypeId WavetracerChannel::GetTypeId() {
+  static TypeId tid =
+      TypeId("ns3::WavetracerChannel")
+          .SetParent<Object>()
+          .SetGroupName("Propagation")
+          .AddConstructor<WavetracerChannel>()
+          .AddAttribute("Server", "The address of `wavetracer serve`: tcp:ADDRESS:PORT or unix:PATH",
+                        StringValue("tcp:127.0.0.1:7710"), MakeStringAccessor(&WavetracerChannel::m_server),
+                        MakeStringChecker())
+          .AddAttribute("TokenFile", "The file with the server's secret, if it asks for one", StringValue(""),
+                        MakeStringAccessor(&WavetracerChannel::m_tokenFile), MakeStringChecker())
+          .AddAttribute("Timeout", "The longest wait for an answer, of the wall clock", TimeValue(Seconds(30)),
+                        MakeTimeAccessor(&WavetracerChannel::m_timeout), MakeTimeChecker(MilliSeconds(1)))
+          .AddAttribute("Retries", "The number of tries to connect again after a connection was lost", UintegerValue(5),
+                        MakeUintegerAccessor(&WavetracerChannel::m_retries), MakeUintegerChecker<uint32_t>())
+          .AddAttribute(
+              "UpdatePeriod",
+              "Channels stay for this time although nodes move; 0: a node that moves has new channels at every "
+              "instant",
+              TimeValue(Seconds(0)), MakeTimeAccessor(&WavetracerChannel::m_updatePeriod), MakeTimeChecker(Seconds(0)))
+          .AddAttribute("Gain",
+                        "The gain of links: path_gain_db (waves added by their powers), narrowband_gain_db (at the "
+                        "carrier) or sum_of_powers_db",
+                        StringValue("path_gain_db"), MakeStringAccessor(&WavetracerChannel::m_gain),
+                        MakeStringChecker())
+          .AddAttribute("NoPathGain", "The gain of a link without a path, dB", DoubleValue(-300.0),
+                        MakeDoubleAccessor(&WavetracerChannel::m_noPathGain), MakeDoubleChecker<double>())
+          .AddAttribute("Offset", "Metres that are added to the positions of nodes to get those of the scene",
+                        VectorValue(Vector(0, 0, 0)), MakeVectorAccessor(&WavetracerChannel::m_offset),
+                        MakeVectorChecker());
+  return tid;
+}
+
+Ptr<WavetracerChannel> WavetracerChannel::Get() {
+  if (!OfProcess()) {
+    OfProcess() = CreateObject<WavetracerChannel>();
+    Simulator::ScheduleDestroy(&GiveUp);
+  }
+  return OfProcess();
+}
+
+WavetracerChannel::WavetracerChannel() = default;
+WavetracerChannel::~WavetracerChannel() = default;
+
+void WavetracerChannel::DoDispose() {
+  for (const End& end : m_ends)
+    ConstCast<MobilityModel>(end.mobility)
+        ->TraceDisconnectWithoutContext("CourseChange", MakeCallback(&WavetracerChannel::CourseChanged, this));
+  m_ends.clear();
+  m_endOf.clear();
+  m_frame.reset();
+  m_connection.reset();
+  Object::DoDispose();
+}
+
+void WavetracerChannel::Connect() {
+  if (m_connection) return;
+  wavetracer::LiveClientOptions options;
+  options.server = m_server;
+  options.detail = "paths";
+  options.timeout_s = m_timeout.GetSeconds();
+  options.retries = m_retries;
+  if (!m_tokenFile.empty()) options.token = ReadToken(m_tokenFile);
+  try {
+    m_connection.reset(new Connection{wavetracer::LiveClient(options)});
+  } catch (const std::exception& error) {
+    NS_FATAL_ERROR("wavetracer: " << error.what());
+  }
+}
+
+double WavetracerChannel::GetFrequency() {
+  Connect();
+  return m_connection->client.world().at("frequency_hz").get<double>();
+}
+
+void WavetracerChannel::Add(Ptr<Node> node, const End& end) {
+  const Ptr<MobilityModel> mobility = node->GetObject<MobilityModel>();
+  if (!mobility)
+    NS_FATAL_ERROR("wavetracer: node " << node->GetId() << " has no mobility model: install one before it is added");
+  if (!m_endOf.emplace(PeekPointer(mobility), m_ends.size()).second)
+    NS_FATAL_ERROR("wavetracer: node " << node->GetId() << " was added twice");
+  mobility->TraceConnectWithoutContext("CourseChange", MakeCallback(&WavetracerChannel::CourseChanged, this));
+  m_ends.push_back(end);
+  m_ends.back().mobility = mobility;
+  m_frame.reset();
+}
+
+void WavetracerChannel::AddVehicle(Ptr<Node> node, const std::string& type, const std::string& mount) {
+  Connect();
+  const auto& types = m_connection->client.world().at("types");
+  const auto found =
+      std::find_if(types.begin(), types.end(), [&](const auto& each) { return each.at("type") == type; });
+  if (found == types.end())
+    NS_FATAL_ERROR("wavetracer: the configuration of the server has no [[live_vehicle]] of type \"" << type << '"');
+  const auto& mounts = found->at("mounts");
+  const auto place = std::find_if(mounts.begin(), mounts.end(),
+                                  [&](const auto& each) { return mount.empty() || each.at("name") == mount; });
+  if (place == mounts.end())
+    NS_FATAL_ERROR("wavetracer: vehicles of type \"" << type << "\" have no antenna \"" << mount
+                                                     << "\": add a [[mount]] to the configuration of the server");
+  End end;
+  end.id = "node" + std::to_string(node->GetId());
+  end.type = type;
+  end.name = end.id + '/' + place->at("name").get<std::string>();
+  Add(node, end);
+}
+
+void WavetracerChannel::AddStation(Ptr<Node> node, const std::string& name) {
+  Connect();
+  bool known = false;
+  for (const char* list : {"transmitters", "receivers"})
+    for (const auto& each : m_connection->client.world().at(list)) known = known || each == name;
+  if (!known) NS_FATAL_ERROR("wavetracer: the configuration of the server has no fixed antenna \"" << name << '"');
+  End end;
+  end.name = name;
+  Add(node, end);
+}
+
+void WavetracerChannel::SetHeading(Ptr<Node> node, double degrees) {
+  End& end = m_ends[EndOf(node->GetObject<MobilityModel>())];
+  m_changed = m_changed || end.headingDeg != degrees;
+  if (end.headingDeg != degrees) m_frame.reset();
+  end.headingDeg = degrees;
+  end.headingIsSet = true;
+}
+
+void WavetracerChannel::CourseChanged(Ptr<const MobilityModel>) { m_changed = true; }
+
+size_t WavetracerChannel::EndOf(Ptr<const MobilityModel> mobility) const {
+  const auto found = m_endOf.find(PeekPointer(mobility));
+  if (found != m_endOf.end()) return found->second;
+  NS_FATAL_ERROR("wavetracer: a node at " << mobility->GetPosition()
+                                          << " takes part in a channel, but is unknown: add it with "
+                                             "WavetracerHelper::AddVehicles or AddStation");
+}
+
+bool WavetracerChannel::HasMoved() const {
+  return std::any_of(m_ends.begin(), m_ends.end(),
+                     [](const End& end) { return !end.type.empty() && !Same(end.mobility->GetPosition(), end.asked); });
+}
+
+void WavetracerChannel::Update() {
+  const Time now = Simulator::Now();
+  if (m_frame && !m_changed && now == m_checked) return;
+  m_checked = now;
+  m_changed = false;
+  // A time before that of the frame belongs to another simulation.
+  const bool keeps = m_frame && (now >= m_frame->time && now < m_frame->time + m_updatePeriod);
+  if (!m_frame || (!keeps && HasMoved())) Ask();
+}
+
+void WavetracerChannel::Ask() {
+  Connect();
+  const auto began = std::chrono::steady_clock::now();
+  const auto& bounds = m_connection->client.world().at("bounds_m");
+  nlohmann::json vehicles = nlohmann::json::array();
+  for (End& end : m_ends) {
+    if (end.type.empty()) continue;
+    const Vector at = end.mobility->GetPosition(), speed = end.mobility->GetVelocity();
+    const Vector way = speed.GetLength() > 0 ? speed : m_frame ? at - end.asked : Vector();
+    if (!end.headingIsSet && std::hypot(way.x, way.y) > 0) end.headingDeg = std::atan2(way.y, way.x) * 180 / M_PI;
+    end.asked = at;
+    const double place[3] = {at.x + m_offset.x, at.y + m_offset.y, at.z + m_offset.z};
+    bool inside = true;
+    for (size_t k = 0; k < 3; ++k)
+      inside =
+          inside && place[k] >= bounds.at("lower")[k].get<double>() && place[k] <= bounds.at("upper")[k].get<double>();
+    if (!inside) {
+      NS_LOG_INFO(end.id << " is outside of the scene at " << at);
+      continue;
+    }
+    vehicles.push_back({{"id", end.id}, {"type", end.type}, {"position_m", place}, {"yaw_deg", end.headingDeg}});
+    if (speed.GetLength() > 0) vehicles.back()["velocity_m_s"] = {speed.x, speed.y, speed.z};
+  }
+  const Time now = Simulator::Now();
+  try {
+    m_frame = std::make_unique<Frame>(m_connection->client.channels(now.GetSeconds(), std::move(vehicles)), now);
+    m_frame->gainDb = m_frame->channels.link(m_gain.c_str());
+  } catch (const std::exception& error) {
+    NS_FATAL_ERROR("wavetracer: at " << now.GetSeconds() << " s: " << error.what());
+  }
+  const wavetracer::LiveChannels& channels = m_frame->channels;
+  std::unordered_map<std::string, size_t> endOf;
+  for (size_t k = 0; k < m_ends.size(); ++k) endOf[m_ends[k].name] = k;
+  const auto places = [&](const std::vector<std::string>& names) {
+    std::vector<int64_t> out;
+    for (const std::string& name : names) out.push_back(endOf.count(name) ? static_cast<int64_t>(endOf[name]) : -1);
+    return out;
+  };
+  const std::vector<int64_t> tx = places(channels.transmitters), rx = places(channels.receivers);
+  m_frame->rows.assign(m_ends.size() * m_ends.size(), -1);
+  for (size_t row = 0; row < channels.size(); ++row) {
+    const int64_t from = tx[channels.tx[row]], to = rx[channels.rx[row]];
+    if (from >= 0 && to >= 0)
+      m_frame->rows[static_cast<size_t>(from) * m_ends.size() + static_cast<size_t>(to)] = static_cast<int64_t>(row);
+  }
+  ++m_frames;
+  m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+int64_t WavetracerChannel::Row(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
+  const size_t a = EndOf(from), b = EndOf(to);
+  Update();
+  return m_frame->rows[a * m_ends.size() + b];
+}
+
+double WavetracerChannel::GetGainDb(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
+  const int64_t row = Row(from, to);
+  const auto link = static_cast<size_t>(row);
+  if (row < 0 || m_frame->channels.paths[link] == 0) return m_noPathGain;
+  return std::max(m_frame->gainDb[link], m_noPathGain);
+}
+
+Time WavetracerChannel::GetDelay(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
+  const int64_t row = Row(from, to);
+  const auto link = static_cast<size_t>(row);
+  if (row < 0 || m_frame->channels.paths[link] == 0) return Seconds(from->GetDistanceFrom(to) / speedOfLight);
+  return Seconds(m_frame->delayS[m_frame->firstPath[link]]);  // paths are sorted by delay
+}
+
+bool WavetracerChannel::IsLineOfSight(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
+  const int64_t row = Row(from, to);
+  return row >= 0 && m_frame->channels.los[static_cast<size_t>(row)] != 0;
+}
+
+std::vector<WavetracerPath> WavetracerChannel::GetPaths(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
+  const int64_t row = Row(from, to);
+  std::vector<WavetracerPath> out;
+  if (row < 0) return out;
+  const Frame& frame = *m_frame;
+  const auto link = static_cast<size_t>(row);
+  for (size_t k = frame.firstPath[link]; k < frame.firstPath[link + 1]; ++k) {
+    const size_t first = 2 * frame.ports * k;
+    out.push_back({{frame.a[first], frame.a[first + 1]},
+                   frame.delayS[k],
+                   frame.dopplerHz[k],
+                   frame.angles[0][k],
+                   frame.angles[1][k],
+                   frame.angles[2][k],
+                   frame.angles[3][k]});
+  }
+  return out;
+}
+
+}  // namespace ns3
