@@ -69,6 +69,12 @@ void add_fit(CLI::App& command, CalibrateOptions& options) {
           std::vector<std::string>(calibration::FittedSpreads::words.begin(), calibration::FittedSpreads::words.end())))
       ->capture_default_str();
   command
+      .add_option("--profiles", request.profile_bin_ns,
+                  "Width of bins of delay, in ns: the fit uses the profiles of components, which are their powers in "
+                  "such bins; 0: it does not")
+      ->check(number_range(0.0, 1e6))
+      ->capture_default_str();
+  command
       .add_option("--prior", request.prior,
                   "Factor of the uncertainty that fitted values have before the measurement; smaller ones keep them "
                   "nearer to those of the configuration")

@@ -14,7 +14,6 @@
 #include "calibration/fit_data.hpp"
 #include "calibration/fitted_config.hpp"
 #include "calibration/measured_world.hpp"
-#include "calibration/spread_kinds.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::calibration {
@@ -57,6 +56,8 @@ class Calibrating {
     const Config config = config_of_places(request_.config, request_.sets);
     world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns));
     out_.solve_s = watch.lap();
+    out_.profile_bin_ns = request_.profile_bin_ns;
+    world_->want_profiles(1e-9 * request_.profile_bin_ns, most_bins(out_.files, request_.profile_bin_ns));
     out_.paths = world_->paths();
     out_.device = world_->device();
     out_.warnings = world_->warnings();
@@ -127,8 +128,8 @@ class Calibrating {
   void state_problem() {
     FitData fitted = fit_data(request_, out_);
     problem_.data = std::move(fitted.data);
-    problem_.kinds = 1 + spread_kinds.size();
-    spreads_ = std::move(fitted.spreads);
+    problem_.kinds = kinds_of_data();
+    shapes_ = std::move(fitted.shapes);
     out_.offset_names = std::move(fitted.offset_names);
     out_.notes.insert(out_.notes.end(), fitted.notes.begin(), fitted.notes.end());
     problem_.offsets = out_.offset_names.size();
@@ -151,7 +152,7 @@ class Calibrating {
     const std::vector<Computed> points = computed(theta);
     std::vector<double> out;
     for (const Computed& point : points) out.push_back(point.gain_db);
-    for (const auto& [i, kind] : spreads_) out.push_back(spread_db(points[i].*spread_kinds[kind].computed));
+    for (const ShapeDatum& datum : shapes_) out.push_back(shape_db(points[datum.point], datum));
     return out;
   }
 
@@ -204,8 +205,9 @@ class Calibrating {
 
   bool moves() const { return std::ranges::any_of(out_.parameters, moves_paths, &Parameter::property); }
 
-  // Paths elsewhere are others, so no weak ones are known where ends move.
+  // Paths elsewhere are others, so no weak ones are known where ends move. Bins of profiles are weak themselves.
   double share_left_out(size_t round) const {
+    if (request_.profile_bin_ns > 0) round = shares_left_out.size();
     return moves() ? 0 : shares_left_out[std::min(round, shares_left_out.size() - 1)];
   }
 
@@ -256,7 +258,7 @@ class Calibrating {
   void hold_out(size_t fold) {
     std::vector<bool> takes;
     for (const FittedPoint& point : out_.points) takes.push_back(point.fold != fold);
-    for (const auto& [i, kind] : spreads_) takes.push_back(out_.points[i].fold != fold);
+    for (const ShapeDatum& datum : shapes_) takes.push_back(out_.points[datum.point].fold != fold);
     const FitResult fitted = fit(problem_, *model_, takes, out_.fit.theta);
     const std::vector<Computed> predicted = computed(fitted.theta);
     for (size_t i = 0; i < out_.points.size(); ++i)
@@ -270,7 +272,7 @@ class Calibrating {
   const study::Host& host_;
   std::optional<MeasuredWorld> world_;
   Problem problem_;
-  std::vector<std::pair<size_t, size_t>> spreads_;  // points whose spreads are data, and the kinds of these spreads
+  std::vector<ShapeDatum> shapes_;  // the data after the levels
   size_t folds_ = 0, evaluations_before_ = 0;
   std::optional<Linearized> model_;
   Calibration out_;

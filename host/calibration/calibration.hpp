@@ -31,6 +31,7 @@ struct Request {
   std::vector<std::string> patterns = {"*"};  // of chosen_parameters(); empty: nothing but offsets
   Offsets offsets = "all";
   FittedSpreads spreads = "none";
+  double profile_bin_ns = 0;             // the fit uses profiles of delays in bins of this width; 0: it uses none
   double prior = 1;                      // usual standard deviations are multiplied by it
   std::vector<std::string> errors = {};  // NAME=VALUE, see Priors
   uint32_t folds = 4;                    // blocks of places, each of which is held out once; 0 or 1: none are
@@ -56,6 +57,7 @@ struct Calibration {
   FitResult fit;
   std::vector<std::string> offset_names;
   std::vector<Agreement> agreements;
+  double profile_bin_ns = 0;  // of the request
   DeviceSummary device;
   std::vector<std::string> notes, warnings;
   size_t paths = 0, paths_that_matter = 0, evaluations = 0;

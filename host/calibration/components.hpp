@@ -21,13 +21,15 @@ class Components {
   // the two differ, else nullptr.
   const MeasuredPoint* add(const MeasuredPoint& point, const std::string& position, const Component& component);
   // Returns a point for each place and link, in the order of their first components: the level is the sum of the
-  // powers. with_delays, with_azimuths: the file has them. A spread of 0, as of one component, is not given.
+  // powers. with_delays, with_azimuths: the file has them; without delays points have no components. A spread of 0, as
+  // of one component, is not given.
   std::vector<MeasuredPoint> points(bool with_delays, bool with_azimuths) const;
 
  private:
   struct Gathered {
     MeasuredPoint first;
     Spreads spreads;
+    std::vector<DelayPower> components;
   };
   // position or place, tx, rx, orientation
   using Key = std::tuple<std::string, std::array<double, 3>, std::string, std::string, std::array<double, 3>>;

@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include "calibration/delay_profile.hpp"
 #include "calibration/spread_kinds.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::calibration {
 namespace {
+
+constexpr size_t most_profile_bins = 10'000;
 
 const MeasuredPoint& measured_of(const Calibration& result, const FittedPoint& point) {
   return result.files[point.file].points[point.point];
@@ -40,22 +45,58 @@ void add_spreads(FitData& out, const Request& request, const Calibration& result
     if (!spread) continue;
     ++count;
     if (!fits) continue;
-    out.data.push_back({.value = spread_db(*spread), .kind = 1 + kind});
-    out.spreads.push_back({i, kind});
+    out.data.push_back({.value = 10 * std::log10(*spread), .kind = 1 + kind});
+    out.shapes.push_back({i, kind});
   }
   if (count > 0 && !fits && !request.patterns.empty())
     out.notes.push_back(fmt::format("{} measured {} spreads are compared and not fitted; --spreads {} fits them", count,
                                     of.word, of.word));
 }
 
+void add_profiles(FitData& out, const Request& request, const Calibration& result) {
+  constexpr size_t kind = spread_kinds.size();
+  for (size_t i = 0; i < result.points.size(); ++i)
+    for (const auto& [bin, level] : measured_bins(measured_of(result, result.points[i]), request.profile_bin_ns)) {
+      out.data.push_back({.value = level, .kind = 1 + kind});
+      out.shapes.push_back({i, kind, bin});
+    }
+  if (request.profile_bin_ns > 0 && (out.shapes.empty() || out.shapes.back().kind != kind))
+    throw InputError("--profiles needs components with a delay, but no measured file has a column delay_ns");
+}
+
 }  // namespace
 
-double spread_db(double spread) { return 10 * std::log10(spread); }
+double shape_db(const Computed& computed, const ShapeDatum& datum) {
+  if (datum.kind < spread_kinds.size()) return 10 * std::log10(computed.*spread_kinds[datum.kind].computed);
+  return datum.bin < computed.profile.size() ? computed.profile[datum.bin] : std::numeric_limits<double>::quiet_NaN();
+}
+
+size_t most_bins(const std::vector<MeasuredFile>& files, double bin_ns) {
+  size_t out = 0;
+  for (const MeasuredFile& file : files)
+    for (const MeasuredPoint& point : file.points)
+      if (bin_ns > 0 && !point.components.empty())
+        out = std::max(out, bins_of(point.components, 1e-9 * bin_ns, most_profile_bins));
+  return out;
+}
+
+std::vector<std::pair<size_t, double>> measured_bins(const MeasuredPoint& point, double bin_ns) {
+  std::vector<std::pair<size_t, double>> out;
+  if (!(bin_ns > 0) || point.components.empty()) return out;
+  const size_t bins = bins_of(point.components, 1e-9 * bin_ns, most_profile_bins);
+  const std::vector<double> levels = delay_profile(point.components, 1e-9 * bin_ns, bins);
+  for (size_t bin = 0; bin < levels.size(); ++bin)
+    if (levels[bin] >= -profile_range_db) out.emplace_back(bin, levels[bin]);
+  return out;
+}
+
+size_t kinds_of_data() { return 2 + spread_kinds.size(); }
 
 FitData fit_data(const Request& request, const Calibration& result) {
   FitData out;
   add_levels(out, request, result);
   for (size_t kind = 0; kind < spread_kinds.size(); ++kind) add_spreads(out, request, result, kind);
+  add_profiles(out, request, result);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "calibration/delay_profile.hpp"
 
 namespace wavetracer::calibration {
 
@@ -22,7 +23,8 @@ struct MeasuredPoint {
   bool below = false;                // the gain is at most this: a gain was written as "<-110", or a loss as ">110"
   std::optional<double> delay_spread_ns = {}, azimuth_spread_deg = {};  // rms, more than 0
   std::optional<double> yaw_deg = {}, pitch_deg = {},
-                        roll_deg = {};  // orientation of the antenna; not given: as configured
+                        roll_deg = {};      // orientation of the antenna; not given: as configured
+  std::vector<DelayPower> components = {};  // those of the point, if the file has their delays
 };
 
 struct MeasuredFile {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 #include <utility>
+#include "calibration/delay_profile.hpp"
 #include "calibration/spreads.hpp"
 #include "radio/grouped_power.hpp"
 #include "radio/material_table.hpp"
@@ -140,13 +141,17 @@ double MeasuredWorld::power_of_rows(const Paths& paths, size_t first, size_t end
   return grouped_power(paths, first, end, setup_.plan->asked.radio.frequency_hz);
 }
 
-// Power in the sense of path_gain_db, and spreads of delays and azimuths, of the rows of a link.
+// Power in the sense of path_gain_db, spreads of delays and azimuths, and the profile of the rows of a link.
 Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, double rest) const {
   const double power = power_of_rows(paths, first, end) + rest;
   Spreads spreads(first < end ? paths.delay_s[first] : 0);
-  for (size_t row = first; row < end; ++row)
+  std::vector<DelayPower> components;
+  for (size_t row = first; row < end; ++row) {
     spreads.add(power_of(paths, row), paths.delay_s[row], paths.aoa_phi_rad[row]);
-  return {10 * std::log10(power), spreads.delay_ns(), spreads.azimuth_deg()};
+    if (profile_bins_ > 0) components.push_back({paths.delay_s[row], power_of(paths, row)});
+  }
+  return {10 * std::log10(power), spreads.delay_ns(), spreads.azimuth_deg(),
+          delay_profile(components, profile_bin_s_, profile_bins_)};
 }
 
 std::vector<Computed> MeasuredWorld::computed(const Paths& paths, const std::vector<double>& rest) const {

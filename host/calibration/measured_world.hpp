@@ -30,6 +30,11 @@ class MeasuredWorld {
   MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
                 bool moves = false);
 
+  // From now on, values have the profiles of delays in so many bins; 0: none.
+  void want_profiles(double bin_s, size_t bins) {
+    profile_bin_s_ = bin_s;
+    profile_bins_ = bins;
+  }
   const NamedRecords& materials() const { return materials_; }
   // The ends of the configuration.
   const EndPlaces& ends() const { return ends_; }
@@ -62,7 +67,8 @@ class MeasuredWorld {
   bool found_here_ = true;  // they were found where the ends are, and not brought along from elsewhere
   bool weighed_ = false;    // kept_ to dependents_ are about frame_
   double share_left_out_ = 0;
-  size_t frames_solved_ = 0;
+  size_t frames_solved_ = 0, profile_bins_ = 0;
+  double profile_bin_s_ = 0;
   std::vector<uint32_t> kept_;  // rows of frame_.paths that matter
   Paths strong_;                // their columns, with the fields of base_
   RowChoice strong_rows_;

@@ -23,4 +23,8 @@ SpreadStatistics spread_statistics(std::span<const SpreadPair> pairs);
 // A row for each kind of spread that was measured, as configured and fitted; no row if none was.
 study::NumberTable spread_table(const Calibration& result);
 
+// Differences of measured and computed bins of profiles of delays, as configured, fitted and held out; no row if
+// profiles were not asked for.
+study::NumberTable profile_table(const Calibration& result);
+
 }  // namespace wavetracer::calibration

@@ -63,22 +63,25 @@ def _parameters(file: pathlib.Path) -> dict[str, Parameter]:
 
 
 def calibrate(config: Path, measured: Path | Iterable[Path], folder: Path, *, fit: str | Iterable[str] = "*",
-              offset: str = "all", prior: float = 1.0, errors: Mapping[str, float] | None = None, folds: int = 4,
-              level: str | None = None, device: str | None = None,
-              sets: Mapping[str, object] | None = None) -> Calibration:
+              offset: str = "all", spreads: str = "none", profiles: float = 0.0, prior: float = 1.0,
+              errors: Mapping[str, float] | None = None, folds: int = 4, level: str | None = None, crs: str | None = None,
+              device: str | None = None, sets: Mapping[str, object] | None = None) -> Calibration:
     """Compares the levels of a configuration with those of tables of measured values, and fits its materials and antennas
     to them. The arguments are the options of `wavetracer calibrate`; docs/calibration.md describes them and the tables.
     folder: gets the files. fit: parameters in a list, or in a text with commas. errors: standard deviations of parameters
     by their names, instead of the usual ones. sets: keys of the configuration."""
     files = [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
     options = ["-c", os.fspath(config), "-o", os.fspath(folder), "--fit", fit if isinstance(fit, str) else ",".join(fit),
-               "--offset", offset, "--prior", repr(float(prior)), "--folds", str(int(folds))]
+               "--offset", offset, "--spreads", spreads, "--profiles", repr(float(profiles)), "--prior", repr(float(prior)),
+               "--folds", str(int(folds))]
     for file in files:
         options += ["--measured", os.fspath(file)]
     for name, error in (errors or {}).items():
         options += ["--error", f"{name}={float(error)!r}"]
     if level is not None:
         options += ["--level", level]
+    if crs is not None:
+        options += ["--crs", crs]
     if device is not None:
         options += ["--device", device]
     for pair in _toml.sets(sets or {}):

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/delay_profile.hpp"
 #include "calibration/measured_text.hpp"
 #include "calibration/spread_agreement.hpp"
 #include "calibration/spreads.hpp"
@@ -120,4 +121,30 @@ TEST_CASE("spreads agree by medians of pairs that have a path") {
   CHECK(of.computed == 20);
   CHECK(of.ratio == 1);
   CHECK(spread_statistics({}).points == 0);
+}
+
+TEST_CASE("profiles: triangles around bins, of the power of all, from the first component that counts") {
+  // 1 at 100 ns, 0.5 one bin and a half later, and 0.001 before both, which is weaker than 25 dB below 1.501.
+  const std::vector<DelayPower> components{{115e-9, 0.5}, {100e-9, 1.0}, {60e-9, 0.001}};
+  CHECK(bins_of(components, 10e-9, 100) == 3);
+  const std::vector<double> profile = delay_profile(components, 10e-9, 3);
+  REQUIRE(profile.size() == 3);
+  CHECK(profile[0] == doctest::Approx(10 * std::log10(1.001 / 1.501)).epsilon(1e-9));
+  CHECK(profile[1] == doctest::Approx(10 * std::log10(0.25 / 1.501)).epsilon(1e-6));
+  CHECK(profile[2] == doctest::Approx(10 * std::log10(0.25 / 1.501)).epsilon(1e-6));
+  CHECK(delay_profile(components, 10e-9, 5)[4] == least_bin_db);  // nothing arrives so late
+  CHECK(delay_profile({}, 10e-9, 3).empty());
+  // A component that moves over the middle of a bin changes no level by a step.
+  const auto level = [&](double delay_s) {
+    return delay_profile(std::vector<DelayPower>{{100e-9, 1.0}, {delay_s, 0.5}}, 10e-9, 5)[1];
+  };
+  CHECK(std::abs(level(110e-9 - 1e-15) - level(110e-9 + 1e-15)) < 1e-6);
+}
+
+TEST_CASE("components are kept where the file has delays") {
+  const MeasuredFile with = read_text("x,y,power_db,delay_ns\n1,2,-80,100\n1,2,-90,140\n");
+  REQUIRE(with.points[0].components.size() == 2);
+  CHECK(with.points[0].components[1].delay_s == doctest::Approx(140e-9));
+  CHECK(with.points[0].components[1].power == doctest::Approx(1e-9));
+  CHECK(read_text("x,y,power_db,azimuth_deg\n1,2,-80,100\n1,2,-90,140\n").points[0].components.empty());
 }
