@@ -57,7 +57,7 @@ struct Calibration {
   FitResult fit;
   std::vector<std::string> offset_names;
   std::vector<Agreement> agreements;
-  double profile_bin_ns = 0;  // of the request
+  double profile_bin_ns = 0;  // that of the request
   DeviceSummary device;
   std::vector<std::string> notes, warnings;
   size_t paths = 0, paths_that_matter = 0, evaluations = 0;

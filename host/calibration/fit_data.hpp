@@ -13,7 +13,7 @@ namespace wavetracer::calibration {
 // A datum that is no level: a spread of a point, or a bin of its profile of delays.
 struct ShapeDatum {
   size_t point = 0;
-  size_t kind = 0;  // of spread_kinds; their number: a bin
+  size_t kind = 0;  // place in spread_kinds; their number stands for a bin
   size_t bin = 0;
 };
 
