@@ -9,10 +9,13 @@
 namespace wavetracer {
 
 struct TileBuffers {
-  gpu::Buffer<uint32_t> of_surfaces;  // four words per surface: its first tile, the place of its centre, the number
-  gpu::Buffer<uint32_t> surfaces;     // the surface in the world of each tile
-  gpu::Buffer<double> centres;        // three doubles for each tile of the scene and of the models
-  uint32_t count = 0;                 // tiles of the world
+  // Four words per surface: its first tile, the place of that tile's centre, the number of tiles, and its first block,
+  // WT_NONE if the surface moves.
+  gpu::Buffer<uint32_t> of_surfaces;
+  gpu::Buffer<uint32_t> surfaces;  // the surface in the world of each tile
+  gpu::Buffer<double> centres;     // three doubles for each tile of the scene and of the models
+  gpu::Buffer<double> blocks;      // for each block of WT_TILE_BLOCK tiles the lower and the upper corner of its box
+  uint32_t count = 0;              // tiles of the world
 };
 
 // surface_count: that of the world.

@@ -10,13 +10,34 @@
 #include "wavetracer/device/points.h"
 #pragma OPENCL FP_CONTRACT OFF
 
+// May a point of the block, a box of two corners, be seen from the image in the mirror? If all corners of the box are
+// behind the mirror, the lines to them enclose those to all of its points, and so do their crossings of the plane.
+inline int may_show_block(const global wt_exact_surface* mirror, const global wt_surface* box, double3 image,
+                          const global double* block) {
+  const double a = wt_above(mirror, image), size = wt_rounding(image);
+  if (!(fabs(a) > size)) return 1;
+  double3 low = (double3)(INFINITY, INFINITY, INFINITY), high = -low;
+  for (uint corner = 0; corner < 8; ++corner) {
+    const double3 p = (double3)(block[corner & 1 ? 3 : 0], block[corner & 2 ? 4 : 1], block[corner & 4 ? 5 : 2]);
+    const double b = wt_above(mirror, p);
+    if (!((a > 0.0 ? b : -b) < -WT_ON_SURFACE_M)) return 1;
+    const double3 at = image + a / (a - b) * (p - image);
+    low = fmin(low, at);
+    high = fmax(high, at);
+  }
+  const double margin = 1e-3 + 1e3 * size;
+  return high.x >= box->lower[0] - margin && low.x <= box->upper[0] + margin && high.y >= box->lower[1] - margin &&
+         low.y <= box->upper[1] + margin && high.z >= box->lower[2] - margin && low.z <= box->upper[2] + margin;
+}
+
 // A work-item takes one node. ends: all ends that launch rays; those of root r are first_ends[r] .. first_ends[r + 1].
-// Appends (node, end, first tile, tiles) for the tiles from args.first_tile to args.end_tile - 1; *count is their
-// number.
+// Appends (node, end, first tile, tiles) for each block of the tiles from args.first_tile to args.end_tile - 1 that the
+// last mirror may show; *count is their number. blocks: see TileBuffers.
 kernel void onlookers(const global ulong* table, const global uint* nodes, const global double4* ends,
                       const global uint* first_ends, const global wt_exact_surface* surfaces,
-                      const global uint4* tiles_of, global uint4* out, global uint* count,
-                      const global wt_counters* counters, wt_onlookers_arguments args) {
+                      const global wt_surface* boxes, const global uint4* tiles_of, const global double* blocks,
+                      global uint4* out, global uint* count, const global wt_counters* counters,
+                      wt_onlookers_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_node_count(counters, args.node_count) || (nodes[i] & WT_ROOT)) return;
   const uint surface = wt_trie_surface(table[nodes[i]]);
@@ -32,8 +53,16 @@ kernel void onlookers(const global ulong* table, const global uint* nodes, const
     for (uint k = 0; k < depth; ++k) image = wt_reflected(surfaces + chain[k], image);
     // The surface must have a side that faces the image; an absent vehicle's has none.
     if (!(fabs(wt_above(surfaces + surface, image)) > wt_rounding(image))) continue;
-    const uint slot = atomic_inc(count);
-    if (slot < args.capacity) out[slot] = (uint4)(nodes[i], end, first, last - first);
+    for (uint tile = first, next; tile < last; tile = next) {
+      const uint block = (tile - tiles.x) / WT_TILE_BLOCK;
+      next = min(tiles.x + (block + 1) * WT_TILE_BLOCK, last);
+      if (depth > 0 && tiles.w != WT_NONE &&
+          !may_show_block(surfaces + chain[depth - 1], boxes + chain[depth - 1], image,
+                          blocks + 6 * (size_t)(tiles.w + block)))
+        continue;
+      const uint slot = wt_take_places(count, 1);
+      if (slot < args.capacity) out[slot] = (uint4)(nodes[i], end, tile, next - tile);
+    }
   }
 }
 

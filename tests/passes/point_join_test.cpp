@@ -113,7 +113,7 @@ JoinedPaths joined_of(const SolvedList& list) {
 TEST_CASE("every pair of prefixes of wanted links that see one side of one tile") {
   const PointWorld world;
   const uint32_t mirrors = as_many(2, 1), row_depth = 2 * mirrors + 4;
-  PointsOnDevice device(world, mirrors, as_many(3, 8));
+  PointsOnDevice device(world, mirrors, as_many(4, 8));
   PointPrefixes pass(context(), row_depth, mirrors);
   pass(device.scene, device.buffers, device.ends, device.found(), 0, device.tiles.size(), device.set.counters());
   PointPrefixList& list = pass.list();
@@ -133,7 +133,7 @@ TEST_CASE("every pair of prefixes of wanted links that see one side of one tile"
   for (uint32_t tile = 0; tile < device.tiles.size(); ++tile) strong.powers.push_back(0.01 + 0.01 * (tile % 4));
   for (const JoinedPoints& limit : {limits, shallow, opaque, strong}) {
     const Expected wanted = every_pair(world, halves, limit);
-    CHECK(wanted.paths.size() > as_many(8, 1));
+    CHECK(wanted.paths.size() > as_many(4, 1));
     if (limit.floor > 0) CHECK(wanted.weak > as_many(40, 2));
     PointJoin join(context(), limit);
     CHECK(join(list, 0, list.rows.count, device.ends) == wanted.paths.size());

@@ -59,7 +59,7 @@ TEST_CASE("every tile that an end sees by a chain of mirrors, and no other") {
   PointWorld still, moving;
   moving.add_vehicle();
   for (const PointWorld& world : {still, moving}) {
-    PointsOnDevice device(world, mirrors, as_many(2, 5));
+    PointsOnDevice device(world, mirrors, as_many(1, 5));
     const PointPrefixMap wanted = every_prefix(world, device.tiles, mirrors);
     CHECK(wanted.size() > as_many(300, 20));
     PointPrefixes pass(context(), mirrors + 1, mirrors);

@@ -6,6 +6,9 @@
 #define WAVETRACER_DEVICE_POINTS_H
 #include "wavetracer/device/types.h"
 
+// Tiles of a surface that follow each other are near each other. So many of them are a block, with one box around it.
+#define WT_TILE_BLOCK 64u
+
 // A prefix of an end that sees a point: a tile. Its vertices are a row of solved paths that ends at the tile.
 typedef struct {
   double spread;  // 1 / the square of its unfolded length
