@@ -176,7 +176,7 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_solved) + 3 * sizeof(double) + 2 * sizeof(uint32_t)>, always<7>, true},
     {"point_prefixes/place_points", "scattering by mirrors", "prefixes", items_of<"point_prefixes/place_points">,
      always<sizeof(wt_solved) + sizeof(wt_point_prefix) + 3 * sizeof(double)>, always<9>, true},
-    {"point_join/point_join", "scattering by mirrors", "paths", joined, solved_bytes, nothing},
+    {"point_join/point_join", "scattering by mirrors", "paths", path_rows, solved_bytes, nothing},
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
