@@ -125,12 +125,16 @@ TEST_CASE("the floor: every stronger path stays, and those that are left out are
   CHECK(some.counts.weak > 100);
   CHECK(some.paths.size() > 1000);
   CHECK(some.paths.size() + some.counts.weak == all.paths.size());
+  Config in_batches = config;
+  in_batches.trace.batch_receivers = 1;
+  const FrameResult batches = run(in_batches);
+  CHECK(identical(batches.paths, some.paths));
+  CHECK(batches.counts.weak == some.counts.weak);
   const PathsOfTiles kept = scattered_paths(some.paths);
   for (size_t i = 0; i < all.paths.size(); ++i) {
     if (!scatters(all.paths, i) || all.paths.depth[i] == 1) continue;
     // Both antennas have two ports, so the gain between two that match is at most this.
     if (all.paths.gain_db[i] - 10 * std::log10(2.0) < floor_db) continue;
-    Paths one;
     Steps steps;
     for (uint64_t k = all.paths.vertex_offset[i]; k < all.paths.vertex_offset[i + 1]; ++k)
       steps.emplace_back(all.paths.vertex_interaction[k], all.paths.vertex_surface[k]);
