@@ -71,6 +71,14 @@ void diffract(Config& config, uint32_t most) {
   config.transmitters.resize(1);
 }
 
+void scatter(Config& config, uint32_t reflections) {
+  roughen(config);
+  config.transmitters.resize(1);
+  config.receivers.resize(2);
+  config.trace.scattering = true;
+  config.trace.scattering_reflections = reflections;
+}
+
 // Adds a square of cells around the first transmitter.
 void add_map(Config& config, double side_m, double cell_m) {
   const std::array<double, 3> middle = config.transmitters.front().position_m;
@@ -108,12 +116,8 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
   });
   add("transmission", [](Config& c) { c.trace.transmission = true; });
   add("vegetation", plant);
-  add("scattering", [](Config& c) {
-    roughen(c);
-    c.transmitters.resize(1);
-    c.receivers.resize(2);
-    c.trace.scattering = true;
-  });
+  add("scattering", [](Config& c) { scatter(c, 0); });
+  add("scattering by mirrors", [](Config& c) { scatter(c, 1); });
   add("crowns", [](Config& c) {
     plant(c);
     MaterialConfig& leaves = c.materials.emplace_back();

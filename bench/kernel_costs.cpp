@@ -9,6 +9,7 @@
 #include "wavetracer/device/beams.h"
 #include "wavetracer/device/cache.h"
 #include "wavetracer/device/field_records.h"
+#include "wavetracer/device/points.h"
 #include "wavetracer/device/waypoints.h"
 
 namespace wavetracer::bench {
@@ -48,6 +49,11 @@ double items_of(N n) {
 template <Name kernel>
 double slots_of(N n) {
   return n.items(kernel.text) * n.tuning.slots.per_item;
+}
+// Tiles that ends try by a chain of mirrors, of which a work-item takes several.
+template <Name kernel>
+double tries_of(N n) {
+  return n.items(kernel.text) * n.tuning.points.per_item;
 }
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 double met_nodes(N n) { return std::min(n.items("sequences/commute"), nodes(n)); }
@@ -162,6 +168,15 @@ constexpr KernelCost costs[] = {
     {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, scene_operations},
     {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
     {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},
+    {"point_prefixes/onlookers", "scattering by mirrors", "sequences", items_of<"point_prefixes/onlookers">, always<12>,
+     always<static_cast<size_t>(image_operations)>, true},
+    {"point_prefixes/point_prefixes", "scattering by mirrors", "tiles of sequences",
+     tries_of<"point_prefixes/point_prefixes">, nothing, always<static_cast<size_t>(point_operations)>, true},
+    {"point_prefixes/point_keys", "scattering by mirrors", "prefixes", items_of<"point_prefixes/point_keys">,
+     always<sizeof(wt_solved) + 3 * sizeof(double) + 2 * sizeof(uint32_t)>, always<7>, true},
+    {"point_prefixes/place_points", "scattering by mirrors", "prefixes", items_of<"point_prefixes/place_points">,
+     always<sizeof(wt_solved) + sizeof(wt_point_prefix) + 3 * sizeof(double)>, always<9>, true},
+    {"point_join/point_join", "scattering by mirrors", "paths", path_rows, solved_bytes, nothing},
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},

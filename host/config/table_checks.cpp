@@ -219,8 +219,8 @@ void check_materials(const std::vector<MaterialConfig>& materials, std::vector<C
   }
 }
 
-// Listeners know only the edges that transmitters see and the surfaces that rays reflect from, so paths over two edges
-// and through walls would be lost.
+// Listeners know only the edges that transmitters see and the surfaces that rays reflect from, so paths over two edges,
+// through walls and by tiles that only receivers see would be lost.
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.diffraction || trace.edge_rays == 0) return;
@@ -233,6 +233,8 @@ void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
   if (trace.max_diffractions > 1)
     refuse("trace.max_diffractions", std::to_string(trace.max_diffractions), "allow one diffraction");
   if (trace.transmission) refuse("trace.transmission", "true", "set that to false");
+  if (trace.reflects_scattered())
+    refuse("trace.scattering_reflections", std::to_string(trace.scattering_reflections), "set that to 0");
   if (trace.by_beams()) refuse("trace.discovery", "\"beams\"", "use \"rays\"");
   if (config.cache.on()) refuse("cache.kind", fmt::format("\"{}\"", config.cache.kind.text()), "use \"none\"");
 }

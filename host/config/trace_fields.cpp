@@ -115,8 +115,9 @@ Table trace_table() {
            .unit = "rays per receiver",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "Only with diffraction: the largest number of rays from a receiver that is not a transmitter too. 0: "
-                  "a tenth of trace.rays, but at least 100,000, because many rays meet each edge."},
+           .doc = "Only with diffraction or scattering_reflections: the largest number of rays from a receiver that is "
+                  "not a transmitter too. 0: a tenth of trace.rays, but at least 100,000, because many rays meet "
+                  "each edge."},
           {.name = "edge_rays",
            .slot = t(&TraceConfig::edge_rays),
            .unit = "rays per edge",
@@ -141,13 +142,33 @@ Table trace_table() {
            .slot = t(&TraceConfig::scattering),
            .doc = "Diffuse scattering by surfaces and vegetation whose material has a scattering coefficient "
                   "(material.scattering). They are divided into tiles and cells, and a path goes from the transmitter "
-                  "to one of them to the receiver."},
+                  "to one of them to the receiver, with reflections on the way by scattering_reflections."},
           {.name = "tile_m",
            .slot = t(&TraceConfig::tile_m),
            .unit = "m",
            .range = {0, 1e6, true},
            .doc = "The largest side length of a tile of scattering. Half the length gives four times as many paths "
                   "and about a quarter of the error; of vegetation, which is cut into cells, eight times as many."},
+          {.name = "scattering_reflections",
+           .slot = t(&TraceConfig::scattering_reflections),
+           .unit = "reflections",
+           .range = {0, 63},
+           .doc =
+               "Only with scattering: the largest number of reflections of a path before its tile, and of those "
+               "after it. 0: paths scatter straight from the transmitter to a tile to the receiver. All interactions "
+               "together are at most max_depth. It launches rays from every receiver that is not a transmitter "
+               "too, and makes many paths: where they are too many, give scattering_floor_db. Vegetation scatters "
+               "without reflections in any case."},
+          {.name = "scattering_floor_db",
+           .slot = t(&TraceConfig::scattering_floor_db),
+           .unit = "dB",
+           .range = {-400, 0},
+           .doc =
+               "Only with scattering_reflections: the path gain between isotropic antennas, without their own gains, "
+               "below which a path that scatters and is reflected may be left out. A bound decides, which takes "
+               "every reflection for perfect and every tile for turned the best way; so no stronger path is "
+               "lost, and weaker ones may be kept. The number of paths that are left out is weak in summary.json. "
+               "Not given: none is left out."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "
@@ -185,7 +206,7 @@ Table trace_table() {
            .range = {0, 4294967295.0},
            .none = "0",
            .doc =
-               "Only with diffraction or output.paths = false, in a run of one frame: the number of receivers that are computed "
+               "Only with diffraction, scattering_reflections or output.paths = false, in a run of one frame: the number of receivers that are computed "
                "at once. It limits the memory of coverage maps, because every receiver keeps what its rays have "
                "found; results do not depend on it. 0: 8192, and more on devices with much memory."},
       }};

@@ -85,6 +85,13 @@ MissedCounts decode_missed(const Json& json) {
   return out;
 }
 
+FrameCounts decode_counts(const Json& counts) {
+  const auto count = [&](const char* name) { return whole_at<uint64_t>(counts, name); };
+  return {count("rays"),      count("segments"),   count("hits"),
+          count("sequences"), count("candidates"), count("solved"),
+          count("paths"),     count("receptions"), whole_or<uint64_t>(counts, "weak", 0)};
+}
+
 Shard decode(const Json& json, ManifestOf what) {
   Shard shard;
   const Json& run = json.at("run");
@@ -111,10 +118,7 @@ Shard decode(const Json& json, ManifestOf what) {
   t.end_s = json.at("end_s");
   t.vertices = whole_at<uint64_t>(json, "vertices");
   t.links = whole_at<uint64_t>(json, "links");
-  const Json& counts = json.at("counts");
-  const auto count = [&](const char* name) { return whole_at<uint64_t>(counts, name); };
-  t.counts = {count("rays"),       count("segments"), count("hits"),  count("sequences"),
-              count("candidates"), count("solved"),   count("paths"), count("receptions")};
+  t.counts = decode_counts(json.at("counts"));
   const std::vector<uint64_t> kinds = whole_list<uint64_t>(json, "kinds");
   if (kinds.size() != t.kinds.size()) refuse("its kinds of paths are not those of this version");
   std::ranges::copy(kinds, t.kinds.begin());
@@ -168,6 +172,7 @@ std::string encode_manifest_line(const Shard& shard) {
   json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},     {"hits", t.counts.hits},
                     {"sequences", t.counts.sequences}, {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
                     {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
+  if (t.counts.weak > 0) json["counts"]["weak"] = t.counts.weak;
   json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
   if (t.left_out.all > 0)

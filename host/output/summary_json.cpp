@@ -39,11 +39,13 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
 // Returns a rate, such as things per second; null if `whole` is not positive.
 Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
-Json counts(const Totals& totals) {
+Json counts(const Totals& totals, const TraceConfig& trace) {
   const FrameCounts& sum = totals.counts;
-  return {{"rays", sum.rays},           {"segments", sum.segments},     {"hits", sum.hits},
-          {"sequences", sum.sequences}, {"candidates", sum.candidates}, {"solved", sum.solved},
-          {"paths", sum.paths},         {"receptions", sum.receptions}};
+  Json json = {{"rays", sum.rays},           {"segments", sum.segments},     {"hits", sum.hits},
+               {"sequences", sum.sequences}, {"candidates", sum.candidates}, {"solved", sum.solved},
+               {"paths", sum.paths},         {"receptions", sum.receptions}};
+  if (trace.reflects_scattered() && trace.scattering_floor_db) json["weak"] = sum.weak;
+  return json;
 }
 
 Json path_counts(const PathKindCounts& kinds) {
@@ -189,7 +191,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["shards"] = shards;
   json["repeat_count"] = summary.repeat_count;
   json["features"] = features(summary.features);
-  json["counts"] = counts(totals);
+  json["counts"] = counts(totals, run.config.trace);
   json["paths_by_kind"] = path_counts(totals.kinds);
   put_missed(run, totals, json);
   if (totals.late.discoveries > 0)

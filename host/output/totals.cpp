@@ -19,6 +19,7 @@ void add(FrameCounts& sum, const FrameCounts& more) {
   sum.candidates += more.candidates;
   sum.solved += more.solved;
   sum.paths += more.paths;
+  sum.weak += more.weak;
   sum.receptions += more.receptions;
 }
 

@@ -15,6 +15,10 @@ inline constexpr const char* beams =
     "choose a device with more memory";
 inline constexpr const char* tiles =
     "Raise trace.tile_m (twice as long tiles are a quarter as many), or choose a device with more memory";
+// Lists of paths over tiles with reflections around them.
+inline constexpr const char* points =
+    "Lower trace.scattering_reflections, raise trace.tile_m or trace.scattering_floor_db, ask for fewer links at a time "
+    "(links.max_distance_m, links.transmitters, links.receivers), or choose a device with more memory";
 inline constexpr const char* scene = "Use a smaller scene, or choose a device with more memory";
 inline constexpr const char* spheres =
     "Lower trace.sphere_radius_m or trace.batch_rays, or choose a device with more memory";

@@ -23,7 +23,7 @@ gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows r
           {"WT_CORNER_EDGES", tables.corners && rows != FieldRows::without_corners ? "1" : "0"},
           {"WT_LISTED", rows == FieldRows::listed ? "1" : "0"},
           {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
-          {"WT_SCATTERS", tables.scatters ? "1" : "0"},
+          {"WT_SCATTERS", tables.scatters ? tables.reflects_scattered ? "2" : "1" : "0"},
           {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
           {"WT_LAYERS", tables.layered() ? "1" : "0"},
           {"WT_LOSSES", tables.loses() ? "1" : "0"}};

@@ -49,7 +49,8 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                                                                   .deepest = 0,
                                                                   .blocker_mask = Blockers::mask,
                                                                   .tile_count = steps.tile_count(),
-                                                                  .first_leg = first_leg}});
+                                                                  .first_leg = first_leg,
+                                                                  .open = solved.open}});
   };
   test(0, 1);
   test(1, std::min(solved.max_depth, solved.deepest));

@@ -15,6 +15,7 @@ namespace wavetracer {
 
 Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface_count, uint32_t max_depth)
     : context_(context),
+      tiles_(make_tile_buffers(context, tiles, surface_count)),
       lit_(context),
       scatter_(context),
       local_(context.info().simple_local_size()),
@@ -22,29 +23,6 @@ Scatter::Scatter(gpu::Context& context, const TileTable& tiles, uint32_t surface
       entries_(context.buffer<uint32_t>(4 * 1024, {"lit surfaces", advice::tiles})),
       first_row_(context.buffer<uint32_t>(1024 + 1, {"rows of tiles", advice::tiles})),
       count_(context.buffer<uint32_t>(1, {"lit surfaces", advice::tiles})) {
-  std::vector<double> centres;
-  std::vector<uint32_t> first_centre;  // first centre of each part
-  for (uint32_t part = 0; part < tiles.part_count(); ++part) {
-    first_centre.push_back(static_cast<uint32_t>(centres.size() / 3));
-    for (const Tile& tile : tiles.tiles(part))
-      centres.insert(centres.end(), {tile.centre_m.x, tile.centre_m.y, tile.centre_m.z});
-  }
-  std::vector<uint32_t> tiles_of(4 * size_t{surface_count}, 0), surface_of_tile(tiles.size());
-  const auto enter = [&](uint32_t part, uint32_t first_surface, uint32_t first_tile) {
-    for (uint32_t k = 0; k < tiles.tiles(part).size(); ++k) {
-      const uint32_t surface = surface_of_tile[first_tile + k] = first_surface + tiles.tiles(part)[k].surface;
-      uint32_t* entry = &tiles_of[4 * size_t{surface}];
-      if (entry[2]++ > 0) continue;  // tiles of a surface follow each other
-      entry[0] = first_tile + k;
-      entry[1] = first_centre[part] + k;
-    }
-  };
-  enter(0, 0, 0);
-  for (uint32_t i = 0; i < tiles.instances().size(); ++i)
-    enter(1 + tiles.instances()[i].model, tiles.instances()[i].first_surface, tiles.first_tile(i));
-  tiles_of_ = context.buffer(tiles_of, {"tiles of surfaces", advice::tiles});
-  surface_of_tile_ = context.buffer(surface_of_tile, {"surfaces of tiles", advice::tiles});
-  centres_ = context.buffer(centres, {"tiles", advice::tiles});
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.deepest = 1;
   solved_.reserve(context, 1 << 12);
@@ -64,7 +42,7 @@ uint32_t Scatter::find_lit(const DeviceScene& scene, const RadioEnds& ends, cons
                                  .receivers = ends.receivers,
                                  .links = ends.links,
                                  .surfaces = scene.exact_surfaces,
-                                 .tiles_of = tiles_of_,
+                                 .tiles_of = tiles_.of_surfaces,
                                  .out = entries_,
                                  .count = count_,
                                  .counters = counters.buffer(),
@@ -107,8 +85,8 @@ SolvedList& Scatter::operator()(const DeviceScene& scene, const RadioEnds& ends,
                .entries = entries_,
                .first_row = first_row_,
                .surfaces = scene.exact_surfaces,
-               .tiles_of = tiles_of_,
-               .centres = centres_,
+               .tiles_of = tiles_.of_surfaces,
+               .centres = tiles_.centres,
                .instances = scene.exact_instances,
                .solved = solved_.headers,
                .vertices = solved_.vertices,

@@ -10,6 +10,7 @@
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/tile_buffers.hpp"
 #include "passes/tuning.hpp"
 #include "scene/tiles.hpp"
 
@@ -26,8 +27,7 @@ class Scatter {
                          const gpu::Buffer<uint32_t>& quarters, const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                          Counters& counters);
 
-  // The surface in the world of each tile.
-  const gpu::Buffer<uint32_t>& surface_of_tile() const { return surface_of_tile_; }
+  const TileBuffers& tiles() const { return tiles_; }
 
  private:
   // Fills entries_ with all entries, and returns their number.
@@ -37,13 +37,11 @@ class Scatter {
   std::vector<uint32_t> place_rows(uint32_t entry_count);
 
   gpu::Context& context_;
+  TileBuffers tiles_;
   gpu::KernelOf<calls::scatter::lit> lit_;
   gpu::KernelOf<calls::scatter::scatter> scatter_;
   uint32_t local_;
   Work tiles_work_;
-  gpu::Buffer<uint32_t> tiles_of_;  // four words per surface, see scatter.cl
-  gpu::Buffer<uint32_t> surface_of_tile_;
-  gpu::Buffer<double> centres_;
   gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words per entry
   SolvedList solved_;
 };

@@ -8,12 +8,18 @@
 
 namespace wavetracer {
 
+// The memory of a row with this many interactions.
+constexpr uint64_t bytes_of_row(uint32_t max_depth) {
+  return sizeof(wt_solved) + uint64_t{3 * sizeof(double) + sizeof(uint32_t)} * max_depth;
+}
+
 struct SolvedList {
   gpu::Buffer<wt_solved> headers;
   gpu::Buffer<double> vertices;
   gpu::Buffer<uint32_t> sequences;
   uint32_t count = 0, max_depth = 0;
   uint32_t deepest = UINT32_MAX;  // the most interactions of a path, which may be fewer than there is room for
+  uint32_t open = 0;  // 1: rows end at their last vertex; wt_solved::transmitter is any end, and there is no receiver
   // The word of wt_counters that has the length, where `count` may be a bound of it (counters.hpp); WT_NONE: `count` is
   // exact.
   uint32_t counter = WT_NONE;

@@ -36,7 +36,8 @@ void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, 
                                                                         .deepest = std::min(deepest_, solved.max_depth),
                                                                         .blocker_mask = 0,
                                                                         .tile_count = steps.tile_count(),
-                                                                        .first_leg = 0}});
+                                                                        .first_leg = 0,
+                                                                        .open = solved.open}});
 }
 
 }  // namespace wavetracer

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "passes/advice.hpp"
+#include "passes/solved_list.hpp"
 
 namespace wavetracer {
 namespace {
@@ -15,9 +16,8 @@ constexpr uint32_t least_candidates = 1 << 14;
 
 // The most candidates, at least as many as the list begins with.
 uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
-  const uint64_t path_bytes = sizeof(wt_solved) + (3 * sizeof(double) + sizeof(uint32_t)) * row_depth;
   const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(row_depth, 1u)),
-                                 device.global_memory / (4 * (sizeof(wt_wedge_candidate) + path_bytes)));
+                                 device.global_memory / (4 * (sizeof(wt_wedge_candidate) + bytes_of_row(row_depth))));
   return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_candidates, 1u << 30));
 }
 

@@ -74,6 +74,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   tables.edge_ends = std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.free_ends != 0; });
   tables.corners = has_corners(scene) || std::ranges::any_of(models, has_corners);
   tables.scatters = config.trace.scattering;
+  tables.reflects_scattered = config.trace.reflects_scattered();
   if (!tables.scatters) return tables;
   const TileTable tiles(scene, models, instances, config.trace.tile_m);
   for (uint32_t id = 0; id < tiles.size(); ++id) {

@@ -31,6 +31,7 @@ struct FieldTables {
   uint32_t transmissions = 0;  // the most of a path; 0: waves do not pass surfaces
   uint32_t reflections = 0;    // the most of a path
   bool scatters = false;
+  bool reflects_scattered = false;           // paths that scatter may be reflected before and after
   bool edge_ends = false;                    // edges with free ends diffract
   bool corners = false;                      // edges with less than a half space around them diffract
   VolumeTable volumes;                       // volumes of vegetation

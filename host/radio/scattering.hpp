@@ -33,6 +33,9 @@ double lobe_integral(uint32_t alpha, double cos_theta);
 // for alpha = 1. A geometric mean of both would scatter more than arrives, at 85 degrees 1.8 times as much for alpha =
 // 4.
 double scattering_pattern(uint32_t alpha, double cos_in, double cos_out, double cos_psi);
+// The largest value of scattering_pattern for any directions: that of a wave that arrives along the normal and goes
+// back.
+double strongest_pattern(uint32_t alpha);
 
 // The wave that the tile sends from k_in towards k_out, unit vectors on the same side of it as those of a reflection.
 // The power from polarisation a to b is S^2 |R_a(theta_i)| |R_b(theta_s)| pattern area; the share 1 - K of it stays in

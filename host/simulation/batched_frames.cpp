@@ -87,7 +87,7 @@ std::string BatchedFrames::halved_warning() const {
   const char* const rays = loop_.batches_share()
                                ? "rays are launched for the first of them, and the others use what these find"
                                : "rays are launched again for each of them";
-  const bool asks = setup_.plan->trace.diffraction || summed_;  // else frames begin with all receivers
+  const bool asks = setup_.plan->trace.from_both_ends() || summed_;  // else frames begin with all receivers
   return fmt::format(
       "the lists of all receivers at once did not fit into {}: frames are computed for {} receivers at "
       "a time, and {}{}",

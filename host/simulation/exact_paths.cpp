@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "radio/scattering.hpp"
 #include "radio/world_records.hpp"
 #include "simulation/tracing_depth.hpp"
 
@@ -24,6 +27,32 @@ uint32_t surface_count(const Scene& scene, const World& world) {
   size_t count = scene.surfaces.size();
   for (const Instance& instance : world.fleet.instances) count += world.fleet.models[instance.model].surfaces.size();
   return static_cast<uint32_t>(count);
+}
+
+// The gain of paths over the tile whose parts before and after it are 1 m long, if all reflections are perfect and the
+// tile is turned the best way.
+double power_of_tile(const Material& material, double area_m2, double wavelength_m) {
+  const double at_1_m = wavelength_m / (4 * std::numbers::pi);
+  const double amplitude = at_1_m * material.scattering;
+  return amplitude * amplitude * area_m2 * strongest_pattern(static_cast<uint32_t>(material.scattering_lobe));
+}
+
+JoinedPoints joined_points(const Scene& scene, const World& world, const TileTable& tiles, const TraceConfig& trace,
+                           double longest_wavelength_m) {
+  constexpr double rounding = 1e-9;
+  JoinedPoints out{.max_depth = trace.max_depth,
+                   .transmissions = trace.transmission ? trace.max_transmissions : 0,
+                   .row_depth = tracing_depth(trace).row};
+  if (!trace.scattering_floor_db) return out;
+  out.floor = std::pow(10.0, *trace.scattering_floor_db / 10) * (1 - rounding);
+  for (uint32_t id = 0; id < tiles.size(); ++id) {
+    const TilePlace place = tiles.at(id);
+    const Scene& of = place.part == 0 ? scene : world.fleet.models[place.part - 1];
+    const Tile& tile = tiles.tile(place);
+    out.powers.push_back(
+        power_of_tile(of.materials[of.surfaces[tile.surface].material], tile.area_m2, longest_wavelength_m));
+  }
+  return out;
 }
 
 }  // namespace
@@ -55,6 +84,9 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     const TileTable tiles(scene, world.fleet.models, world.fleet.instances, trace.tile_m,
                           fitting_tiles(context.info()));
     if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), depth.row);
+    if (scatter && trace.scattering_reflections > 0)
+      scattered.emplace(context, std::min(trace.scattering_reflections, trace.max_depth - 1),
+                        joined_points(scene, world, tiles, trace, longest_wavelength_m));
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
   }
@@ -66,11 +98,11 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
 
 void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters) {
   const StepTables steps{diffraction ? &diffraction->wedges.list().wedges : nullptr,
-                         scatter ? &scatter->surface_of_tile() : nullptr};
+                         scatter ? &scatter->tiles().surfaces : nullptr};
   if (transmissions)
     (*transmissions)(scene, ends, solved, counters, steps);
   else
-    (*occlusion)(scene, ends, solved, counters, blockers ? &*blockers : nullptr, steps);
+    (*occlusion)(scene, ends, solved, counters, blockers && !solved.open ? &*blockers : nullptr, steps);
 }
 
 }  // namespace wavetracer

@@ -15,6 +15,7 @@
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/edge_discovery.hpp"
 #include "simulation/listeners.hpp"
+#include "simulation/scattered_paths.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
 
@@ -27,9 +28,11 @@ struct ExactPaths {
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
   void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
-  // The number of kinds of paths: specular, diffracted, scattered off surfaces and off vegetation.
+  // The number of kinds of paths: specular, diffracted, scattered off surfaces, without and with reflections, and off
+  // vegetation.
   uint64_t kinds() const {
-    return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{crowns.has_value()};
+    return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{scattered.has_value()} +
+           uint64_t{crowns.has_value()};
   }
 
   uint32_t max_depth;
@@ -39,6 +42,7 @@ struct ExactPaths {
   std::optional<DiffractedPaths> diffraction;
   std::unique_ptr<EdgeDiscovery> from_edges;  // with trace.edge_rays, else null
   std::optional<Scatter> scatter;
+  std::optional<ScatteredPaths> scattered;  // with trace.scattering_reflections
   std::optional<Crowns> crowns;
   std::optional<Occlusion> occlusion;  // this or the next one is set
   std::optional<Transmissions> transmissions;

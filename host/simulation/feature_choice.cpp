@@ -89,6 +89,10 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   out["double_diffraction"] = feature({{!out["diffraction"].on, "diffraction is off"},
                                        {trace.max_diffractions < 2, "trace.max_diffractions = 1"},
                                        {trace.max_depth < 2, "trace.max_depth = 1"}});
+  out["scattering_reflections"] = feature({{!out["scattering"].on, "scattering is off"},
+                                           {trace.scattering_reflections == 0, "trace.scattering_reflections = 0"},
+                                           {!out["reflection"].on, "reflection is off"},
+                                           {trace.max_depth < 2, "trace.max_depth = 1"}});
   out["instances"] = feature({{world.fleet.instances.empty(), "no vehicle has a body"}});
   out["vegetation"] = feature({{scene.volumes.empty(), "the scene has no volume of vegetation"}});
   const AirConfig& air = config.air;
@@ -100,6 +104,7 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
 TraceConfig with_features(TraceConfig trace, const Features& features) {
   for (const InteractionKind& kind : interaction_kinds) trace.*kind.asked_for = features.at(std::string(kind.word)).on;
   if (!features.at("double_diffraction").on) trace.max_diffractions = 1;
+  if (!features.at("scattering_reflections").on) trace.scattering_reflections = 0;
   return trace;
 }
 

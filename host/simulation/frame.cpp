@@ -209,7 +209,7 @@ Counters::Zeroed FrameLoop::begin_sequences(Sequences& set, bool searches) {
 
 DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   std::vector<Launcher> ends = sending(world);
-  if (plan_.trace.diffraction) std::ranges::copy(listening(world, plan_.origins), std::back_inserter(ends));
+  if (plan_.trace.from_both_ends()) std::ranges::copy(listening(world, plan_.origins), std::back_inserter(ends));
   if (block) ends = launchers_of(*block, ends);
   const Fleet& fleet = plan_.world.fleet;
   if (!fleet.instances.empty()) s_.beams->set_world(fleet.instances, world.instances);

@@ -42,6 +42,7 @@ void FrameAccount::counted(const wt_counters& counters, uint32_t transmitter_cou
   FrameCounts& counts = result.counts;
   counts.sequences = uint64_t{counters.nodes} + counters.exchanged - transmitter_count;
   counts.candidates = uint64_t{counters.candidates} + counters.wedge_candidates + counters.chains + besides.candidates;
+  counts.weak = besides.weak;
   counts.solved =
       uint64_t{counters.solved} + counters.hidden + counters.wedge_solved + counters.chains + besides.solved;
 }

@@ -11,7 +11,7 @@ namespace wavetracer {
 
 // Counts that no counter has: rows of scattering, and the parts of a list except its last one.
 struct Uncounted {
-  uint64_t candidates = 0, solved = 0;
+  uint64_t candidates = 0, solved = 0, weak = 0;
   DiscoveryCounts rays = {};  // those of edges
 };
 

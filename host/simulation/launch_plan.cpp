@@ -12,7 +12,7 @@ LaunchPlan plan_launch(Setup& setup, const WorldState& world, const LinkBlock* b
   const Origins& origins = setup.plan->origins;
   LaunchPlan out;
   out.transmitters = sending(world);
-  if (setup.plan->trace.diffraction) out.listeners = listening(world, origins);
+  if (setup.plan->trace.from_both_ends()) out.listeners = listening(world, origins);
   if (setup.slopes) out.tables = setup.slopes->tables(world, origins);
   for (std::vector<Launcher>* const ends : {&out.transmitters, &out.listeners}) {
     if (block) *ends = launchers_of(*block, *ends);

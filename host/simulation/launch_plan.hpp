@@ -15,7 +15,7 @@ struct LaunchPlan {
   double spread_m2 = 0;  // see DiscoveryCounts
 };
 
-// With diffraction listeners launch, too, and prefixes of both ends meet at the edge. block: the links that are solved,
+// Listeners launch, too, where prefixes of both ends meet at an edge or a tile. block: the links that are solved,
 // null for all links of the world, which gives launchers of any block (launchers_of); few: one transmitter and one
 // listener at most, for frames that only compile.
 LaunchPlan plan_launch(Setup& setup, const WorldState& world, const LinkBlock* block, bool few);

@@ -33,7 +33,7 @@ bool moved(const Placement& a, const Placement& b, double step_m) {
 void check_cache(const Config& config, const World& world) {
   if (!config.cache.on()) return;
   check_cache_share(config.cache, make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver,
-                                               config.trace.diffraction)
+                                               config.trace.from_both_ends())
                                       .count());
 }
 

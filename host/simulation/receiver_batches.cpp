@@ -19,9 +19,9 @@ constexpr uint64_t bytes_of_rows = uint64_t{4} * 32 * 600;
 
 std::vector<ReceiverRange> receiver_batches(const TraceConfig& trace, uint32_t receiver_count, uint64_t memory,
                                             uint32_t most, bool summed) {
-  const uint64_t bytes = trace.diffraction ? bytes_of_launching(trace) : bytes_of_rows;
+  const uint64_t bytes = trace.from_both_ends() ? bytes_of_launching(trace) : bytes_of_rows;
   const auto fitting = static_cast<uint32_t>(std::clamp<uint64_t>(memory / bytes, least_receivers, no_end));
-  const uint32_t asked = trace.diffraction || summed ? trace.batch_receivers.value_or(fitting) : no_end;
+  const uint32_t asked = trace.from_both_ends() || summed ? trace.batch_receivers.value_or(fitting) : no_end;
   const uint32_t batch = std::min(asked, most);
   if (receiver_count <= batch) return {{}};
   std::vector<ReceiverRange> out;

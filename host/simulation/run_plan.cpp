@@ -44,7 +44,7 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   Features features = choose_features(config, scene, world);
   const TraceConfig trace = with_features(config.trace, features);
   Origins origins =
-      make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.diffraction);
+      make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.from_both_ends());
   if (trace.diffraction && trace.edge_rays > 0) {
     check_at_rest(world);
     origins = hearing_origins(world.receivers.standing, origins.transmitter_count(), listener_size_m);

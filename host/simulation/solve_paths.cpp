@@ -54,6 +54,18 @@ Uncounted join_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnd
   return join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) { told(done, prefixes.count); });
 }
 
+// Makes the paths over tiles with reflections around them. take: takes paths whose legs have been tested; told: as for
+// join_edges, with numbers of tiles. Returns their counts.
+template <class Take, class Told>
+JoinedCounts join_tiles(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                        uint32_t nodes, const Take& take, const Told& told) {
+  const TileBuffers& tiles = exact.scatter->tiles();
+  return join_points(
+      *exact.scattered, scene, tiles, ends, {set.table(), set.quarters(), set.nodes(), nodes}, set.counters(),
+      [&](SolvedList& rows) { exact.check_legs(scene, ends, rows, set.counters()); }, take,
+      [&](uint32_t done) { told(done, tiles.count); });
+}
+
 }  // namespace
 
 Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
@@ -62,13 +74,19 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
   uint64_t kinds_done = 0;
   Uncounted out;
   exact.visible.clear();
+  const auto take = [&](SolvedList& solved) {
+    exact.visible(solved, counters);  // visible
+    account.device_done();
+  };
   const auto see = [&](SolvedList& solved) {
     exact.check_legs(scene, ends, solved, counters);  // the passes of legs (exact_paths.cpp)
-    exact.visible(solved, counters);                  // visible
-    account.device_done();
+    take(solved);
   };
   constexpr uint64_t steps = 100;  // for each kind
   const auto tell = [&] { watch.tell("paths", steps * ++kinds_done, steps * exact.kinds()); };
+  const auto told = [&](uint32_t done, uint32_t all) {
+    watch.tell("paths", steps * kinds_done + steps * done / std::max(all, 1u), steps * exact.kinds());
+  };
   watch.tell("paths", 0, steps * exact.kinds());
 
   uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
@@ -85,9 +103,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
 
   if (exact.diffraction) {
     DiffractedPaths& edges = *exact.diffraction;
-    out = join_edges(exact, scene, ends, set, nodes, see, [&](uint32_t done, uint32_t all) {
-      watch.tell("paths", steps * kinds_done + steps * done / std::max(all, 1u), steps * exact.kinds());
-    });
+    out = join_edges(exact, scene, ends, set, nodes, see, told);
     if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
     tell();
   }
@@ -102,10 +118,11 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
         (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
     see_scattered(by_tiles);
   }
-  if (exact.crowns) {
-    SolvedList& by_cells = (*exact.crowns)(ends);  // crowns
-    see_scattered(by_cells);
+  if (exact.scattered) {
+    join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes, sort, point_join
+    tell();
   }
+  if (exact.crowns) see_scattered((*exact.crowns)(ends));  // crowns
   out.rays = std::move(heard);
   return out;
 }

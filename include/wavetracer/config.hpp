@@ -215,6 +215,8 @@ struct TraceConfig {
   std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000
   uint64_t edge_rays = 0;                                // per edge and prefix that sees it; 0: receivers launch rays
   double tile_m = 5;                                     // largest side length of a tile of scattering
+  uint32_t scattering_reflections = 0;                   // most before a tile and after it; 0: tiles are seen directly
+  std::optional<double> scattering_floor_db = {};        // gain below which such paths are left out; not given: none is
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
@@ -225,6 +227,9 @@ struct TraceConfig {
   // Receivers get the rays that pass through their spheres, instead of exact paths.
   bool by_spheres() const { return reception == "sphere"; }
   bool by_beams() const { return discovery == "beams"; }
+  bool reflects_scattered() const { return scattering && scattering_reflections > 0; }
+  // Are paths joined from what both of their ends see? Then receivers launch rays, too.
+  bool from_both_ends() const { return diffraction || reflects_scattered(); }
 };
 
 // Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the given word.

@@ -27,7 +27,8 @@ struct Feature {
   bool on = false;
   std::string reason;  // why it is off: "trace.diffraction = false", "no edge of the scene diffracts", ...
 };
-// Keys are the words of interaction_kinds (interaction_kinds.hpp), double_diffraction and instances. A feature that is
+// Keys are the words of interaction_kinds (interaction_kinds.hpp), double_diffraction, scattering_reflections and
+// instances. A feature that is
 // off runs no kernel.
 using Features = std::map<std::string, Feature>;
 

@@ -33,6 +33,7 @@ struct FrameCounts {
   uint64_t solved = 0;      // candidates whose points lie in their surfaces
   uint64_t paths = 0;       // visible, distinct
   uint64_t receptions = 0;  // segments that passed a receiver, with trace.reception = "sphere"
+  uint64_t weak = 0;        // paths left out, because they are surely weaker than trace.scattering_floor_db
 };
 
 // Statistics of the ray cache in a frame. Counts are of this frame alone.

@@ -3,7 +3,8 @@
 // ordered by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs
 // have a launch of their own: paths over one tile follow each other and share their first leg, which is tested once,
 // and later legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges,
-// surface_of_tile: see lib/leg.clh. blockers: if given, the triangle that hides a path is stored there.
+// surface_of_tile: see lib/leg.clh. Open rows end at their last vertex. blockers: if given, the triangle that hides a
+// path is stored there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
@@ -27,7 +28,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
                       wt_legs_arguments args) {
   const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);
   const uint count = wt_length(counters, args.solved_counter, args.solved_count);
-  if (i >= count || leg > solved[i].depth) return;
+  if (i >= count || leg + args.open > solved[i].depth) return;
   if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
   // Most paths are obstructed, and a leg that was found obstructed saves the later ones. A leg tested too early to see
   // that does no harm. First legs are always tested, since others wait for the answer.

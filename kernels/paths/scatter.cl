@@ -2,13 +2,9 @@
 // scatter: paths transmitter - tile - receiver over the surfaces that a transmitter's rays saw directly. lit finds the
 // receivers that each surface may serve; scatter writes a row for each of those and each tile. Legs are not tested.
 #include "lib/count.clh"
-#include "lib/images.clh"
+#include "lib/tile.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
-
-inline int carries(const global wt_exact_surface* s, double4 end) {
-  return s->instance != WT_NONE && s->instance == wt_end_instance(end);
-}
 
 // A work-item takes one node and one group of 16 receivers. Consumes the trie, for transmitters below
 // transmitter_count; tiles_of: for each surface the number of its first tile, where the centre of that tile is, and the
@@ -25,13 +21,13 @@ kernel void lit(const global ulong* table, const global uint* nodes, const globa
   if (!(wt_trie_parent(key) & WT_ROOT) || transmitter >= args.transmitter_count || tiles_of[surface].z == 0) return;
   const global wt_exact_surface* s = surfaces + surface;
   const double above = wt_above(s, transmitters[transmitter].xyz);
-  if (!(fabs(above) > WT_ON_SURFACE_M) || carries(s, transmitters[transmitter])) return;
+  if (!(fabs(above) > WT_ON_SURFACE_M) || wt_carries(s, transmitters[transmitter])) return;
   uint keep = 0;
   for (uint wanted = links[(size_t)transmitter * args.groups + group]; wanted; wanted &= wanted - 1) {
     const uint bit = wanted & (~wanted + 1);
     const double4 receiver = receivers[16 * group + popcount(bit - 1u)];
     const double b = wt_above(s, receiver.xyz);
-    if ((above > 0.0 ? b : -b) > WT_ON_SURFACE_M && !carries(s, receiver)) keep |= bit;
+    if ((above > 0.0 ? b : -b) > WT_ON_SURFACE_M && !wt_carries(s, receiver)) keep |= bit;
   }
   if (keep == 0) return;
   const uint slot = atomic_inc(count);
@@ -46,14 +42,7 @@ kernel void scatter(const global ulong* table, const global uint* quarters, cons
                     global double* vertices, global uint* sequences, wt_scatter_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
   if (begin >= args.row_count) return;
-  uint entry = 0;  // the last entry that begins at or before the first row
-  for (uint end = args.entry_count; end - entry > 1;) {
-    const uint middle = entry + (end - entry) / 2;
-    if (first_row[middle] <= begin)
-      entry = middle;
-    else
-      end = middle;
-  }
+  uint entry = wt_entry_at(first_row, args.entry_count, begin);
   const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
   for (uint row = (uint)begin; row < end; ++row) {
     if (row == first_row[entry + 1]) ++entry;  // no entry is empty
@@ -61,14 +50,8 @@ kernel void scatter(const global ulong* table, const global uint* quarters, cons
     uint mask = entries[entry].z;
     const uint within = row - first_row[entry], receivers = popcount(mask), tile = within / receivers;
     for (uint skip = within % receivers; skip > 0; --skip) mask &= mask - 1;
-    const uint surface = wt_trie_surface(key), instance = surfaces[surface].instance;
-    double3 p = vload3((size_t)tiles_of[surface].y + tile, centres);
-    if (instance != WT_NONE) {
-      const global double* r = instances[instance].rotation;
-      const global double* at = instances[instance].position;
-      p = (double3)(at[0] + (r[0] * p.x + r[1] * p.y + r[2] * p.z), at[1] + (r[3] * p.x + r[4] * p.y + r[5] * p.z),
-                    at[2] + (r[6] * p.x + r[7] * p.y + r[8] * p.z));
-    }
+    const uint surface = wt_trie_surface(key);
+    const double3 p = wt_tile_centre(centres, instances, surfaces[surface].instance, tiles_of[surface].y + tile);
     solved[row].transmitter = wt_trie_parent(key) & ~WT_ROOT;
     solved[row].receiver = 16 * entries[entry].y + popcount((mask & (~mask + 1)) - 1u);
     solved[row].depth = 1;

@@ -69,7 +69,7 @@ inline void enter(global wt_solved* path, global double* v, global uint* s, cons
 }
 
 // One path per work-item. most: the most transmissions of a path; deepest: the most interactions of all kinds in a path
-// with transmissions. A row has room for that many.
+// with transmissions. A row has room for that many. Open rows end at their last vertex.
 kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                           const global double4* transmitters, const global double4* receivers,
                           const global wt_exact_surface* surfaces, const global double* corners,
@@ -84,7 +84,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
   wt_crossing crossings[WT_MAX_DEPTH];  // the last one of the path first
   uint count = 0;
-  for (uint after = 0; after <= depth; ++after) {
+  for (uint after = args.open; after <= depth; ++after) {
     const uint leg = depth - after;
     wt_leg l;
     wt_leg_of(&tables, solved + i, leg, v, s, transmitters, receivers, &l);

@@ -23,5 +23,10 @@ TEST_CASE("rays from edges are refused with what they would lose") {
                    "trace.edge_rays = 500 does not go with " + line + ": give trace.edge_rays = 0");
     CHECK(error_of(scene + "trace.edge_rays = 500\n" + line + "\n" + ends).find("edge_rays") == std::string::npos);
   }
+  // A receiver that launches no rays has no mirrors before its tiles.
+  const std::string mirrors = "trace.scattering_reflections = 2\n";
+  check_contains(error_of(scene + on + "trace.scattering = true\n" + mirrors + ends),
+                 "trace.edge_rays = 500 does not go with trace.scattering_reflections = 2: give trace.edge_rays = 0");
+  CHECK(error_of(scene + on + mirrors + ends).find("edge_rays") == std::string::npos);  // without scattering
   check_contains(error_of(scene + "trace.edge_rays = 65537\n" + ends), "out of range");
 }

@@ -5,6 +5,7 @@
 #include <vector>
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/curves.h"
+#include "wavetracer/device/points.h"
 
 namespace wavetracer::test {
 
@@ -84,8 +85,8 @@ inline const std::vector<Record> argument_records{
      {FIELD(wt_legs_arguments, triangle_slots), FIELD(wt_legs_arguments, extent_m),
       FIELD(wt_legs_arguments, solved_count), FIELD(wt_legs_arguments, solved_counter),
       FIELD(wt_legs_arguments, max_depth), FIELD(wt_legs_arguments, most), FIELD(wt_legs_arguments, deepest),
-      FIELD(wt_legs_arguments, blocker_mask), FIELD(wt_legs_arguments, tile_count),
-      FIELD(wt_legs_arguments, first_leg)}},
+      FIELD(wt_legs_arguments, blocker_mask), FIELD(wt_legs_arguments, tile_count), FIELD(wt_legs_arguments, first_leg),
+      FIELD(wt_legs_arguments, open)}},
     {"wt_lit_arguments",
      sizeof(wt_lit_arguments),
      {FIELD(wt_lit_arguments, node_count), FIELD(wt_lit_arguments, transmitter_count), FIELD(wt_lit_arguments, groups),
@@ -94,6 +95,24 @@ inline const std::vector<Record> argument_records{
      sizeof(wt_scatter_arguments),
      {FIELD(wt_scatter_arguments, entry_count), FIELD(wt_scatter_arguments, row_count),
       FIELD(wt_scatter_arguments, rows_per_item), FIELD(wt_scatter_arguments, max_depth)}},
+    {"wt_onlookers_arguments",
+     sizeof(wt_onlookers_arguments),
+     {FIELD(wt_onlookers_arguments, node_count), FIELD(wt_onlookers_arguments, reflections),
+      FIELD(wt_onlookers_arguments, first_tile), FIELD(wt_onlookers_arguments, end_tile),
+      FIELD(wt_onlookers_arguments, capacity)}},
+    {"wt_point_prefixes_arguments",
+     sizeof(wt_point_prefixes_arguments),
+     {FIELD(wt_point_prefixes_arguments, entry_count), FIELD(wt_point_prefixes_arguments, row_count),
+      FIELD(wt_point_prefixes_arguments, rows_per_item), FIELD(wt_point_prefixes_arguments, max_depth),
+      FIELD(wt_point_prefixes_arguments, capacity)}},
+    {"wt_point_join_arguments",
+     sizeof(wt_point_join_arguments),
+     {FIELD(wt_point_join_arguments, floor), FIELD(wt_point_join_arguments, count),
+      FIELD(wt_point_join_arguments, first), FIELD(wt_point_join_arguments, end), FIELD(wt_point_join_arguments, lanes),
+      FIELD(wt_point_join_arguments, hidden), FIELD(wt_point_join_arguments, transmitter_count),
+      FIELD(wt_point_join_arguments, groups), FIELD(wt_point_join_arguments, max_depth),
+      FIELD(wt_point_join_arguments, transmissions), FIELD(wt_point_join_arguments, row_depth),
+      FIELD(wt_point_join_arguments, capacity), FIELD(wt_point_join_arguments, padding)}},
     {"wt_crowns_arguments",
      sizeof(wt_crowns_arguments),
      {FIELD(wt_crowns_arguments, row_count), FIELD(wt_crowns_arguments, rows_per_item),

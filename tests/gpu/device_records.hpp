@@ -9,6 +9,7 @@
 #include "wavetracer/device/field_records.h"
 #include "wavetracer/device/moving.h"
 #include "wavetracer/device/packed_rays.h"
+#include "wavetracer/device/points.h"
 #include "wavetracer/device/records.h"
 #include "wavetracer/device/waypoints.h"
 
@@ -87,6 +88,11 @@ inline const std::vector<Record> other_records{
       FIELD(wt_wedge_prefix, last), FIELD(wt_wedge_prefix, image), FIELD(wt_wedge_prefix, along),
       FIELD(wt_wedge_prefix, away), FIELD(wt_wedge_prefix, length), FIELD(wt_wedge_prefix, quarters),
       FIELD(wt_wedge_prefix, pieces), FIELD(wt_wedge_prefix, first), FIELD(wt_wedge_prefix, final)}},
+    {"wt_point_prefix",
+     sizeof(wt_point_prefix),
+     {FIELD(wt_point_prefix, spread), FIELD(wt_point_prefix, row), FIELD(wt_point_prefix, end),
+      FIELD(wt_point_prefix, depth), FIELD(wt_point_prefix, transmissions), FIELD(wt_point_prefix, quarters),
+      FIELD(wt_point_prefix, padding)}},
     {"wt_wedge_candidate",
      sizeof(wt_wedge_candidate),
      {FIELD(wt_wedge_candidate, node), FIELD(wt_wedge_candidate, back), FIELD(wt_wedge_candidate, wedges),

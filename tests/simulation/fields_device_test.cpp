@@ -113,6 +113,11 @@ TEST_CASE("fields on the device are the host's to the last bit: rough surfaces")
   config.materials[0].scattering_lobe = 4;
   config.materials[0].scattering_cross_polar = 0.2;
   CHECK(check_same(config, 1)[scattering] > 200);
+  config.trace.scattering_reflections = 2;
+  config.trace.max_depth = 3;
+  auto kinds = check_same(config, 1);
+  CHECK(kinds[scattering] > 1000);
+  CHECK(kinds[reflection] > 1000);
 }
 
 TEST_CASE("fields on the device are the host's to the last bit: behind crowns, several of one kind") {

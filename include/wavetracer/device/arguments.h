@@ -115,6 +115,7 @@ typedef struct {
   wt_uint blocker_mask;    // mask of places in the table of what hid paths before
   wt_uint tile_count;      // tiles of surfaces; further tiles are cells of vegetation
   wt_uint first_leg;       // occlusion begins with this leg of each path
+  wt_uint open;            // 1: rows end at their last vertex; 0: at their receiver
 } wt_legs_arguments;
 
 typedef struct {

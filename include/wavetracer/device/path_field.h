@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
-// solve: specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions.
+// solve: specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions. A
+// tile ends one spherical wave and begins another, so mirrors on either side of it see the length on their side.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
@@ -47,7 +48,8 @@ typedef struct {
   wt_walk_leg leg;
   wt_transfer transfer;
   double spread, since_m, speed;
-  wt_uint solved;  // the number of the path in the list of solved ones
+  double section_m;  // the length of the path, or of its part on this side of the tile that it scatters from
+  wt_uint solved;    // the number of the path in the list of solved ones
 } wt_wave;
 
 // Goes past vertex k, without the vertex's effect on the wave. Returns the leg before it.
@@ -61,6 +63,21 @@ inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_
   wave->speed += wt_closing_speed_at(world, wt_step(path, k), wave->leg.from, leg.direction, wave->leg.direction);
   return leg;
 }
+
+#if WT_SCATTERS > 1
+// The length of the path as far as the tile or the cell that it scatters from, or else length_m, that of all of it.
+inline double wt_first_section(const wt_path* path, double length_m) {
+  double since_m = 0.0;
+  wt_double3 from = path->from;
+  for (wt_uint k = 0; k < path->depth; ++k) {
+    const wt_double3 to = wt_vertex(path, k);
+    since_m += wt_length3(to - from);
+    from = to;
+    if (wt_kind(path, k) == WT_STEP_SCATTERING) return since_m;
+  }
+  return length_m;
+}
+#endif
 
 // Goes from vertex k over reflections, transmissions and scattering to the next edge or the end, and returns it.
 inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path, double length_m, wt_uint k,
@@ -80,12 +97,19 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
 #endif
 #if WT_SCATTERS
     if ((step & WT_STEP_KIND) == WT_STEP_SCATTERING) {
-      wt_scatter_at(world, step & ~WT_STEP_KIND, leg.direction, wave->leg.direction, &wave->transfer);
+      wt_ulong mirrors = 0;
+#if WT_SCATTERS > 1
+      mirrors = wt_mirrors_around(path, k);
+      wave->section_m = length_m - wave->since_m;
+#endif
+      wt_scatter_at(world, step & ~WT_STEP_KIND, mirrors, leg.direction, wave->leg.direction, &wave->transfer);
       wave->spread = 1.0 / (wave->since_m * (length_m - wave->since_m));
       continue;
     }
 #endif
-    wt_meet_surface(world, step, leg.direction, wave->leg.direction, length_m, &wave->transfer);
+    const int mirrored = (step & WT_STEP_KIND) == WT_STEP_REFLECTION;
+    wt_meet_surface(world, step, leg.direction, wave->leg.direction, mirrored ? wave->section_m : length_m,
+                    &wave->transfer);
   }
   return k;
 }
@@ -166,6 +190,11 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const double length_m = wt_path_length(&path);
   wave.spread = 1.0 / length_m;
   wave.since_m = 0.0;
+#if WT_SCATTERS > 1
+  wave.section_m = wt_first_section(&path, length_m);
+#else
+  wave.section_m = length_m;
+#endif
   wave.solved = ordered->rows[row] >> 1;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS

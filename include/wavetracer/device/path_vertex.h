@@ -9,9 +9,10 @@
 #include "wavetracer/device/slab.h"
 #include "wavetracer/device/transfer.h"
 
-// A device need not compile code for things that the scene does not have.
+// A device need not compile code for things that the scene does not have. 1: paths that scatter have no reflection; 2:
+// they may have some.
 #ifndef WT_SCATTERS
-#define WT_SCATTERS 1
+#define WT_SCATTERS 2
 #endif
 
 #ifndef __OPENCL_VERSION__
@@ -58,9 +59,28 @@ inline void wt_scatter_in_cell(const wt_field_world* world, wt_uint tile, wt_uin
 }
 #endif
 
+#if WT_SCATTERS > 1
+// A hash of the mirrors that a path meets on its way from vertex k to one of its ends; 0 without any.
+inline wt_ulong wt_mirrors_beside(const wt_path* path, wt_uint k, int back) {
+  wt_ulong hash = 0;
+  for (wt_uint i = 1; back ? i <= k : k + i < path->depth; ++i) {
+    const wt_uint step = wt_step(path, back ? k - i : k + i);
+    if ((step & WT_STEP_KIND) == WT_STEP_REFLECTION) hash = wt_mixed(hash + 1 + (step & ~WT_STEP_KIND));
+  }
+  return hash;
+}
+
+// A hash of the mirrors on both sides of vertex k, the same for the reversed path. Paths over one tile by other mirrors
+// meet it under other angles, so their phases have nothing to do with each other.
+inline wt_ulong wt_mirrors_around(const wt_path* path, wt_uint k) {
+  return wt_mirrors_beside(path, k, 1) + wt_mirrors_beside(path, k, 0);
+}
+#endif
+
 #if WT_SCATTERS
-inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 k_in, wt_double3 k_out,
-                          wt_transfer* transfer) {
+// mirrors: see wt_random_phase.
+inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_ulong mirrors, wt_double3 k_in,
+                          wt_double3 k_out, wt_transfer* transfer) {
   const wt_uint surface = world->surface_of_tile[tile];
   const wt_material material = world->materials[world->materials_of[surface]];
   wt_layers layers = wt_no_layers();
@@ -70,7 +90,7 @@ inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_double3 
 #endif
   const wt_wave_map wave =
       wt_scatter(&material, layers, world->wavelength_m, k_in, k_out, wt_vector(world->surfaces[surface].normal),
-                 world->area_of_tile[tile], world->seed, tile);
+                 world->area_of_tile[tile], world->seed, tile, mirrors);
   wt_map(transfer, wave.from, wave.to, wave.matrix);
 }
 #endif

@@ -18,9 +18,10 @@ inline wt_ulong wt_mixed(wt_ulong x) {
   return x ^ (x >> 31);
 }
 
-// pair: 0 is TE to TE, 1 is TM to TM, 2 is TE to TM and TM to TE.
-inline wt_double2 wt_random_phase(wt_ulong seed, wt_uint tile, wt_ulong pair) {
-  const wt_ulong bits = wt_mixed(wt_mixed(seed + 0x9E3779B97F4A7C15ul) + 3ul * tile + pair);
+// pair: 0 is TE to TE, 1 is TM to TM, 2 is TE to TM and TM to TE. mirrors: wt_mirrors_around in path_vertex.h, 0 for a
+// tile or a cell without mirrors around it.
+inline wt_double2 wt_random_phase(wt_ulong seed, wt_uint tile, wt_ulong mirrors, wt_ulong pair) {
+  const wt_ulong bits = wt_mixed(wt_mixed(seed + 0x9E3779B97F4A7C15ul) + mirrors + 3ul * tile + pair);
   return wt_cos_sin(2.0 * WT_PI * (double)(bits >> 11) * 0x1p-53);
 }
 
@@ -66,9 +67,10 @@ inline wt_double2 wt_roots_of_reflection(const wt_material* material, wt_layers 
 }
 
 // The matrix is in metres, see ScatteredWave in host/radio/scattering.hpp. layers: those of the material, as both waves
-// meet them, which are on one side.
+// meet them, which are on one side. mirrors: see wt_random_phase.
 inline wt_wave_map wt_scatter(const wt_material* material, wt_layers layers, double wavelength_m, wt_double3 k_in,
-                              wt_double3 k_out, wt_double3 normal, double area_m2, wt_ulong seed, wt_uint tile) {
+                              wt_double3 k_out, wt_double3 normal, double area_m2, wt_ulong seed, wt_uint tile,
+                              wt_ulong mirrors) {
   const double cos_in = fmin(fabs(wt_dot3(k_in, normal)), 1.0), cos_out = fmin(fabs(wt_dot3(k_out, normal)), 1.0);
   const wt_double2 in = wt_roots_of_reflection(material, layers, cos_in, wavelength_m);
   const wt_double2 out = wt_roots_of_reflection(material, layers, cos_out, wavelength_m);
@@ -76,15 +78,15 @@ inline wt_wave_map wt_scatter(const wt_material* material, wt_layers layers, dou
   const double amplitude_m =
       material->scattering * sqrt(area_m2 * wt_scattering_pattern(material->lobe, cos_in, cos_out, cos_psi));
   const double same = amplitude_m * sqrt(1.0 - material->cross_polar);
-  const wt_double2 other = wt_random_phase(seed, tile, 2) * (amplitude_m * sqrt(material->cross_polar));
+  const wt_double2 other = wt_random_phase(seed, tile, mirrors, 2) * (amplitude_m * sqrt(material->cross_polar));
   wt_wave_map wave;
   wave.from = wt_polarizations(k_in, normal);
   wave.to = wt_polarizations(k_out, normal);
   // On the way back both TE vectors are reversed and the TM vectors are not, so the transposed dyad has a minus here.
-  wave.matrix.m[0] = wt_random_phase(seed, tile, 0) * (same * out.x * in.x);
+  wave.matrix.m[0] = wt_random_phase(seed, tile, mirrors, 0) * (same * out.x * in.x);
   wave.matrix.m[1] = other * (out.x * in.y);
   wave.matrix.m[2] = -other * (out.y * in.x);
-  wave.matrix.m[3] = wt_random_phase(seed, tile, 1) * (same * out.y * in.y);
+  wave.matrix.m[3] = wt_random_phase(seed, tile, mirrors, 1) * (same * out.y * in.y);
   return wave;
 }
 
@@ -96,14 +98,14 @@ inline wt_wave_map wt_scatter_in_leaves(const WT_GLOBAL wt_foliage* foliage, dou
                                         wt_double3 k_out, double volume_m3, wt_ulong seed, wt_uint tile) {
   const double amplitude_m = foliage->scattering * sqrt(extinction * volume_m3 / (4.0 * WT_PI));
   const double same = amplitude_m * sqrt(1.0 - foliage->cross_polar);
-  const wt_double2 other = wt_random_phase(seed, tile, 2) * (amplitude_m * sqrt(foliage->cross_polar));
+  const wt_double2 other = wt_random_phase(seed, tile, 0, 2) * (amplitude_m * sqrt(foliage->cross_polar));
   wt_wave_map wave;
   wave.from = wt_spherical_basis(k_in);
   wave.to = wt_spherical_basis(k_out);
-  wave.matrix.m[0] = wt_random_phase(seed, tile, 0) * same;
+  wave.matrix.m[0] = wt_random_phase(seed, tile, 0, 0) * same;
   wave.matrix.m[1] = other;
   wave.matrix.m[2] = -other;
-  wave.matrix.m[3] = wt_random_phase(seed, tile, 1) * same;
+  wave.matrix.m[3] = wt_random_phase(seed, tile, 0, 1) * same;
   return wave;
 }
 
