@@ -81,9 +81,10 @@ class Server {
   }
   void connect_to(const void* address, size_t size, const std::string& name) {
     if (::connect(socket_, static_cast<const sockaddr*>(address), static_cast<socklen_t>(size)) == 0) return;
-    const int code = errno;
+    const std::string why = std::strerror(errno);
     close(socket_);
-    throw std::system_error(code, std::generic_category(), name);
+    throw std::runtime_error("no server answers at " + name + " (" + why +
+                             "); this starts one: wavetracer serve -c configs/live.toml --listen " + name);
   }
   void connect_unix(const std::string& path) {
     sockaddr_un address{};
@@ -91,7 +92,7 @@ class Server {
     if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + " is too long for a Unix socket");
     std::memcpy(address.sun_path, path.data(), path.size());
     open(AF_UNIX);
-    connect_to(&address, sizeof address, path);
+    connect_to(&address, sizeof address, "unix:" + path);
   }
   void connect_tcp(const std::string& name) {
     const size_t colon = name.rfind(':');
@@ -101,7 +102,7 @@ class Server {
       throw std::runtime_error(name + " is not ADDRESS:PORT with an IPv4 address");
     address.sin_port = htons(static_cast<uint16_t>(std::stoul(name.substr(colon + 1))));
     open(AF_INET);
-    connect_to(&address, sizeof address, name);
+    connect_to(&address, sizeof address, "tcp:" + name);
     const int on = 1;  // each answer is waited for: do not collect small packets
     setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   }

@@ -11,6 +11,7 @@ every field. It needs Python 3.9 and nothing else.
 import argparse
 import json
 import socket
+import sys
 
 
 class LiveError(Exception):
@@ -53,18 +54,28 @@ def read_columns(data):
     return item()
 
 
+def connect(name):
+    """A socket to tcp:ADDRESS:PORT or unix:PATH."""
+    kind, _, rest = name.partition(":")
+    if kind == "unix":
+        out = socket.socket(socket.AF_UNIX)
+        out.connect(rest)
+        return out
+    host, port = rest.rsplit(":", 1)
+    out = socket.create_connection((host.strip("[]"), int(port)))
+    out.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return out
+
+
 class Server:
     """A connection to a server at tcp:ADDRESS:PORT or unix:PATH; .world is its answer to hello."""
 
     def __init__(self, name="tcp:127.0.0.1:7710", token=None, **hello):
-        kind, _, rest = name.partition(":")
-        if kind == "unix":
-            self.socket = socket.socket(socket.AF_UNIX)
-            self.socket.connect(rest)
-        else:
-            host, port = rest.rsplit(":", 1)
-            self.socket = socket.create_connection((host.strip("[]"), int(port)))
-            self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        try:
+            self.socket = connect(name)
+        except OSError as error:
+            raise ConnectionError(f"no server answers at {name} ({error.strerror or error}); this starts one: wavetracer "
+                                  f"serve -c configs/live.toml --listen {name}") from None
         self.lines = self.socket.makefile("rb")
         self.frames = 0
         if token:
@@ -150,4 +161,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except ConnectionError as error:
+        sys.exit(f"live_client: {error}")

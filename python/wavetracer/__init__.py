@@ -23,7 +23,7 @@ if _typing.TYPE_CHECKING:
     from ._coverage import coverage
     from ._library import Counts, columns, devices, version
     from ._page import Page, view
-    from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
+    from .errors import ArgumentError, ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
     from .frame import Frame
     from .gradients import Derivative, Gradients
     from .links import Links
@@ -44,7 +44,7 @@ __all__ = ["Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", 
 _MODULES = {
     "_calibration": ("Calibration", "calibrate"), "_coverage": ("coverage",),
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
-    "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
+    "errors": ("ArgumentError", "ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
     "gradients": ("Derivative", "Gradients"),
     "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
     "simulation": ("Simulation",), "sionna": ("from_sionna",)}
