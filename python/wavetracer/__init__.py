@@ -35,9 +35,9 @@ if _typing.TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", "Error", "Frame", "FrameStopped",
+__all__ = ["ArgumentError", "Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", "Error", "Frame", "FrameStopped",
            "Gradients", "InputError", "Links", "Page", "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "calibrate", "columns", "configs",
-           "coverage", "devices", "from_sionna", "version", "view"]
+           "coverage", "devices", "examples", "from_sionna", "version", "view"]
 
 # The module of each name. Modules are imported when a name is asked for: the command `wavetracer` needs neither the
 # library in this process nor NumPy, and does not wait for them.
@@ -72,12 +72,16 @@ def open(folder: str | _os.PathLike[str]) -> Run:  # not in __all__: `import *` 
     return Run(folder)
 
 
-def _find_configs() -> _pathlib.Path:
+def _find(in_wheel: str, installed: str, in_tree: str, file: str) -> _pathlib.Path:
+    """The folder that has the file: in a wheel, below the prefix of an installation, or in the source tree."""
     here = _pathlib.Path(__file__).resolve()
-    places = [here.parent / "share/configs", *(folder / "share/wavetracer/configs" for folder in here.parents[3:5]),
-              *(folder / "configs" for folder in here.parents[2:3])]
-    return next((place for place in places if (place / "demo.toml").exists()), places[0])
+    places = [here.parent / in_wheel, *(folder / installed for folder in here.parents[3:5]),
+              *(folder / in_tree for folder in here.parents[2:3])]
+    return next((place for place in places if (place / file).exists()), places[0])
 
 
-configs: _pathlib.Path = _find_configs()
+configs: _pathlib.Path = _find("share/configs", "share/wavetracer/configs", "configs", "demo.toml")
 """The folder of the configurations that come with the package: configs / "demo.toml" and others."""
+
+examples: _pathlib.Path = _find("share/examples", "share/doc/wavetracer/examples", "docs/examples", "live_client.py")
+"""The folder of the examples that come with the package: a notebook, clients of the live server and others."""

@@ -28,7 +28,7 @@ def _xarray() -> Any:
         import xarray
     except ImportError:
         raise ImportError('wt.coverage returns an xarray.Dataset, and xarray is not installed: `pip install xarray`, or '
-                          '`pip install "wavetracer[notebook]"`') from None
+                          'the extra `notebook` of the wheel') from None
     return xarray
 
 
