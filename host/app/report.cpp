@@ -23,23 +23,19 @@ namespace {
 
 constexpr size_t shown_pairs = 3;  // number of the strongest pairs, and of the weakest
 
-std::string duration(double seconds) {
-  return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
-}
-
 // For one frame it says how it was timed; for many, how their times are distributed.
 std::string frame_line(const Run& run, const Totals& totals) {
   const double median_s = median_seconds(totals, "frame"), sum_s = sum_seconds(totals, "frame");
   const uint32_t repeats = run.summary.repeat_count;
   if (totals.frames == 1)
-    return fmt::format("frame      {} ({})\n", duration(median_s),
+    return fmt::format("frame      {} ({})\n", duration_text(median_s),
                        repeats > 1
                            ? fmt::format("median of {}", repeats)
                            : "the first frame, which includes start-up work; --repeat 5 gives the median of five");
   const double span_s = totals.end_s - totals.start_s;
   std::string line = fmt::format("frames     {} from {} to {} s in steps of {:.6g} s; median {}", totals.frames,
                                  time_text(totals.start_s), time_text(totals.end_s),
-                                 span_s / static_cast<double>(totals.frames - 1), duration(median_s));
+                                 span_s / static_cast<double>(totals.frames - 1), duration_text(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
   if (repeats > 1) line += fmt::format("; each {} times", repeats);
   return line + "\n";
@@ -253,7 +249,7 @@ std::string compile_line(const Run& run) {
   if (!seconds.contains("compile")) return "";
   const auto check = seconds.find("device check");
   return fmt::format("compiled   in {}\n",
-                     duration(seconds.at("compile") + (check == seconds.end() ? 0.0 : check->second)));
+                     duration_text(seconds.at("compile") + (check == seconds.end() ? 0.0 : check->second)));
 }
 
 // Says what frames without rays may lack.
