@@ -43,13 +43,15 @@ def read_columns(data):
             return [item() for _ in range(value)]
         if kind == 5:
             return {item(): item() for _ in range(value)}
-        letter = "B"
+        form = 64
         if kind == 6:
-            letter = {64: "B", 70: "I", 86: "d"}[value]
+            form = value
             kind, value = head()
         part = view[place:place + value]
         place += value
-        return str(part, "utf-8") if kind == 3 else part.cast(letter)
+        if kind == 3:
+            return str(part, "utf-8")
+        return part.cast("I") if form == 70 else part.cast("d") if form == 86 else part
 
     return item()
 
