@@ -162,6 +162,14 @@ const char* loading_words() {
              : "loading the scene, compiling the kernels";
 }
 
+// Returns a note on the figures of an earlier run in this folder, which stay as they are; empty if there are none.
+std::string old_plots(const fs::path& directory) {
+  std::error_code error;
+  return fs::is_directory(directory / "plots", error)
+             ? "; the figures in plots stay those of that run until `wavetracer plot` draws them anew"
+             : "";
+}
+
 void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& progress) {
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
@@ -197,7 +205,8 @@ void run(const RunOptions& options, Invocation& invocation) {
   std::optional<FolderHold> folder;
   if (sharing != Sharing::shard) folder.emplace(directory, this_process(ranks.job, ranks.rank));
   if (ranks.rank == 0 && !options.resume && folder)
-    if (const std::string earlier = earlier_results(directory); !earlier.empty()) progress.line("replaces " + earlier);
+    if (const std::string earlier = earlier_results(directory); !earlier.empty())
+      progress.line("replaces " + earlier + old_plots(directory));
   if (ranks.rank == 0) progress.line(loading_words());
   Simulation simulation = [&] {
     const EndOnInterrupt at_once([&folder] { folder.reset(); },

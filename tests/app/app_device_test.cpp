@@ -295,4 +295,7 @@ TEST_CASE("a run says what it replaces, and removes a page of the run before") {
   CHECK(contains(again.err,
                  "replaces paths.h5, links.csv, summary.json, view.html of an earlier run in " + folder.path("out")));
   CHECK_FALSE(std::filesystem::exists(folder.path("out/view.html")));
+  std::filesystem::create_directory(folder.path("out/plots"));
+  CHECK(
+      contains(run_program(words).err, "; the figures in plots stay those of that run until `wavetracer plot` draws"));
 }
