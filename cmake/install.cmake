@@ -75,5 +75,7 @@ find_file(WAVETRACER_PROJ_DATA proj.db PATHS /usr/share/proj /usr/local/share/pr
 if(WAVETRACER_PROJ_DATA)
   install(FILES ${WAVETRACER_PROJ_DATA} DESTINATION wavetracer/share/proj COMPONENT wheel EXCLUDE_FROM_ALL)
 endif()
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION wavetracer/share COMPONENT wheel EXCLUDE_FROM_ALL
+  PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/configs DESTINATION wavetracer/share COMPONENT wheel EXCLUDE_FROM_ALL
   PATTERN *.fcd.xml EXCLUDE PATTERN out EXCLUDE)

@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import zipfile
 
 here = pathlib.Path(__file__).resolve().parent
@@ -41,6 +42,12 @@ def licences(elves):
     return found
 
 
+def date_time():
+    """The time of files that are added: SOURCE_DATE_EPOCH, else now. An archive knows none before 1980."""
+    seconds = max(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), 315532800)
+    return time.gmtime(seconds)[:6]
+
+
 def add_licences(wheel, work):
     """Into a wheel that auditwheel has not seen yet; it writes the list of files anew. Returns how many."""
     with zipfile.ZipFile(wheel, "a", zipfile.ZIP_DEFLATED) as archive:
@@ -49,7 +56,10 @@ def add_licences(wheel, work):
         folder = next(name for name in names if name.endswith(".dist-info/RECORD")).removesuffix("RECORD")
         texts = licences(elves)
         for package, text in sorted(texts.items()):
-            archive.write(text, f"{folder}licenses/libraries/{package}.txt")
+            # The time is that of the release, and not of the package's installation.
+            about = zipfile.ZipInfo(f"{folder}licenses/libraries/{package}.txt", date_time())
+            about.external_attr = 0o100644 << 16
+            archive.writestr(about, text.read_bytes(), zipfile.ZIP_DEFLATED)
     return len(texts)
 
 

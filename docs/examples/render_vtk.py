@@ -22,9 +22,9 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRendere
 
 def files_of(folder, frame):
     """The files of one time, as the .pvd lists them; times count from 0."""
-    steps = {}
+    steps: dict[float, list[str]] = {}
     for row in ET.parse(os.path.join(folder, "run.pvd")).getroot().iter("DataSet"):
-        steps.setdefault(float(row.get("timestep")), []).append(os.path.join(folder, row.get("file")))
+        steps.setdefault(float(row.attrib["timestep"]), []).append(os.path.join(folder, row.attrib["file"]))
     times = sorted(steps)
     if not 0 <= frame < len(times):
         sys.exit(f"{folder}: has times 0 to {len(times) - 1}")

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include "base/digits.hpp"
+#include "base/times.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
@@ -24,8 +26,6 @@ const Row* reference(const Study& study, const std::string& axis) {
 
 std::string keys(const Row& row) { return fmt::format("{}", fmt::join(row.setting.keys, ", ")); }
 
-std::string milliseconds(const Row& row) { return fmt::format("{:.3g} ms", 1e3 * row.frame_s); }
-
 std::string decibels(const study::PathError& error) {
   return std::isnan(error.power_median_db) ? ""
                                            : fmt::format("{:.2g} dB at the median link, {:.2g} dB at the worst",
@@ -34,11 +34,11 @@ std::string decibels(const study::PathError& error) {
 
 // Says which rays or depth a limit needs, or that no row keeps it.
 std::string limit_text(const Row* best, const Row& whole) {
-  if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), milliseconds(whole));
+  if (!best) return fmt::format("only the reference, {} ({} per frame)", keys(whole), duration_text(whole.frame_s));
   return fmt::format(
       "{} ({} per frame; loses {} of the power and {} of the paths). "
       "{}, the reference of this comparison, takes {:.3g} times as long",
-      keys(*best), milliseconds(*best), share_text(best->error.lost_power), share_text(best->error.lost_share),
+      keys(*best), duration_text(best->frame_s), share_text(best->error.lost_power), share_text(best->error.lost_share),
       keys(whole), whole.frame_s / best->frame_s);
 }
 
@@ -84,7 +84,8 @@ void add_reuse(const Study& study, std::vector<std::string>& out) {
   if (!on || !off || !reference(study, "rays")) return;
   out.push_back(fmt::format(
       "Reuse from frame to frame, trace.reuse=true: {} per frame and {} of the power lost; without it {} and {}",
-      milliseconds(*on), share_text(on->error.lost_power), milliseconds(*off), share_text(off->error.lost_power)));
+      duration_text(on->frame_s), share_text(on->error.lost_power), duration_text(off->frame_s),
+      share_text(off->error.lost_power)));
 }
 
 // Says what the mechanism gains, on top of the user's other settings.
@@ -94,13 +95,14 @@ std::string mechanism_text(const Mechanism& mechanism, const Row& on, const Row&
   if (error.lost == 0 && error.spurious == 0) {
     text += "adds no path";
   } else {
-    text += fmt::format("{} more paths, {} of all power", error.lost, share_text(error.lost_power));
+    text += fmt::format("{} more paths, {} of all power", grouped(error.lost), share_text(error.lost_power));
     if (!decibels(error).empty()) text += "; path gains change by " + decibels(error);
   }
   if (error.links_lost > 0)
     text += fmt::format("; {} no path without it",
                         error.links_lost == 1 ? "one link has" : fmt::format("{} links have", error.links_lost));
-  return text + fmt::format("; a frame takes {} with it, {} without. {}", milliseconds(on), milliseconds(off),
+  return text + fmt::format("; a frame takes {} with it, {} without. {}", duration_text(on.frame_s),
+                            duration_text(off.frame_s),
                             on.own    ? "Yours is on"
                             : off.own ? "Yours is off"
                                       : "Yours is off, as is what it needs");

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <new>
+#include "base/digits.hpp"
+#include "base/times.hpp"
 #include "wavetracer/config_file.hpp"
 #include "wavetracer/error.hpp"
 
@@ -114,8 +116,9 @@ class Measurement {
     }
     out_.rows.push_back(row);
     host_.say(fmt::format("{} of {}: {} {}{}", out_.rows.size(), out_.planned, setting.axis, setting.name,
-                          row.measured() ? fmt::format(", {:.4g} ms per frame, {} paths", 1e3 * row.frame_s, row.paths)
-                                         : ": not measured: " + row.refusal));
+                          row.measured()
+                              ? fmt::format(", {} per frame, {} paths", duration_text(row.frame_s), grouped(row.paths))
+                              : ": not measured: " + row.refusal));
   }
 
   bool measure_axis(const Axis& axis) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include "accuracy/advice.hpp"
 #include "base/csv_columns.hpp"
+#include "base/digits.hpp"
+#include "base/times.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
@@ -40,8 +42,11 @@ const Columns<Row>& columns() {
   return all;
 }
 
+// A smaller error is that of rounding: between two solutions of the same paths.
+constexpr double least_error = 1e-9;
+
 std::string rounded(double value) {
-  return !std::isfinite(value) ? "" : value == 0 ? "0" : fmt::format("{:.2g}", value);
+  return !std::isfinite(value) ? "" : std::abs(value) < least_error ? "0" : fmt::format("{:.2g}", value);
 }
 
 std::string share_cell(double share) { return std::isnan(share) ? "" : share == 0 ? "0" : share_text(share); }
@@ -59,7 +64,7 @@ std::vector<std::string> short_columns() {
   return {"axis",
           "setting",
           "",
-          "frame ms",
+          "frame",
           "paths",
           "lost paths",
           "lost power",
@@ -77,22 +82,21 @@ std::vector<std::string> short_cells(const Row& row) {
   return {row.setting.axis,
           row.setting.name,
           role,
-          fmt::format("{:.4g}", 1e3 * row.frame_s),
-          std::to_string(row.paths),
+          duration_text(row.frame_s),
+          grouped(row.paths),
           share_cell(e.lost_share),
           share_cell(e.lost_power),
           rounded(e.power_median_db),
           rounded(e.power_max_db),
           rounded(e.delay_spread_ns),
           rounded(e.doppler_spread_hz),
-          e.links_lost > 0 ? std::to_string(e.links_lost) : "0"};
+          grouped(e.links_lost)};
 }
 
 std::string encode_text(const std::vector<Row>& rows) {
   // Names are shorter than on the page, so that a row fits a terminal.
-  std::vector<std::vector<std::string>> lines = {{"axis", "setting", "", "frame ms", "paths", "lost paths",
-                                                  "lost power", "gain dB", "worst dB", "delay ns", "Doppler Hz",
-                                                  "links lost"}};
+  std::vector<std::vector<std::string>> lines = {{"axis", "setting", "", "frame", "paths", "lost paths", "lost power",
+                                                  "gain dB", "worst dB", "delay ns", "Doppler Hz", "links lost"}};
   for (const Row& row : rows) lines.push_back(short_cells(row));
   std::vector<size_t> widths(lines.front().size(), 0);
   for (size_t line = 0; line < lines.size(); ++line)

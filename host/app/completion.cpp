@@ -29,6 +29,22 @@ std::string brief(const std::string& doc) { return doc.substr(0, doc.find(';'));
 
 bool is_set(const OptionText& option) { return std::ranges::find(option.names, "--set") != option.names.end(); }
 
+// Returns the keys that `wavetracer help` explains. They are too many for the man page.
+std::vector<std::string> explained_keys() {
+  std::vector<std::string> out;
+  for (const auto& [key, choices] : config::settable_keys()) out.push_back(replaced(key, ".0.", "."));
+  return out;
+}
+
+// Returns the words that complete a value of the option of this command.
+std::vector<std::string> offered(const CommandText& command, const OptionText& option) {
+  std::vector<std::string> out = option.choices;
+  if (command.path != "help" || !option.positional()) return out;
+  const std::vector<std::string> keys = explained_keys();
+  out.insert(out.end(), keys.begin(), keys.end());
+  return out;
+}
+
 // --- bash ---
 
 // Returns one line of a `case` with the words to offer.
@@ -36,8 +52,23 @@ std::string bash_case(const std::string& pattern, const std::string& words) {
   return fmt::format("    {}) words={} ;;\n", pattern, shell_quoted(words));
 }
 
+// Returns the keys with their equals signs, as --set takes them.
+std::string set_words() {
+  std::vector<std::string> out;
+  for (const auto& [key, choices] : config::settable_keys()) out.push_back(key + "=");
+  return joined(out);
+}
+
+// Returns a line for each key that has words.
+std::string bash_key_values() {
+  std::string out;
+  for (const auto& [key, choices] : config::settable_keys())
+    if (!choices.empty()) out += bash_case("*" + shell_quoted(" " + key), joined(choices));
+  return out;
+}
+
 std::string bash(const CommandText& program) {
-  std::string commands, words, values, keys;
+  std::string commands, words, values, topics;
   for (const CommandText* command : all_commands(program)) {
     std::vector<std::string> offered;
     for (const CommandText& sub : command->commands) {
@@ -52,11 +83,10 @@ std::string bash(const CommandText& program) {
           values += bash_case(shell_quoted(command->path + " " + name), joined(option.choices));
       }
     }
-    words += bash_case(shell_quoted(command->path), joined(offered));
-  }
-  for (const auto& [key, choices] : config::settable_keys()) {
-    keys += (keys.empty() ? "" : " ") + key + "=";
-    if (!choices.empty()) values += bash_case("*" + shell_quoted(" " + key), joined(choices));
+    if (command->path == "help")
+      topics = joined(offered);
+    else
+      words += bash_case(shell_quoted(command->path), joined(offered));
   }
   return fmt::format(
       R"(# Completion of wavetracer for bash. Written by `wavetracer documentation --completion bash`: do not edit.
@@ -83,6 +113,10 @@ _wavetracer() {{
       compopt -o nospace
       ;;
 {}    *.*) ;;
+    'help '*)
+      words={}
+      [[ $current == *.* ]] || words={}
+      ;;
     *)
       case "$path" in
 {}      esac
@@ -95,7 +129,8 @@ _wavetracer() {{
 }}
 complete -o bashdefault -o default -F _wavetracer wavetracer
 )",
-      commands, shell_quoted(keys), values, replaced("    " + words, "\n    ", "\n        "));
+      commands, shell_quoted(set_words()), values + bash_key_values(), shell_quoted(joined(explained_keys())),
+      shell_quoted(topics), replaced("    " + words, "\n    ", "\n        "));
 }
 
 // --- zsh ---
@@ -109,10 +144,10 @@ std::string zsh_text(const std::string& text) {
 
 std::string zsh_function(const std::string& path) { return "_wavetracer_" + replaced(path, " ", "_"); }
 
-std::string zsh_option(const OptionText& option) {
+std::string zsh_option(const CommandText& command, const OptionText& option) {
   const std::string action = is_set(option)           ? "_wavetracer_set"
                              : option.choices.empty() ? "_files"
-                                                      : "(" + joined(option.choices) + ")";
+                                                      : "(" + joined(offered(command, option)) + ")";
   const std::string value = option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + action;
   if (option.positional()) return fmt::format("'{}{}'", option.repeats ? "*" : "", value);
   const std::string names = option.names.size() > 1 ? "{" + joined(option.names, ",") + "}" : option.names.front();
@@ -126,7 +161,7 @@ std::string zsh(const CommandText& program) {
     keys += fmt::format("  {}{}\n", shell_quoted(key), choices.empty() ? " ''" : " " + shell_quoted(joined(choices)));
   for (const CommandText* command : all_commands(program)) {
     std::string arguments, cases;
-    for (const OptionText& option : command->options) arguments += " \\\n    " + zsh_option(option);
+    for (const OptionText& option : command->options) arguments += " \\\n    " + zsh_option(*command, option);
     for (const CommandText& sub : command->commands)
       cases += fmt::format("    {}) {} ;;\n", sub.name, zsh_function(sub.path));
     if (!command->commands.empty()) {
@@ -199,7 +234,7 @@ std::string fish(const CommandText& program) {
       if (is_set(option))
         value = " -x -a '$__wavetracer_sets'";
       else if (!option.choices.empty())
-        value = " -x -a " + shell_quoted(joined(option.choices));
+        value = " -x -a " + shell_quoted(joined(offered(*command, option)));
       else if (!option.value.empty() && !option.positional())
         value = " -r";
       if (!option.positional() || !option.choices.empty())

@@ -3,6 +3,7 @@
 #pragma once
 #include <fmt/format.h>
 #include <CLI/Validators.hpp>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <string>
@@ -10,7 +11,10 @@
 
 namespace wavetracer::app {
 
-inline std::string range_end(double number) { return fmt::format("{:g}", number); }
+inline std::string range_end(double number) {
+  return number >= 1000 && number == std::floor(number) ? grouped(static_cast<uint64_t>(number))
+                                                        : fmt::format("{:g}", number);
+}
 inline std::string range_end(std::integral auto number) {
   return number < 0 ? fmt::format("{}", number) : grouped(static_cast<uint64_t>(number));
 }

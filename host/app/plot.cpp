@@ -13,16 +13,20 @@ namespace wavetracer::app {
 namespace {
 
 struct PlotOptions {
-  std::string run, folder, format = "svg";
+  std::string run, folder;
+  std::vector<std::string> formats;
   std::optional<uint32_t> frame;
   plots::PlotChoice choice;
 };
 
 void plot(PlotOptions options) {
   options.choice.link.frame = options.frame;
-  options.choice.format = options.format == "svg"   ? plots::Format::svg
-                          : options.format == "png" ? plots::Format::png
-                                                    : plots::Format::pdf;
+  if (options.formats.empty()) options.formats = {"svg", "png"};
+  options.choice.formats.clear();
+  for (const std::string& format : options.formats)
+    options.choice.formats.push_back(format == "svg"   ? plots::Format::svg
+                                     : format == "png" ? plots::Format::png
+                                                       : plots::Format::pdf);
   const SavedRun run(options.run);
   const std::filesystem::path folder =
       options.folder.empty() ? run.file().parent_path() / "plots" : std::filesystem::path(options.folder);
@@ -57,7 +61,12 @@ void add_plot(CLI::App& program) {
   command->add_option("--frame", options->frame,
                       "Number of the frame for figures that show one frame; if not given, "
                       "the frame of the strongest link, and the first frame for coverage and rays");
-  command->add_option("--format", options->format, "svg, png or pdf")->check(CLI::IsMember({"svg", "png", "pdf"}));
+  command
+      ->add_option("--format", options->formats,
+                   "Formats of the figures, separated by commas: svg, png, pdf; svg and png if not given")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"svg", "png", "pdf"}));
   command->callback([options] { plot(*options); });
 }
 

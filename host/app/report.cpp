@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include "app/written_files.hpp"
 #include "base/digits.hpp"
@@ -22,23 +23,19 @@ namespace {
 
 constexpr size_t shown_pairs = 3;  // number of the strongest pairs, and of the weakest
 
-std::string duration(double seconds) {
-  return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
-}
-
 // For one frame it says how it was timed; for many, how their times are distributed.
 std::string frame_line(const Run& run, const Totals& totals) {
   const double median_s = median_seconds(totals, "frame"), sum_s = sum_seconds(totals, "frame");
   const uint32_t repeats = run.summary.repeat_count;
   if (totals.frames == 1)
-    return fmt::format("frame      {} ({})\n", duration(median_s),
+    return fmt::format("frame      {} ({})\n", duration_text(median_s),
                        repeats > 1
                            ? fmt::format("median of {}", repeats)
                            : "the first frame, which includes start-up work; --repeat 5 gives the median of five");
   const double span_s = totals.end_s - totals.start_s;
   std::string line = fmt::format("frames     {} from {} to {} s in steps of {:.6g} s; median {}", totals.frames,
                                  time_text(totals.start_s), time_text(totals.end_s),
-                                 span_s / static_cast<double>(totals.frames - 1), duration(median_s));
+                                 span_s / static_cast<double>(totals.frames - 1), duration_text(median_s));
   if (sum_s > 0) line += fmt::format(", {:.3g} frames/s", static_cast<double>(totals.frames) / sum_s);
   if (repeats > 1) line += fmt::format("; each {} times", repeats);
   return line + "\n";
@@ -124,10 +121,28 @@ std::string missed_unknown_line(const Run& run, const Totals& totals) {
   return fmt::format("{:<11}unknown{}: {}\n", of.frames > 0 ? "" : "missed", frames, missed_unknown_reason(run.config));
 }
 
-// The keys that make a run find more.
-std::string more_rays(const TraceConfig& trace) {
+// Are there receivers that do not send? With diffraction, and without trace.edge_rays, they launch rays of their own.
+bool receivers_launch(const Config& config) {
+  if (!config.trace.diffraction || config.trace.edge_rays > 0) return false;
+  std::unordered_set<std::string_view> senders;
+  for (const RadioEnd& end : config.transmitters) senders.insert(end.name);
+  return std::ranges::any_of(config.receivers, [&](const RadioEnd& end) { return !senders.contains(end.name); });
+}
+
+uint64_t diffracted_paths(const Totals& totals) {
+  const auto at = std::ranges::find(path_kinds, "diffracted", &PathKind::word);
+  return totals.kinds[static_cast<size_t>(at - path_kinds.begin())];
+}
+
+// The keys that make a run find more. Where most paths are diffracted, so are most of those that were missed: they need
+// the rays of both ends, and those of receivers are fewer.
+std::string more_rays(const Config& config, const Totals& totals) {
+  const TraceConfig& trace = config.trace;
   const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
-  return trace.diffraction && trace.edge_rays > 0 ? rays + " or trace.edge_rays" : rays;
+  if (trace.diffraction && trace.edge_rays > 0) return rays + " or trace.edge_rays";
+  if (!receivers_launch(config) || 2 * diffracted_paths(totals) <= totals.counts.paths) return rays;
+  return trace.rays ? "number of trace.diffraction_rays (at most trace.rays)"
+                    : "trace.recall and number of trace.diffraction_rays";
 }
 
 // Says what rays may have missed; empty without rays.
@@ -141,7 +156,7 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
-                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run.config.trace))) +
+                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run.config, totals))) +
          missed_unknown_line(run, totals);
 }
 
@@ -242,7 +257,7 @@ std::string compile_line(const Run& run) {
   if (!seconds.contains("compile")) return "";
   const auto check = seconds.find("device check");
   return fmt::format("compiled   in {}\n",
-                     duration(seconds.at("compile") + (check == seconds.end() ? 0.0 : check->second)));
+                     duration_text(seconds.at("compile") + (check == seconds.end() ? 0.0 : check->second)));
 }
 
 // Says what frames without rays may lack.

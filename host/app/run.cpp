@@ -13,6 +13,7 @@
 #include "app/named_files.hpp"
 #include "app/number_range.hpp"
 #include "app/report.hpp"
+#include "gpu/cache.hpp"
 #include "jobs/devices_option.hpp"
 #include "jobs/drive.hpp"
 #include "jobs/earlier_run.hpp"
@@ -154,6 +155,21 @@ Sharing sharing_of(const RunOptions& options, const Ranks& ranks) {
   return options.starts_processes() ? Sharing::starter : Sharing::alone;
 }
 
+// The words change for a first start, where compiling may take tens of seconds.
+const char* loading_words() {
+  return gpu::ProgramCache::from_environment().waits_for_first()
+             ? "loading the scene, compiling the kernels, which takes long the first time only"
+             : "loading the scene, compiling the kernels";
+}
+
+// Returns a note on the figures of an earlier run in this folder, which stay as they are; empty if there are none.
+std::string old_plots(const fs::path& directory) {
+  std::error_code error;
+  return fs::is_directory(directory / "plots", error)
+             ? "; the figures in plots stay those of that run until `wavetracer plot` draws them anew"
+             : "";
+}
+
 void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& progress) {
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
@@ -189,8 +205,9 @@ void run(const RunOptions& options, Invocation& invocation) {
   std::optional<FolderHold> folder;
   if (sharing != Sharing::shard) folder.emplace(directory, this_process(ranks.job, ranks.rank));
   if (ranks.rank == 0 && !options.resume && folder)
-    if (const std::string earlier = earlier_results(directory); !earlier.empty()) progress.line("replaces " + earlier);
-  if (ranks.rank == 0) progress.line("loading the scene, compiling the kernels");
+    if (const std::string earlier = earlier_results(directory); !earlier.empty())
+      progress.line("replaces " + earlier + old_plots(directory));
+  if (ranks.rank == 0) progress.line(loading_words());
   Simulation simulation = [&] {
     const EndOnInterrupt at_once([&folder] { folder.reset(); },
                                  ranks.started ? "" : "interrupted before the first frame; nothing was written");

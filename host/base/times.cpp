@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include "base/digits.hpp"
 
 namespace wavetracer {
 
@@ -15,6 +16,12 @@ double time_spacing_s(double time_s) {
 }
 
 double time_tolerance_s(double time_s) { return std::max(1e-6, 2 * time_spacing_s(time_s)); }
+
+std::string duration_text(double seconds) {
+  if (seconds < 0.9995) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return seconds < 999.5 ? fmt::format("{:.3g} s", seconds)
+                         : grouped(static_cast<uint64_t>(std::nearbyint(seconds))) + " s";
+}
 
 double simplest_decimal(double value, double error) {
   for (int digits = 0; digits < 16; ++digits) {

@@ -18,6 +18,9 @@ double time_tolerance_s(double time_s);
 // digits.
 double simplest_decimal(double value, double error);
 
+// Returns how long something takes, with three digits: "1.66 s", "383 ms", "1,230 s".
+std::string duration_text(double seconds);
+
 // Returns text such as "1700000000.1": the time rounded to a microsecond, or, below a millisecond, to six digits.
 std::string time_text(double time_s);
 

@@ -54,6 +54,12 @@ ProgramCache ProgramCache::from_environment() {
   return ProgramCache(root / "wavetracer" / "programs");
 }
 
+bool ProgramCache::waits_for_first() const {
+  std::error_code error;
+  return !directory_.empty() &&
+         (!std::filesystem::exists(directory_, error) || std::filesystem::is_empty(directory_, error));
+}
+
 std::filesystem::path ProgramCache::path(const ProgramKey& key) const {
   return directory_ / fnv1a_128(key.text() + key.source);
 }

@@ -33,6 +33,9 @@ class ProgramCache {
   // compiles again: returns a message for the user then, else an empty text.
   std::string store(const ProgramKey& key, std::string_view compiled) const;
 
+  // Is there a folder for programs that holds none yet, as before the first start?
+  bool waits_for_first() const;
+
   // Returns the file of this key's program.
   std::filesystem::path path(const ProgramKey& key) const;
 

@@ -14,6 +14,10 @@ namespace {
 
 constexpr double bar_interval_s = 0.1, line_interval_s = 10;
 
+// Studies begin with few rays, each of which takes long, so the time left is not told before this share of them.
+constexpr double told_share = 0.01;
+constexpr const char* rays_unit = "rays";
+
 // such as 1:05, 1:02:03
 std::string clock_time(double seconds) {
   const auto whole = static_cast<uint64_t>(seconds + 0.5);
@@ -84,8 +88,9 @@ std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64
   std::string out = "elapsed " + clock_time(seconds);
   if (done <= begun || seconds <= 0) return out;
   const double rate = static_cast<double>(done - begun) / seconds;
-  return out + fmt::format(", {}{}/s, {} left", short_number(rate), unit,
-                           clock_time(static_cast<double>(total - done) / rate));
+  out += fmt::format(", {}{}/s", short_number(rate), unit);
+  if (unit == rays_unit && static_cast<double>(done) < told_share * static_cast<double>(total)) return out;
+  return out + fmt::format(", {} left", clock_time(static_cast<double>(total - done) / rate));
 }
 
 }  // namespace wavetracer

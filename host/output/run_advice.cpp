@@ -27,10 +27,14 @@ std::vector<std::string> advice(const Run& run, const Totals& totals) {
   if (said(run.summary.warnings) || said(totals.warnings)) return {};
   // Rays of each cell would take minutes; see trace.edge_rays.
   const bool is_map = !run.config.receiver_grids.empty() && totals.frames == 1;
+  const std::string for_map =
+      is_map ? fmt::format(", with trace.edge_rays = 1000 for this map (else each of its {} receivers launches rays)",
+                           grouped(run.config.receivers.size()))
+             : "";
   return {fmt::format(
       "line of sight on {} of {} links, and trace.diffraction = false leaves out all that comes around edges: "
       "set it to true{}, or ask `wavetracer accuracy -c FILE` what it would add",
-      grouped(sight), grouped(totals.links), is_map ? ", with trace.edge_rays = 1000 for this map" : "")};
+      grouped(sight), grouped(totals.links), for_map)};
 }
 
 }  // namespace wavetracer

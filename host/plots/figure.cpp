@@ -69,9 +69,31 @@ std::string colour_range(const std::vector<double>& values_db, double span_db) {
   return fmt::format("set cbrange [{:g}:{:g}]\n", lower, upper);
 }
 
-Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
+std::string log_tics(const std::string& axis, const std::string& low, const std::string& high) {
+  return fmt::format(
+      "if (({1}) > 0 && ({2}) < 100 * ({1})) {{ do for [k = floor(log10({1})):ceil(log10({2}))] {{ do for [m in '1 2 5'] "
+      "{{ set {0}tics add (sprintf('%g', m * 10.0**k) m * 10.0**k) }} }} }}\n",
+      axis, low, high);
+}
+
+namespace {
+
+// Draws a picture with the script in the folder; an old or incomplete picture is removed.
+void draw_picture(const fs::path& picture, const std::string& script_name, Drawn& out) {
+  remove_old_file(picture);  // an old picture would not match the new data
+  const std::string problem = run_gnuplot(picture.parent_path(), script_name);
+  if (problem.empty())
+    out.files.push_back(picture);
+  else
+    remove_old_file(picture);
+  if (out.problem.empty()) out.problem = problem;
+}
+
+}  // namespace
+
+Drawn draw(const Figure& figure, const std::vector<Format>& formats, const fs::path& folder) {
   PendingDirectory directory(folder);
-  const std::string commands = script(figure, format);
+  const std::string commands = script(figure, formats.front());
   std::vector<PendingFile> files;
   for (const DataFile& data : figure.data)
     files.emplace_back(directory.path() / data.name, std::as_bytes(std::span(data.text)));
@@ -80,13 +102,17 @@ Drawn draw(const Figure& figure, Format format, const fs::path& folder) {
   directory.keep();
   Drawn out;
   for (const PendingFile& file : files) out.files.push_back(file.path());
-  const fs::path picture = directory.path() / fmt::format("{}.{}", figure.name, ending(format));
-  remove_old_file(picture);  // an old picture would not match the new data
-  out.problem = run_gnuplot(directory.path(), figure.name + ".gp");
-  if (out.problem.empty())
-    out.files.push_back(picture);
-  else
-    remove_old_file(picture);  // it is incomplete
+  const auto picture = [&](Format format) {
+    return directory.path() / fmt::format("{}.{}", figure.name, ending(format));
+  };
+  draw_picture(picture(formats.front()), figure.name + ".gp", out);
+  for (size_t i = 1; i < formats.size() && out.problem.empty(); ++i) {
+    const fs::path other = directory.path() / fmt::format(".{}.{}.gp", figure.name, ending(formats[i]));
+    const std::string words = script(figure, formats[i]);
+    PendingFile(other, std::as_bytes(std::span(words))).commit();
+    draw_picture(picture(formats[i]), other.filename().string(), out);
+    remove_old_file(other);
+  }
   return out;
 }
 

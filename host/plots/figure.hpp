@@ -39,7 +39,15 @@ std::string palette();
 // finite.
 std::string colour_range(const std::vector<double>& values_db, double span_db);
 
-// Writes data and script, all or none, and draws. Throws RuntimeError if a file cannot be written.
-Drawn draw(const Figure& figure, Format format, const std::filesystem::path& folder);
+// Returns commands that name 1, 2 and 5 times the powers of ten on a logarithmic axis ("x", "y") of less than two
+// decades, which would have one label or none. low, high: its ends, numbers or expressions of gnuplot.
+std::string log_tics(const std::string& axis, const std::string& low, const std::string& high);
+
+// Writes data and script, all or none, and draws. The script draws the first of the formats, at least one. Throws
+// RuntimeError if a file cannot be written.
+Drawn draw(const Figure& figure, const std::vector<Format>& formats, const std::filesystem::path& folder);
+inline Drawn draw(const Figure& figure, Format format, const std::filesystem::path& folder) {
+  return draw(figure, std::vector<Format>{format}, folder);
+}
 
 }  // namespace wavetracer::plots

@@ -73,7 +73,7 @@ class Plotter {
   }
 
   void add(const Figure& figure) {
-    const Drawn drawn = draw(figure, choice_.format, folder_);
+    const Drawn drawn = draw(figure, choice_.formats, folder_);
     report_.files.insert(report_.files.end(), drawn.files.begin(), drawn.files.end());
     if (!drawn.problem.empty() && std::ranges::find(report_.warnings, drawn.problem) == report_.warnings.end())
       report_.warnings.push_back(figure.name + ": " + drawn.problem);

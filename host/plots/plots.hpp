@@ -22,7 +22,7 @@ struct PlotChoice {
   LinkChoice link;
   std::string grid;   // for coverage; empty: every grid of the run
   std::string layer;  // for coverage, a name of coverage::layer_kinds; empty: received power or path gain
-  Format format = Format::svg;
+  std::vector<Format> formats = {Format::svg};
 };
 
 struct PlotReport {

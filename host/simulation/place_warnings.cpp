@@ -120,12 +120,26 @@ class Ends {
   std::vector<bool> parted_;  // for transmitters, then receivers: a body is around this end, but not around all
 };
 
+// Returns what to do about an end whose height is configured.
+std::string remedy(Kind kind, const RadioEnd& end) {
+  if (kind != below) return "";
+  return from_ground(end.above) || end.position_wgs84 ? "; give it a height above 0"
+                                                      : "; above = \"ground\" lets its height count from the ground";
+}
+
+std::string remedy(Kind kind, const ReceiverGridConfig& grid) {
+  if (kind != below || grid.vertical()) return "";  // a vertical plane may begin below the ground
+  return from_ground(grid.above) || grid.south_west_wgs84 ? "; give it a height_m above 0"
+                                                          : "; above = \"ground\" lets height_m count from the ground";
+}
+
 void say_named(const Config& config, const Ends& ends, const World& world, Kind kind, std::vector<std::string>& out) {
   Few few(out);
   const auto say = [&](const char* role, size_t of_role, const std::vector<RadioEnd>& all, size_t i,
                        const Findings& findings) {
     if (!findings[kind].empty())
-      few.add(fmt::format("{} \"{}\" {}", i < of_role ? role : "station", all[i].name, findings[kind]));
+      few.add(fmt::format("{} \"{}\" {}{}", i < of_role ? role : "station", all[i].name, findings[kind],
+                          remedy(kind, all[i])));
   };
   const size_t stations = config.stations.size();
   for (size_t i = 0; i < config.transmitters.size() + stations; ++i)
@@ -146,9 +160,9 @@ void say_grids(const Config& config, const Surroundings& around, const Ends& end
       size_t such = 0;
       for (size_t i = first; i < first + count; ++i) such += !ends.receiver(i)[static_cast<size_t>(kind)].empty();
       if (such > 0)
-        out.push_back(fmt::format("{} of {} receivers of grid \"{}\" are {}",
+        out.push_back(fmt::format("{} of {} receivers of grid \"{}\" are {}{}",
                                   such == count ? "all" : fmt::format("{}", such), count, grid.name,
-                                  words[static_cast<size_t>(kind)]));
+                                  words[static_cast<size_t>(kind)], remedy(static_cast<Kind>(kind), grid)));
     }
     first += count;
   }

@@ -24,7 +24,10 @@ constexpr std::array<const char*, vehicle_faults> fault_words = {"drive through 
                                                                  "are above the ground", "drive off the ground"};
 constexpr const char* belong = "check trajectories.offset_m, and whether map and drive belong together";
 constexpr std::array<const char*, vehicle_faults> advice = {
-    belong, belong, belong,
+    belong,
+    "trajectories.above = \"ground\" lets heights count from the ground; else check trajectories.offset_m, and whether "
+    "map and drive belong together",
+    belong,
     "nothing reflects there; check trajectories.offset_m, or import the map anew with `wavetracer convert --net` or "
     "`--traffic`"};
 

@@ -76,6 +76,7 @@ const char* verdict_style() {
   return ".words{margin-top:1em}.words td,.words th{text-align:left;vertical-align:top}"
          ".verdict{padding:1px 6px;border-radius:3px;white-space:nowrap}"
          ".exceeded{background:#1b7837;color:#fff}.reproduced{background:#a6dba0}.in-part{background:#ffe49c}"
+         ".reproduced,.in-part,.refuted,.undecided{color:#222}"
          ".refuted{background:#f4a6a0}.undecided{background:#cfd8dc}"
          ".not-measured-there,.not-judged{background:#eee;color:#555}"
          ".origin{font-size:11px;color:#666;white-space:nowrap}"

@@ -69,7 +69,9 @@ std::string panel_text(const LinePlot& plot, const Names& names, size_t index,
 }
 
 std::string x_axis(const LinePlot& plot) {
-  if (plot.log_x) return "set logscale x\nset format x '10^{%T}'\nset xrange [x_min / 1.25 : 1.25 * x_max]\n";
+  if (plot.log_x)
+    return "set logscale x\nset format x '10^{%T}'\nset xrange [x_min / 1.25 : 1.25 * x_max]\n" +
+           plots::log_tics("x", "x_min", "x_max");
   if (plot.least_x) return fmt::format("set xrange [{:g} : (x_max > 0 ? 1.05 * x_max : 0) + 5]\n", *plot.least_x - 5);
   return std::string(plot.x_in_thousands ? "set format x '%.0s%c'\n" : "") + "set xrange [x_min - 0.5 : x_max + 0.5]\n";
 }

@@ -220,9 +220,10 @@ ViewPage make_view(const SavedRun& run, const SavedWorld& world, const ViewOptio
 
   std::string scripts = "<script>/*\n" + std::string(page_file("three_license.txt")) + "*/\n" +
                         std::string(page_file("three.min.js")) + "\n</script>\n";
-  for (const char* name : {"data.js", "palette.js", "camera.js", "roofs.js", "world.js", "lines.js", "rays.js",
-                           "pick.js", "quantities.js", "coverage.js", "overlay.js", "filters.js", "find.js",
-                           "details.js", "charts.js", "chosen.js", "player.js", "reload.js", "main.js"})
+  for (const char* name :
+       {"data.js",   "palette.js",    "camera.js",   "roofs.js",   "world.js",   "lines.js", "rays.js",
+        "pick.js",   "quantities.js", "coverage.js", "overlay.js", "filters.js", "find.js",  "details.js",
+        "charts.js", "chosen.js",     "player.js",   "reload.js",  "share.js",   "main.js"})
     scripts += script(name);
 
   std::string elements;

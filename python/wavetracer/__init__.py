@@ -23,7 +23,7 @@ if _typing.TYPE_CHECKING:
     from ._coverage import coverage
     from ._library import Counts, columns, devices, version
     from ._page import Page, view
-    from .errors import ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
+    from .errors import ArgumentError, ConfigError, DeviceError, Error, FrameStopped, InputError, RunError
     from .frame import Frame
     from .gradients import Derivative, Gradients
     from .links import Links
@@ -35,16 +35,16 @@ if _typing.TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", "Error", "Frame", "FrameStopped",
+__all__ = ["ArgumentError", "Calibration", "ConfigError", "Counts", "Derivative", "DeviceError", "Error", "Frame", "FrameStopped",
            "Gradients", "InputError", "Links", "Page", "Paths", "Responses", "Run", "RunError", "SavedFrame", "Simulation", "calibrate", "columns", "configs",
-           "coverage", "devices", "from_sionna", "version", "view"]
+           "coverage", "devices", "examples", "from_sionna", "version", "view"]
 
 # The module of each name. Modules are imported when a name is asked for: the command `wavetracer` needs neither the
 # library in this process nor NumPy, and does not wait for them.
 _MODULES = {
     "_calibration": ("Calibration", "calibrate"), "_coverage": ("coverage",),
     "_library": ("Counts", "columns", "devices", "version"), "_page": ("Page", "view"),
-    "errors": ("ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
+    "errors": ("ArgumentError", "ConfigError", "DeviceError", "Error", "FrameStopped", "InputError", "RunError"), "frame": ("Frame",),
     "gradients": ("Derivative", "Gradients"),
     "links": ("Links",), "paths": ("Paths",), "responses": ("Responses",), "runs": ("Run", "SavedFrame"),
     "simulation": ("Simulation",), "sionna": ("from_sionna",)}
@@ -72,12 +72,16 @@ def open(folder: str | _os.PathLike[str]) -> Run:  # not in __all__: `import *` 
     return Run(folder)
 
 
-def _find_configs() -> _pathlib.Path:
+def _find(in_wheel: str, installed: str, in_tree: str, file: str) -> _pathlib.Path:
+    """The folder that has the file: in a wheel, below the prefix of an installation, or in the source tree."""
     here = _pathlib.Path(__file__).resolve()
-    places = [here.parent / "share/configs", *(folder / "share/wavetracer/configs" for folder in here.parents[3:5]),
-              *(folder / "configs" for folder in here.parents[2:3])]
-    return next((place for place in places if (place / "demo.toml").exists()), places[0])
+    places = [here.parent / in_wheel, *(folder / installed for folder in here.parents[3:5]),
+              *(folder / in_tree for folder in here.parents[2:3])]
+    return next((place for place in places if (place / file).exists()), places[0])
 
 
-configs: _pathlib.Path = _find_configs()
+configs: _pathlib.Path = _find("share/configs", "share/wavetracer/configs", "configs", "demo.toml")
 """The folder of the configurations that come with the package: configs / "demo.toml" and others."""
+
+examples: _pathlib.Path = _find("share/examples", "share/doc/wavetracer/examples", "docs/examples", "live_client.py")
+"""The folder of the examples that come with the package: a notebook, clients of the live server and others."""

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import ConfigError
+from .errors import ArgumentError, ConfigError
 
 T = TypeVar("T")
 
@@ -28,7 +28,7 @@ def integer(value: Any, what: str) -> int:
     try:
         return operator.index(value)
     except TypeError:
-        raise TypeError(f"{what} is an integer, not {shown(value)}") from None
+        raise ArgumentError(f"{what} is an integer, not {shown(value)}") from None
 
 
 def number(value: Any, what: str) -> float:
@@ -36,10 +36,10 @@ def number(value: Any, what: str) -> float:
     try:
         out = float(value) if not isinstance(value, (str, bytes)) else math.nan
     except (TypeError, ValueError):
-        raise TypeError(f"{what} is a number, not {shown(value)}") from None
+        raise ArgumentError(f"{what} is a number, not {shown(value)}") from None
     if not math.isfinite(out):
         if isinstance(value, (str, bytes)):
-            raise TypeError(f"{what} is a number, not {shown(value)}")
+            raise ArgumentError(f"{what} is a number, not {shown(value)}")
         raise ConfigError(f"{what} is {out}, but must be finite")
     return out
 
@@ -52,7 +52,7 @@ def numbers(value: ArrayLike, what: str) -> NDArray[Any]:
             raise TypeError
         row = np.atleast_1d(out.astype(float))
     except (TypeError, ValueError):
-        raise TypeError(f"{what}: give a number or one row of numbers, not {shown(value)}") from None
+        raise ArgumentError(f"{what}: give a number or one row of numbers, not {shown(value)}") from None
     if row.ndim != 1 or not np.isfinite(row).all():
         raise ConfigError(f"{what}: give a number or one row of numbers, all finite")
     return row
@@ -63,7 +63,7 @@ def path(value: Any, what: str) -> str:
     try:
         out = os.fsdecode(value)
     except TypeError:
-        raise TypeError(f"{what} is a path, not {shown(value)}") from None
+        raise ArgumentError(f"{what} is a path, not {shown(value)}") from None
     if "\0" in out:
         raise ConfigError(f"{what} has a null character, which no path can have: {shown(out)}")
     return out
@@ -83,11 +83,11 @@ def encoded(text: str, what: str) -> bytes:
 def each(values: Iterable[T], what: str) -> list[T]:
     """A list of the items of an iterable; a text is refused."""
     if isinstance(values, (str, bytes)):
-        raise TypeError(f"{what}, not the text {shown(values)}")
+        raise ArgumentError(f"{what}, not the text {shown(values)}")
     try:
         return list(values)
     except TypeError:
-        raise TypeError(f"{what}, not {shown(values)}") from None
+        raise ArgumentError(f"{what}, not {shown(values)}") from None
 
 
 class Unique:

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _program
 from ._arguments import each, integer, path, shown
-from .errors import ConfigError
+from .errors import ArgumentError, ConfigError
 from .runs import Run
 from .simulation import Simulation
 
@@ -28,7 +28,7 @@ def _xarray() -> Any:
         import xarray
     except ImportError:
         raise ImportError('wt.coverage returns an xarray.Dataset, and xarray is not installed: `pip install xarray`, or '
-                          '`pip install "wavetracer[notebook]"`') from None
+                          'the extra `notebook` of the wheel') from None
     return xarray
 
 
@@ -39,7 +39,7 @@ def _folder_of(source: Source) -> pathlib.Path | None:
     if isinstance(source, (Simulation, Mapping)):
         return None
     if not isinstance(source, (str, os.PathLike)):
-        raise TypeError(f"a run, its folder, a simulation or a configuration is wanted, not {shown(source)}")
+        raise ArgumentError(f"a run, its folder, a simulation or a configuration is wanted, not {shown(source)}")
     if isinstance(source, str) and ("\n" in source or "=" in source):
         return None
     place = pathlib.Path(path(source, "the folder of a run"))
@@ -51,7 +51,7 @@ def _options(grid: str | None, tx: str | None, layers: Iterable[str] | None) -> 
     for name, value in (("grid", grid), ("tx", tx)):
         if value is not None:
             if not isinstance(value, str):
-                raise TypeError(f"{name} is a name, not {shown(value)}")
+                raise ArgumentError(f"{name} is a name, not {shown(value)}")
             out += [f"--{name}", value]
     if layers is not None:
         out += ["--layers", ",".join(each(layers, 'layers are names in a list, such as ["sinr_db"]'))]

@@ -99,7 +99,7 @@ def _load() -> ctypes.CDLL:
             entry = getattr(loaded, "wavetracer_" + function)
             entry.restype, entry.argtypes = result, arguments
     except (OSError, AttributeError) as error:
-        raise ImportError(f"wavetracer: the library cannot be used: {error}. `pip install wavetracer` brings one; "
+        raise ImportError(f"wavetracer: the library cannot be used: {error}. The wheel of ./dev wheel brings one; "
                           "WAVETRACER_LIBRARY names another file, which must be of the same version as this package"
                           ) from error
     return loaded

@@ -11,6 +11,7 @@ from typing import Union
 
 from . import _program
 from ._arguments import each, integer, path
+from .errors import ArgumentError
 from .runs import Run
 
 Shown = Union[Run, str, "os.PathLike[str]"]
@@ -49,7 +50,7 @@ def view(run: Shown, *, height: int = 640, options: tuple[str, ...] = ()) -> Pag
     options = tuple(each(options, 'options are words of the command in a list, such as ("--frames", "0:10")'))
     for option in options:
         if not isinstance(option, str):
-            raise TypeError(f"options are words of the command, and {option!r} is none")
+            raise ArgumentError(f"options are words of the command, and {option!r} is none")
     with tempfile.TemporaryDirectory(prefix="wavetracer-") as work:
         file = pathlib.Path(work) / "view.html"
         _program.call("view", folder, "-o", file, *options)

@@ -30,7 +30,7 @@ def find() -> str:
     own = _HERE / "bin/wavetracer"
     found = os.environ.get("WAVETRACER_PROGRAM") or (str(own) if own.exists() else shutil.which("wavetracer"))
     if not found:
-        raise RunError("the program wavetracer is not there: `pip install wavetracer` brings it, and WAVETRACER_PROGRAM "
+        raise RunError("the program wavetracer is not there: the wheel of ./dev wheel brings it, and WAVETRACER_PROGRAM "
                        "names another file")
     return found
 

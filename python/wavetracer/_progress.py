@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Union
 
-from .errors import ConfigError
+from .errors import ArgumentError, ConfigError
 
 # None: a bar if the output is interactive and tqdm is installed; or a class with tqdm's interface.
 Wanted = Union[bool, None, Callable[..., Any]]
@@ -29,7 +29,7 @@ def _has_widgets() -> bool:
 def bar(wanted: Wanted, total: int) -> Any | None:
     """An object of tqdm's interface that counts frames; None if no bar is wanted."""
     if wanted is not None and not callable(wanted) and not isinstance(wanted, bool):
-        raise TypeError(f"progress is True, False, None or a class with tqdm's interface, not {wanted!r}")
+        raise ArgumentError(f"progress is True, False, None or a class with tqdm's interface, not {wanted!r}")
     make: Any = wanted if callable(wanted) else None
     if make is None and (wanted or (wanted is None and (_in_notebook() or sys.stderr.isatty()))):
         try:

@@ -26,6 +26,10 @@ class ConfigError(Error, ValueError):
     code = 2
 
 
+class ArgumentError(ConfigError, TypeError):
+    """An argument has a type that the call does not take (code 2)."""
+
+
 class InputError(Error, ValueError):
     """A scene, antenna, trajectory or result file is wrong (code 3)."""
 

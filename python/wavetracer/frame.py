@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ._arguments import Unique, encoded, shown
 from ._columns import read_only
 from ._library import Column, Counts, Handle, call, library
-from .errors import ConfigError
+from .errors import ArgumentError, ConfigError
 from .gradients import Raw
 from .links import Ends, Links
 from .paths import Paths
@@ -39,7 +39,7 @@ class _Columns(Unique):
 
     def __call__(self, name: str) -> Array:
         if not isinstance(name, str):
-            raise TypeError(f"a column has a name, such as \"delay_s\", and is not {shown(name)}; wavetracer.columns() "
+            raise ArgumentError(f"a column has a name, such as \"delay_s\", and is not {shown(name)}; wavetracer.columns() "
                             "lists them")
         column = Column()
         call(library.wavetracer_frame_column, self.handle, encoded(name, "the name of a column"), ctypes.byref(column))

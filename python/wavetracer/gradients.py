@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ._arguments import each, shown
 from ._columns import read_only
 from ._library import Column, Sizes, call, library, text
-from .errors import ConfigError
+from .errors import ArgumentError, ConfigError
 
 Array = NDArray[Any]
 
@@ -154,7 +154,7 @@ def gradients(a: Array, compute: Compute, rows: Array | None, wrt: str | Iterabl
     bits = 0
     for name in names:
         if not isinstance(name, str):
-            raise TypeError(f"gradient: wrt has names, such as \"rx.position\", and not {shown(name)}")
+            raise ArgumentError(f"gradient: wrt has names, such as \"rx.position\", and not {shown(name)}")
         word = name.rsplit(".", 1)[-1]
         if name not in _ENDS and name != "*" and not fnmatch.filter(PROPERTIES, word):
             raise ConfigError(f"gradient: there is no parameter {shown(name)}; there are {', '.join(_ENDS)}, and "

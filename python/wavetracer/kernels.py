@@ -73,7 +73,7 @@ def _library() -> Any:
             entry = getattr(loaded, "wavetracer_kernels_" + name)
             entry.restype, entry.argtypes = result, arguments
     except (OSError, AttributeError) as error:
-        raise ImportError(f"wavetracer.kernels: the library cannot be used: {error}. `pip install wavetracer` brings one; "
+        raise ImportError(f"wavetracer.kernels: the library cannot be used: {error}. The wheel of ./dev wheel brings one; "
                           "WAVETRACER_KERNELS_LIBRARY names another file, which must be of the same version as this "
                           "package") from error
     return loaded

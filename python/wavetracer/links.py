@@ -33,7 +33,8 @@ class Ends:
 
 
 def places_of(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
-    """The places of names, of patterns with * and ?, or of numbers, in their order and each once."""
+    """The places of names, of patterns with * and ?, or of numbers, in the order in which they are given, and each once;
+    those of one pattern are in the order of `names`."""
     if wanted is None:
         return list(range(len(names)))
     out: list[int] = []
@@ -48,7 +49,7 @@ def places_of(names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
             some = ", ".join(names[:8]) + (", ..." if len(names) > 8 else "")
             raise ConfigError(f"there is no {what} {each!r}; there are {len(names)}: {some}")
         out += found
-    return sorted(set(out))
+    return list(dict.fromkeys(out))
 
 
 class Links:

@@ -2,7 +2,7 @@
 """Paths of one frame as NumPy columns, the figures of links, and the channels that paths make."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -233,10 +233,13 @@ class Paths:
 
         tx, rx: a name, a pattern with * and ?, a place in the list of all, or several of these. kind: one or several of
         "line_of_sight", "reflected", "transmitted", "diffracted", "scattered". Ends that are not selected are not on
-        the axes of channels.
+        the axes of channels and of to_xarray(); those that are have the order in which they are given.
         """
-        places = (places_of(self._ends.transmitters, tx, "transmitter"), places_of(self._ends.receivers, rx, "receiver"))
-        places = (sorted(set(places[0]) & set(self._tx)), sorted(set(places[1]) & set(self._rx)))
+        def chosen_of(own: list[int], names: Sequence[str], wanted: Chosen, what: str) -> list[int]:
+            return own if wanted is None else [i for i in places_of(names, wanted, what) if i in set(own)]
+
+        places = (chosen_of(self._tx, self._ends.transmitters, tx, "transmitter"),
+                  chosen_of(self._rx, self._ends.receivers, rx, "receiver"))
         mask = np.isin(self.tx, places[0]) & np.isin(self.rx, places[1])
         kinds = None if kind is None else [kind] if isinstance(kind, str) else each(kind, f"kind: give {', '.join(KINDS)}")
         if kinds is not None:

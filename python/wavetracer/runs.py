@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import integer, path
-from .errors import ConfigError, InputError
+from .errors import ArgumentError, ConfigError, InputError
 from .links import Ends, Links
 from .paths import Paths
 from .responses import Responses
@@ -71,7 +71,7 @@ class SavedFrame:
     def __getitem__(self, name: str) -> Array:
         """A column of /paths, of /vertices ("vertex_position_m"), or the complex "a"; rows of this frame."""
         if not isinstance(name, str):
-            raise TypeError(f"a column has a name, such as \"delay_s\", and is not {name!r}")
+            raise ArgumentError(f"a column has a name, such as \"delay_s\", and is not {name!r}")
         if name not in self._known:
             self._known[name] = self._read(name)
             self._known[name].flags.writeable = False

@@ -17,7 +17,7 @@ from . import _progress, _toml
 from ._arguments import Unique, each, encoded, integer, path, shown
 from ._library import Doubles, Observer, Sizes, Text, call, library, text
 from ._session import Session
-from .errors import ConfigError, FrameStopped, InputError
+from .errors import ArgumentError, ConfigError, FrameStopped, InputError
 from .frame import Frame, handles
 from .gradients import Raw, raw_gradient
 from .links import Ends
@@ -34,7 +34,7 @@ def read_config(config: str | os.PathLike[str] | Mapping[str, Any], folder: str 
     if isinstance(config, Mapping):
         return _toml.document(config), where
     if not isinstance(config, (str, os.PathLike)):
-        raise TypeError(f"config is the path of a TOML file, TOML text or a dict, not {shown(config)}")
+        raise ArgumentError(f"config is the path of a TOML file, TOML text or a dict, not {shown(config)}")
     if isinstance(config, str) and ("\n" in config or "=" in config or not config.strip()):
         return config, where
     file = pathlib.Path(path(config, "config"))
@@ -78,7 +78,7 @@ class Simulation(Unique):
         lines = [encoded(line, line.split("=")[0]) for line in _toml.sets(sets)]
         texts = (Text * len(lines))(*lines)
         if device is not None and (isinstance(device, bool) or not isinstance(device, (str, int, np.integer))):
-            raise TypeError(f"device is a part of a device's name, or its index, not {shown(device)}")
+            raise ArgumentError(f"device is a part of a device's name, or its index, not {shown(device)}")
         try:
             handle = call(library.wavetracer_open, encoded(content, "config"), os.fsencode(where) if where else None, texts,
                           len(lines), encoded(str(device), "device") if device is not None else None)

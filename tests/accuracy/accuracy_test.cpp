@@ -5,6 +5,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/axes.hpp"
 #include "accuracy/files.hpp"
+#include "accuracy/label_places.hpp"
 #include "accuracy/table.hpp"
 #include "wavetracer/config_file.hpp"
 
@@ -64,7 +65,7 @@ TEST_CASE("the fastest setting within a loss is recommended, never the reference
       has(recommendations(study), "Rays: nothing to recommend, because the reference, trace.rays=10000000, finds no"));
   study = made();
   study.rows[3] = row("rays", "1000000", 0.1, 2e-5);
-  CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1e+03 ms"));
+  CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1 s"));
 }
 
 TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one more, mechanisms on and off") {
@@ -149,6 +150,65 @@ TEST_CASE("a row of the table has every column; a refusal says why, quoted, and 
   CHECK(page.find("a&lt;b") != std::string::npos);
   CHECK(page.find("<td>100000</td>") != std::string::npos);
   CHECK(page.find("trace.rays=100000 (20 ms per frame") != std::string::npos);
+}
+
+TEST_CASE("times have a unit that fits, counts have commas, and errors of rounding are 0") {
+  Row slow = row("rays", "10000000", 1.657, 0);
+  slow.paths = 13034;
+  slow.error.delay_spread_ns = 4.8e-16;
+  slow.error.doppler_spread_hz = 0.031;
+  const std::vector<std::string> cells = short_cells(slow);
+  CHECK(cells[3] == "1.66 s");
+  CHECK(cells[4] == "13,034");
+  CHECK(cells[9] == "0");
+  CHECK(cells[10] == "0.031");
+  slow.frame_s = 0.3828;
+  CHECK(short_cells(slow)[3] == "383 ms");
+}
+
+TEST_CASE("labels of a figure cover neither points nor each other, and crowded points go without") {
+  std::vector<LabelledPoint> points = {{200, 100, "alone"}, {2, 300, "at the left"}, {438, 40, "at the right"}};
+  for (int i = 0; i < 30; ++i) points.push_back({300.0 + 2 * (i % 6), 200.0 + 3 * (i / 6), "recall 0.9"});
+  const std::vector<LabelSide> sides = label_sides(points, 442, 409);
+  CHECK(sides[0] == LabelSide::right);
+  CHECK(sides[1] == LabelSide::right);
+  CHECK(sides[2] == LabelSide::left);
+  CHECK(std::ranges::count(sides, LabelSide::none) > 10);
+  CHECK(std::ranges::count(sides, LabelSide::none) < 30);
+  const auto overlap = [](const LabelBox& a, const LabelBox& b) {
+    return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
+  };
+  size_t covered = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (sides[i] == LabelSide::none) continue;
+    const LabelBox box = label_box(points[i], sides[i]);
+    covered += !(box.left >= 0 && box.right <= 442 && box.bottom >= 0 && box.top <= 409);
+    for (size_t k = 0; k < points.size(); ++k) {
+      covered += overlap(box, {points[k].x - 2, points[k].y - 2, points[k].x + 2, points[k].y + 2});
+      covered += k != i && sides[k] != LabelSide::none && overlap(box, label_box(points[k], sides[k]));
+    }
+  }
+  CHECK(covered == 0);
+}
+
+TEST_CASE("the figure has at most eight series: mechanisms share one") {
+  Study study = made();
+  for (const char* axis : {"reuse", "depth", "diffraction_rays", "edge_rays"})
+    study.rows.push_back(row(axis, "1", 0.1, 0.1));
+  for (const char* axis : {"diffraction", "double_diffraction", "transmission", "scattering"})
+    for (const char* name : {"on", "off"})
+      study.rows.push_back(row(axis, name, 0.002 * static_cast<double>(study.rows.size()),
+                               0.1 / static_cast<double>(study.rows.size())));
+  const std::string commands = front_figure(study).commands;
+  std::vector<size_t> series;
+  for (size_t at = commands.find("\nplot "); at != commands.npos; at = commands.find("\nplot ", at + 1)) {
+    const std::string plot = commands.substr(at, commands.find("\nunset", at) - at);
+    series.push_back(0);
+    for (size_t one = plot.find("with points"); one != plot.npos; one = plot.find("with points", one + 1))
+      ++series.back();
+  }
+  CHECK(series == std::vector<size_t>{7, 7});
+  CHECK(commands.find("strcol(1) eq 'double_diffraction' ||") != commands.npos);
 }
 
 TEST_CASE("a mechanism is described by what is missing without it") {

@@ -127,7 +127,9 @@ TEST_CASE("a run warns before it traces, and explains links without a path, on t
     if (more.empty()) CHECK(run.err.find("warning: receiver \"deep\"") < run.err.find("writing to"));
     return all;
   };
-  const std::string deep = "receiver \"deep\" is 1.5 m below the ground there, \"ground\"";
+  const std::string deep =
+      "receiver \"deep\" is 1.5 m below the ground there, \"ground\"; above = \"ground\" lets its height count from "
+      "the ground";
   CHECK(warnings({}) == std::vector<std::string>{deep,
                                                  "mast -> deep has no path: its direct line meets \"ground\" "
                                                  "(concrete) after 9.372 m; "
@@ -293,4 +295,7 @@ TEST_CASE("a run says what it replaces, and removes a page of the run before") {
   CHECK(contains(again.err,
                  "replaces paths.h5, links.csv, summary.json, view.html of an earlier run in " + folder.path("out")));
   CHECK_FALSE(std::filesystem::exists(folder.path("out/view.html")));
+  std::filesystem::create_directory(folder.path("out/plots"));
+  CHECK(
+      contains(run_program(words).err, "; the figures in plots stay those of that run until `wavetracer plot` draws"));
 }

@@ -131,7 +131,9 @@ TEST_CASE("validate warns of antennas and vehicles in places that cannot be mean
                     car = "[[receiver]]\nname = \"car\"\nposition_m = [0, 3, 2]\n";
   const Outcome deep = validate(mast + "[0, 0, -1.5]\n" + car);
   CHECK(deep.code == 0);
-  CHECK(deep.err == "warning: transmitter \"mast\" is 1.5 m below the ground there, \"ground\"\n");
+  CHECK(deep.err ==
+        "warning: transmitter \"mast\" is 1.5 m below the ground there, \"ground\"; above = \"ground\" lets its height "
+        "count from the ground\n");
   CHECK(contains(deep.out, ": ok\n"));
   check(validate(mast + "[1e8, 0, 6]\n" + car), 2, "transmitter \"mast\" is at [1e+08, 0, 6] m");
   const std::string drive =

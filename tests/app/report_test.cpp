@@ -2,6 +2,8 @@
 // The closing report of a run, from invented results.
 #include "app/report.hpp"
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <utility>
 #include "output/run_advice.hpp"
 #include "output/sample_run.hpp"
 #include "program.hpp"
@@ -69,7 +71,10 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   CHECK(advice(run, results.totals).at(0).find("edge_rays") == std::string::npos);
   sample.config.receiver_grids.resize(1);
   results.totals.frames = 1;
-  CHECK(advice(run, results.totals).at(0).find("set it to true, with trace.edge_rays = 1000") != std::string::npos);
+  CHECK(contains(advice(run, results.totals).at(0),
+                 fmt::format("set it to true, with trace.edge_rays = 1000 for this map (else each of its {} receivers "
+                             "launches rays), or ask",
+                             run.config.receivers.size())));
   results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
   CHECK_FALSE(advised());
   results.totals.warnings.clear();
@@ -111,6 +116,16 @@ TEST_CASE("the report ends with what may have been missed, where that is known")
   CHECK(contains(report(),
                  "\nmissed     about 4 of 5 paths (0 to 23), 5e-06 of the power (0 to 3e-05): "
                  "a higher number of trace.rays finds more of them\n"));
+  // Most paths are diffracted and a receiver launches rays of its own: too few of those are the reason.
+  sample.config.trace.diffraction = true;
+  const PathKindCounts kinds = std::exchange(results.totals.kinds, {1, 1, 0, 3});
+  CHECK(path_kinds[3].word == "diffracted");
+  sample.config.receivers = {};
+  CHECK(contains(report(), ": a higher number of trace.rays finds more of them\n"));
+  sample.config.receivers = {{.name = "phone"}};
+  CHECK(contains(report(), ": a higher number of trace.diffraction_rays (at most trace.rays) finds more of them\n"));
+  results.totals.kinds = kinds;
+  sample.config.trace.diffraction = false;
   results.totals.missed = {.frames = 1, .paths = {0, 0, 0, 9}, .powers = {0, 0, 0, 0.4}, .amplitude = 0.9, .power = 1};
   sample.config.trace.rays = {};
   CHECK(contains(report(), "\nmissed     probably none of 5 paths (0 to 3), 0 of the power (0 to 0.03)\n"));

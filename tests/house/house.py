@@ -161,7 +161,7 @@ def unmeasured(root):
 
 # The files beside the folders of the project: compilers and tools leave others there.
 TOP_FILES = {".clang-format", ".gitignore", "CHANGELOG.md", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json", "CONTRIBUTING.md",
-             "LICENSE", "README.md", "SECURITY.md", "dev", "packages-test.txt", "packages.txt", "pyproject.toml"}
+             "Containerfile", "LICENSE", "README.md", "SECURITY.md", "dev", "packages-test.txt", "packages.txt", "pyproject.toml"}
 
 
 def stray_files(root):

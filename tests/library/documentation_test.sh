@@ -61,6 +61,7 @@ expect 'all ' thesis al
 expect 'vtk ' convert --to v
 expect 'coverage ' plot --what cov
 expect 'receiver receiver_grid ' help rec
+expect 'order.bin_num order.each_depth order.method ' help order.
 expect 'brick ' scene city --ground br
 expect ' ' run --config ''  # files
 expect ' ' run ''

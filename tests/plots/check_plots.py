@@ -115,8 +115,8 @@ def main():
     subprocess.run(["gnuplot", "coverage.gp"], cwd=plots, check=True)
     assert (plots / "coverage.png").stat().st_size > 10000
     # A receiver of the grid by its name.
-    run(program, "plot", folder / "out", "--rx", "street/15,10", "--what", "pdp,angles", "-o", folder / "one")
-    assert sorted(p.suffix for p in (folder / "one").iterdir()) == [".csv", ".csv", ".gp", ".gp", ".svg", ".svg"]
+    run(program, "plot", folder / "out", "--rx", "street/15,10", "--what", "pdp,angles", "-o", folder / "one")  # SVG and PNG
+    assert sorted(p.suffix for p in (folder / "one").iterdir()) == [".csv", ".csv", ".gp", ".gp", ".png", ".png", ".svg", ".svg"]
     refused = run(program, "plot", folder / "out", "--rx", "street/15,100", code=2).stderr
     assert "the nearest are" in refused, refused
     run(program, "plot", folder / "nothing", code=3)

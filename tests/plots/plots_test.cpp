@@ -123,16 +123,44 @@ TEST_CASE("all figures that suit a run are written, each with its data and scrip
   REQUIRE_FALSE(report.files.empty());
   for (const char* name : {"gain.svg", "pdp.svg", "delay-time.svg", "doppler.svg", "angles.svg"}) CHECK(has(name));
   PlotChoice pdf;
-  pdf.format = Format::pdf;
+  pdf.formats = {Format::pdf, Format::png};
   const PlotReport covered = plot_run(grid.run(), pdf, out.path() / "a");
   for (const std::string& warning : covered.warnings) MESSAGE(warning);
   CHECK(has("coverage.pdf"));
+  CHECK(has("coverage.png"));
+  for (const auto& entry : fs::directory_iterator(out.path() / "a"))  // scripts of further formats are gone
+    CHECK_FALSE(entry.path().filename().string().starts_with("."));
   CHECK(table([&] {
           std::ostringstream text;
           text << std::ifstream(out.path() / "a" / "coverage.csv").rdbuf();
           return text.str();
         }())
             .size() == 6);
+}
+
+TEST_CASE("a logarithmic axis of less than two decades has several labels, and a long one those of decades") {
+  if (std::system("command -v gnuplot > /dev/null") != 0) return;
+  TemporaryFolder out;
+  const auto labels = [&](const std::string& high) {
+    Figure figure{.name = "axis", .title = "", .data = {{"axis.csv", "x\n3\n"}}, .commands = "", .width_px = 400};
+    figure.commands = "set logscale x\nset format x '%g'\nset key off\nset ytics ('' 0)\nset xrange [2:" + high +
+                      "]\n" + log_tics("x", "2", high) + "plot x\n";
+    const Drawn drawn = draw(figure, Format::svg, out.path());
+    REQUIRE(drawn.problem.empty());
+    std::ostringstream svg;
+    svg << std::ifstream(drawn.files.back()).rdbuf();
+    const std::string text = svg.str();
+    std::vector<std::string> found;
+    for (size_t at = text.find("<tspan"); at != text.npos; at = text.find("<tspan", at + 1)) {
+      const size_t begin = text.find('>', at) + 1;
+      found.push_back(text.substr(begin, text.find('<', begin) - begin));
+    }
+    std::erase_if(found, [](const std::string& one) { return one.find_first_of("0123456789") == one.npos; });
+    return found;
+  };
+  CHECK(labels("9").size() == 2);  // 2 and 5
+  CHECK(labels("60").size() == 5);
+  CHECK(labels("5000").size() == 3);
 }
 
 TEST_CASE("without gnuplot data and scripts are written, and one line says what to do") {

@@ -32,6 +32,19 @@ def made(ports=(2, 1), seed=1):
     return Paths(columns.__getitem__, Ends(TX, RX, CARRIER))
 
 
+def check_order_of_names():
+    """Ends stand on the axes as they are given to select, not as in the list of all."""
+    paths = made()
+    whole, tau = paths.cir()
+    turned = paths.select(tx=["t2", "t0"], rx=["r1", "r0"])
+    assert turned.transmitters == ["t2", "t0"] and turned.receivers == ["r1", "r0"]
+    a, delays = turned.cir()
+    assert np.array_equal(a, whole[::-1][:, :, [2, 0]]) and np.array_equal(delays, tau[::-1][:, [2, 0]])
+    again = turned.select(rx="r*")  # a pattern has the order of the list, and what is not named stays as it was
+    assert again.transmitters == ["t2", "t0"] and again.receivers == ["r0", "r1"]
+    assert turned.select(tx="t0").cir()[0].shape[0] == 2 and turned.select(tx="t0").receivers == ["r1", "r0"]
+
+
 def loop(paths, time_s, normalize_delays):
     """(rx, rx port, tx, tx port) -> list of (a at each time, tau), path by path."""
     out = {}
@@ -129,4 +142,5 @@ for shape in ((1, 1), (2, 1), (1, 2), (2, 2), (4, 8)):
         check_formulas(made(shape), normalized)
 check_options(made())
 check_closed_forms()
+check_order_of_names()
 print("channels ok")

@@ -30,7 +30,7 @@ try:
     wt.coverage(run)
     raise AssertionError("no ImportError")
 except ImportError as error:
-    assert "wavetracer[notebook]" in str(error), error
+    assert "extra `notebook` of the wheel" in str(error), error
 del sys.modules["xarray"]
 sys.modules.update(hidden)
 try:

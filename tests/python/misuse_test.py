@@ -249,7 +249,8 @@ def check_threads():
 def check_types(folder):
     """Wrong types are said in the words of the function that was called."""
     for config in (None, 5, b"x", [("trace", 1)]):
-        raises(TypeError, "config is the path of a TOML file, TOML text or a dict, not", wavetracer.Simulation, config)
+        raises(wavetracer.ArgumentError, "config is the path of a TOML file, TOML text or a dict, not", wavetracer.Simulation, config)
+    assert issubclass(wavetracer.ArgumentError, (wavetracer.ConfigError)) and issubclass(wavetracer.ArgumentError, TypeError)
     raises(TypeError, "folder is a path", wavetracer.Simulation, CONFIG, folder=5)
     for device in (1.5, True, ["cpu"], b"cpu"):
         raises(TypeError, "device is a part of a device's name, or its index", wavetracer.Simulation, CONFIG, device=device)

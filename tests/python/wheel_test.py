@@ -41,6 +41,7 @@ with zipfile.ZipFile(wheel) as archive:
     assert carried >= {"libhdf5_serial", "libassimp", "libproj", "libOpenCL", "libtbb"}, carried
     assert not carried & {"libc", "libstdc++", "libgcc_s"}, carried
     for name in ("wavetracer/py.typed", "wavetracer/share/configs/demo.toml", "wavetracer/share/proj/proj.db",
+                 "wavetracer/share/examples/channels.ipynb", "wavetracer/share/examples/live_client.py",
                  "wavetracer/lib/libwavetracer_kernels.so", "wavetracer/share/include/wavetracer/kernels/sort.hpp"):
         assert name in names, name
     assert any(name.startswith("wavetracer/share/kernels/") and name.endswith("radix_sort.cl") for name in names)
@@ -56,6 +57,10 @@ where = run(python, "-c", "import wavetracer; print(wavetracer.__file__, wavetra
 assert where == [str(next(environment.glob("lib/python3*/site-packages/wavetracer/__init__.py"))), version], where
 assert run("wavetracer", "--version").startswith(f"wavetracer {version}\n")
 assert run(python, "-m", "wavetracer", "--version").startswith(f"wavetracer {version}\n")
+run(python, "-c", "import wavetracer as wt; assert all((f / n).exists() for f, n in ((wt.configs, 'demo.toml'), (wt.examples, 'channels.ipynb')))")
+# The extra has what the notebook imports, and the kernel that runs it.
+extras = run(python, "-c", "import importlib.metadata as m; print(*(r for r in m.requires('wavetracer') if 'notebook' in r), sep='\\n')")
+assert {re.split(r"[ ;]", line)[0] for line in extras.splitlines()} >= {"ipykernel", "matplotlib", "pandas", "tqdm", "xarray"}, extras
 # The command does not wait for NumPy; everything that the package offers exists, and nothing else.
 run(python, "-c", "import sys, wavetracer, wavetracer._program; assert 'numpy' not in sys.modules")
 run(python, "-c", """
@@ -94,4 +99,8 @@ version: str = wt.__version__
 """)
 run(python, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", folder / "mypy", folder / "typed.py",
     source / "python/wavetracer", env=clean | {"MYPYPATH": str(source / "python")})
+# The examples have few annotations, but what they do with the package and with Python's own modules has the right types.
+(folder / "examples.ini").write_text("[mypy]\ncheck_untyped_defs = True\nignore_missing_imports = True\nfollow_imports = silent\n")
+run(python, "-m", "mypy", "--config-file", folder / "examples.ini", "--cache-dir", folder / "mypy_examples",
+    *sorted((source / "docs/examples").glob("*.py")), env=clean | {"MYPYPATH": str(source / "python")})
 print("the wheel is installed in", environment)

@@ -53,7 +53,8 @@ TEST_CASE("nothing to say of ends over the ground, on roofs, at one place, or al
 TEST_CASE("each kind by name") {
   const Config config = ends({{15, 22, 2}, {0, 0, -1.5}, {3100, 0, 2}}, {{-40, 0, 0}, {50, 50, 300}, {-60, 10, 2}});
   CHECK(warnings_of(town, config) == Texts{"transmitter \"tx0\" is inside a closed body, \"part-1\"",
-                                           "transmitter \"tx1\" is 1.5 m below the ground there, \"part-0\"",
+                                           "transmitter \"tx1\" is 1.5 m below the ground there, \"part-0\"; "
+                                           "above = \"ground\" lets its height count from the ground",
                                            "transmitter \"tx2\" is 3000 m outside of the scene's box",
                                            "receiver \"rx1\" is 291 m above the scene's box",
                                            "receiver \"rx0\" lies on a surface of \"part-0\"; because of rounding, "
@@ -91,7 +92,11 @@ TEST_CASE("receivers of grids are counted: by cells in the house, and whole grid
   config.receiver_grids = {{.name = "g", .x_min_m = 0, .x_max_m = 40, .y_min_m = 10, .y_max_m = 40, .step_m = 1}};
   CHECK(warnings_of(town, config) == Texts{"160 of 1200 receivers of grid \"g\" are inside closed bodies"});
   config.receiver_grids[0].height_m = -0.5;
-  CHECK(warnings_of(town, config) == Texts{"all of 1200 receivers of grid \"g\" are below the ground"});
+  CHECK(warnings_of(town, config) == Texts{"all of 1200 receivers of grid \"g\" are below the ground; "
+                                           "above = \"ground\" lets height_m count from the ground"});
+  config.receiver_grids[0].above = "ground";
+  CHECK(warnings_of(town, config) ==
+        Texts{"all of 1200 receivers of grid \"g\" are below the ground; give it a height_m above 0"});
   config.receiver_grids = {{.name = "rooms", .x_min_m = 11, .x_max_m = 29, .y_min_m = 21, .y_max_m = 27, .step_m = 1}};
   CHECK(warnings_of(town, config) == Texts{"all of 108 receivers of grid \"rooms\" are inside closed bodies"});
   ReceiverGridConfig cut;

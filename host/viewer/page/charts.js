@@ -79,6 +79,9 @@ function span_of(values, least) {
   return [low - missing, high + missing];
 }
 
+// The rings of polar charts, as shares of the rim.
+const polar_rings = [1 / 3, 2 / 3, 1];
+
 const power_colour = (gain_db) => css(ramp((gain_db - lowest_db) / (highest_db - lowest_db)));
 
 class Charts {
@@ -151,25 +154,20 @@ class Charts {
     pen.stroke();
   }
 
-  // 0 degrees is +x, to the right; angles go towards +y, up. The strongest path of the page is at the rim.
+  // 0 degrees is +x, to the right; angles go towards +y, up. The gain grows outwards, by the scale of power.
   draw_angles(chart, frame, rows, phi, selected) {
     const pen = chart.begin();
     if (!pen) return;
-    const cx = chart.width / 2, cy = chart.height / 2, rim = Math.min(cx, cy) - 28;
+    const cx = chart.width / 2, cy = chart.height / 2, rim = Math.min(cx, cy) - 4;
     pen.strokeStyle = theme().grid;
-    pen.fillStyle = theme().faint;
     pen.beginPath();
-    for (const share of [1 / 3, 2 / 3, 1]) {
+    for (const share of polar_rings) {
       pen.moveTo(cx + rim * share, cy);
       pen.arc(cx, cy, rim * share, 0, 2 * Math.PI);
     }
-    pen.textAlign = "center";
-    pen.textBaseline = "middle";
     for (let angle = 0; angle < 360; angle += 45) {
-      const x = Math.cos(angle * Math.PI / 180), y = -Math.sin(angle * Math.PI / 180);
       pen.moveTo(cx, cy);
-      pen.lineTo(cx + rim * x, cy + rim * y);
-      if (angle % 90 === 0) pen.fillText(angle + "\u00b0", cx + (rim + 15) * x, cy + (rim + 11) * y);
+      pen.lineTo(cx + rim * Math.cos(angle * Math.PI / 180), cy - rim * Math.sin(angle * Math.PI / 180));
     }
     pen.stroke();
     chart.place = (i) => {
@@ -186,6 +184,33 @@ class Charts {
       pen.lineTo(x, y);
       pen.stroke();
       this.dot(pen, x, y, i === selected);
+    }
+    this.name_rings(pen, cx, cy, rim, rows.map((i) => degrees(phi, i)));
+  }
+
+  // Writes angles inside of the rim, and the gains of the rings along the diagonal that is farthest from all paths.
+  // angles: those of the paths, in degrees.
+  name_rings(pen, cx, cy, rim, angles) {
+    const apart = (diagonal) => Math.min(...angles.map((angle) => Math.abs((((angle - diagonal) % 360) + 540) % 360 - 180)), 180);
+    const diagonal = [315, 45, 135, 225].reduce((best, one) => (apart(one) > apart(best) ? one : best)) * Math.PI / 180;
+    const write = (text, x, y, align) => {
+      pen.textAlign = align;
+      pen.strokeStyle = theme().panel;
+      pen.lineWidth = 3;
+      pen.strokeText(text, x, y);
+      pen.fillText(text, x, y);
+    };
+    pen.font = "10px system-ui, 'DejaVu Sans', sans-serif";
+    pen.fillStyle = theme().faint;
+    pen.textBaseline = "middle";
+    write("0\u00b0", cx + rim - 2, cy - 7, "right");
+    write("90\u00b0", cx + 3, cy - rim + 8, "left");
+    write("180\u00b0", cx - rim + 3, cy - 7, "left");
+    write("270\u00b0", cx + 3, cy + rim - 8, "left");
+    for (const share of polar_rings) {
+      const gain_db = lowest_db + share * (highest_db - lowest_db), away = rim * share - 6;
+      write(`${signed(String(+gain_db.toFixed(1)))}${share === 1 ? " dB" : ""}`, cx + away * Math.cos(diagonal), cy - away * Math.sin(diagonal),
+            share < 1 ? "center" : Math.cos(diagonal) > 0 ? "right" : "left");
     }
   }
 

@@ -43,6 +43,7 @@ function draw() {
   if (renderer) renderer.render(world.scene, orbit.camera);
   state.target = orbit.target;
   overlay.draw(state, projector());
+  write_address();
   timing.draw_ms = performance.now() - start;
 }
 
@@ -77,6 +78,7 @@ function draw_legends() {
   if (of_paths) draw_legend(parent, by, path_scale(), coverage.shows_gain());
   coverage.draw_legend(parent, of_paths && by === "power");
   if (rays.object.visible) rays.draw_legend(parent, control("rays_by").value);
+  draw_mark_legend(parent, state.radios, meta.instances.length > 0 && control("show_vehicles").checked);
   parent.hidden = !parent.firstChild;
 }
 
@@ -87,6 +89,7 @@ function refresh_link() {
   if (chosen.link && (tx < 0 || rx < 0)) state.link = chosen.link;
   else if (tx < 0 && cell !== no_row) state.link = [links.tx[cell], rx];
   charts.draw(state.frame, state.link[0] >= 0 && state.link[1] >= 0 ? state.link : null, state.selected);
+  control("link_figures").hidden = state.selected < 0 && cell !== no_row;  // show_cell() has the same figures
   dirty = true;
 }
 
@@ -305,9 +308,12 @@ show_hint(control("details"));
 const search = new NameSearch(go_to);
 player.go(0);
 resize();
+remember_first_view();
+prepare_sharing();
 if (!restore_view()) show_all(false);
 paint();
 apply_toggles();
+show_address(location.hash);
 reload_later();
 (function loop() {
   if (dirty) draw();

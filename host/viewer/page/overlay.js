@@ -53,6 +53,25 @@ function draw_mark(pen, radio, x, y, size) {
   pen.stroke();
 }
 
+// Adds the marks of the ends that there are, and the colour of vehicles, to the legend.
+function draw_mark_legend(parent, radios, vehicles) {
+  const both = {tx: 0, rx: 0}, tx = {tx: 0, rx: -1}, rx = {tx: -1, rx: 0}, size = 14, line = document.createElement("div");
+  const like = (kind) => radios.some((one) => (one.tx >= 0) === (kind.tx >= 0) && (one.rx >= 0) === (kind.rx >= 0));
+  for (const [kind, text] of [[tx, "transmitter"], [rx, "receiver"], [both, "sends and receives"]].filter(([one]) => like(one))) {
+    const entry = document.createElement("span"), mark = document.createElement("canvas"), pen = mark.getContext("2d");
+    entry.className = "entry";
+    mark.className = "mark";
+    mark.width = mark.height = 2 * size;
+    pen.scale(2, 2);
+    draw_mark(pen, kind, size / 2, size / 2, 5.5);
+    entry.append(mark, text);
+    line.append(entry);
+  }
+  if (vehicles) line.append(legend_entry(theme().vehicle, "vehicle"));
+  line.className = "marks";
+  if (line.firstChild) parent.append(line);
+}
+
 function halo_text(pen, text, x, y) {
   pen.lineWidth = 3.5;
   pen.lineJoin = "round";

@@ -20,13 +20,13 @@ const server_colours = [
 
 const Themes = {
   dark: {
-    sky: "#161b24", text: "#e8ecf2", faint: "#9aa5b5", halo: "#11151c", grid: "#333d4c", accent: "#5ad1ff",
+    sky: "#161b24", panel: "#1a202a", text: "#e8ecf2", faint: "#9aa5b5", halo: "#11151c", grid: "#333d4c", accent: "#5ad1ff",
     tx: "#ff5d73", rx: "#5ad1ff", both: "#ffd166", outline: "#0b0e13", wedge: "#3ee08f", vehicle: "#9fb0c6", selected: "#ffffff",
     city_light: 0.42,
     stops: viridis.slice(0, 8).reverse(), map_stops: viridis.slice(0, 8).reverse(), los: ["#5ab4ff", "#e69f00"], sources: ["#5ab4ff", "#e69f00"],
   },
   light: {
-    sky: "#eceff2", text: "#22262c", faint: "#5f666f", halo: "#ffffff", grid: "#d8d6d0", accent: "#0b6fa8",
+    sky: "#eceff2", panel: "#ffffff", text: "#22262c", faint: "#5f666f", halo: "#ffffff", grid: "#d8d6d0", accent: "#0b6fa8",
     tx: "#d4213d", rx: "#0b6fa8", both: "#8a5a00", outline: "#8d877a", wedge: "#00804a", vehicle: "#46505c", selected: "#000000",
     city_light: 1,
     stops: viridis, map_stops: [...viridis].reverse(), los: ["#0072b2", "#e69f00"], sources: ["#0072b2", "#e69f00"],
