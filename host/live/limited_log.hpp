@@ -21,7 +21,7 @@ class LimitedLog {
   Log log_;
   int most_per_second_, said_ = 0;
   long left_out_ = 0;
-  Clock::time_point began_ = {};  // of the present second
+  Clock::time_point began_ = {};  // the begin of the present second
 };
 
 }  // namespace wavetracer::live

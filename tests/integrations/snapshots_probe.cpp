@@ -3,7 +3,7 @@
 // standard input is a command as JSON, each line of standard output its answer. Usage: snapshots_probe SERVER KEEP_S
 // GAIN
 //   {"take": T, "nodes": [{"id", "at", "velocity", "ahead"} or {"station", "at"}...]}  {"gain": [FROM, TO], "time": T}
-//   {"forget": T}
+//   {"forget": T}  {"free_space": [WAVELENGTH_M, DISTANCE_M]}  "coordinates" beside "take"
 #include <array>
 #include <cmath>
 #include <exception>
@@ -49,6 +49,8 @@ json run(const json& command, wavetracer::LiveNodes& server, wavetracer::LiveSna
   if (command.contains("take")) snapshots.take(snapshot(command, server, coordinates));
   if (command.contains("forget")) snapshots.forget_before(command.at("forget"));
   json out = {{"snapshots", snapshots.size()}};
+  if (command.contains("free_space"))
+    out["gain"] = wavetracer::free_space_gain(command.at("free_space")[0], command.at("free_space")[1]);
   if (command.contains("gain")) {
     const auto points = command.at("gain").get<std::array<LiveVector, 2>>();
     const auto time_s =

@@ -164,6 +164,10 @@ def coordinates(server):
         for pair, points in ((("a", "b"), (a["at"], b["at"])), (("b", "rsu"), (b["at"], STATION))):
             answer = probe.ask(gain=points)
             expect(math.isclose(answer["gain_db"], gains[pair], abs_tol=1e-6), (pair, answer, gains[pair]))
+        # Free space by the rule of ITU-R P.525: 32.4 dB + 20 lg MHz + 20 lg km.
+        gain_db = 10 * math.log10(probe.ask(free_space=[299792458 / 5.9e9, 250.0])["gain"])
+        expect(abs(gain_db + 32.4 + 20 * math.log10(5900) + 20 * math.log10(0.25)) < 0.1, gain_db)
+        expect(probe.ask(free_space=[0.05, 0.0])["gain"] == 1, "no distance")
     print("coordinates of Veins and positions of SUMO")
 
 

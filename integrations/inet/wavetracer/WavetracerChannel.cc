@@ -108,23 +108,23 @@ void WavetracerChannel::receiveSignal(omnetpp::cComponent*, omnetpp::simsignal_t
 }
 
 void WavetracerChannel::add(cModule* radio) {
+  connect();
   cModule* const host = inet::getContainingNode(radio);
-  radios_[radio->getId()] = {omnetpp::check_and_cast<const IRadio*>(radio), host};
+  radios_[radio->getId()] = {omnetpp::check_and_cast<const IRadio*>(radio), host->getId()};
   if (hosts_.count(host->getId()) == 0) hosts_[host->getId()] = make(host);
 }
 
 void WavetracerChannel::remove(cModule* radio) {
   const auto found = radios_.find(radio->getId());
   if (found == radios_.end()) return;
-  const int host = found->second.host->getId();
+  const int host = found->second.host;
   radios_.erase(found);
   for (const auto& [id, each] : radios_)
-    if (each.host->getId() == host) return;
+    if (each.host == host) return;
   hosts_.erase(host);
 }
 
 WavetracerChannel::Host WavetracerChannel::make(cModule* host) const {
-  const_cast<WavetracerChannel*>(this)->connect();
   try {
     if (const std::string* station = name_for(host->getFullName(), stations_)) return {server_->station(*station), 0};
     const std::string* named = name_for(host->getFullName(), vehicles_);
@@ -144,8 +144,8 @@ void WavetracerChannel::take() {
   LiveSnapshot out{now_s, now_s, {}, {}, {}};
   std::set<int> seen;
   for (const auto& [id, each] : radios_) {
-    if (!seen.insert(each.host->getId()).second) continue;
-    const Host& host = hosts_.at(each.host->getId());
+    if (!seen.insert(each.host).second) continue;
+    const Host& host = hosts_.at(each.host);
     inet::IMobility* const mobility = each.radio->getAntenna()->getMobility();
     const Coord at = mobility->getCurrentPosition();
     out.nodes.push_back(host.node);

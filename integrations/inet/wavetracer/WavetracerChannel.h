@@ -45,7 +45,7 @@ class WavetracerChannel : public omnetpp::cListener {
   };
   struct Radio {
     const inet::physicallayer::IRadio* radio;
-    omnetpp::cModule* host;
+    int host;  // the id of its module
   };
 
   void connect();
