@@ -2,6 +2,7 @@
 // Channels between points of a simulator that asks about pairs of positions, perhaps of an instant that has passed: the
 // positions of all nodes are kept for each instant, and one question to the server answers for all pairs of it.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,12 @@ struct LiveSnapshot {
       if (points[k] == point && k != not_this) return k;
     return {};
   }
+  bool is_at(std::optional<double> time_s) const { return !time_s || (*time_s >= first_s && *time_s <= last_s); }
+  std::optional<size_t> place_of(const LiveNode& node) const {
+    for (size_t k = 0; k < nodes.size(); ++k)
+      if (nodes[k] == node) return k;
+    return {};
+  }
 };
 
 // For one thread. All functions that may ask the server throw what LiveClient throws.
@@ -84,20 +91,19 @@ class LiveSnapshots {
   size_t size() const { return entries_.size(); }
 
   // The gain between the nodes that are at these points at this time; without a time, at the last instant that has both
-  // points. -inf if there is no path. Throws std::out_of_range if no such instant is kept.
+  // points. If a node came only when the other one had begun to send, no instant has both: then the gain between these
+  // nodes at the later of the last instants that have one of the points each. -inf if there is no path. Throws
+  // std::out_of_range if no such instant is kept.
   double gain_db(const LiveVector& from, const LiveVector& to, std::optional<double> time_s = {}) {
-    for (size_t k = entries_.size(); k-- > 0;) {
-      Entry& entry = entries_[k];
-      if (time_s && (*time_s < entry.at.first_s || *time_s > entry.at.last_s)) continue;
-      const std::optional<size_t> a = entry.at.node_at(from), b = entry.at.node_at(to, a);
-      if (!a || !b) continue;
-      const Answer& answer = answered(entry);
-      const int64_t row = answer.channels->row_with_paths(*a, *b);
-      return row < 0 ? -std::numeric_limits<double>::infinity() : answer.gain_db[static_cast<size_t>(row)];
-    }
-    throw std::out_of_range("no two nodes are known at " + text(from) + " and " + text(to) +
-                            (time_s ? " at " + std::to_string(*time_s) + " s" : std::string()) +
-                            ": both ends must be radios of this medium, at the positions of their antennas");
+    std::optional<Found> found = at_one_instant(from, to, time_s);
+    if (!found) found = at_two_instants(from, to, time_s);
+    if (!found)
+      throw std::out_of_range("no two nodes are known at " + text(from) + " and " + text(to) +
+                              (time_s ? " at " + std::to_string(*time_s) + " s" : std::string()) +
+                              ": both ends must be radios of this medium, at the positions of their antennas");
+    const Answer& answer = answered(*found->entry);
+    const int64_t row = answer.channels->row_with_paths(found->from, found->to);
+    return row < 0 ? -std::numeric_limits<double>::infinity() : answer.gain_db[static_cast<size_t>(row)];
   }
 
  private:
@@ -112,6 +118,35 @@ class LiveSnapshots {
     std::shared_ptr<Answer> answer;
   };
 
+  struct Found {
+    Entry* entry;
+    size_t from, to;
+  };
+
+  std::optional<Found> at_one_instant(const LiveVector& from, const LiveVector& to, std::optional<double> time_s) {
+    for (size_t k = entries_.size(); k-- > 0;) {
+      const LiveSnapshot& at = entries_[k].at;
+      if (!at.is_at(time_s)) continue;
+      const std::optional<size_t> a = at.node_at(from), b = at.node_at(to, a);
+      if (a && b) return Found{&entries_[k], *a, *b};
+    }
+    return {};
+  }
+  std::optional<Found> at_two_instants(const LiveVector& from, const LiveVector& to, std::optional<double> time_s) {
+    const std::optional<size_t> one = last_with(from, time_s), other = last_with(to, {});
+    if (!one || !other || *one == *other) return {};
+    const LiveNode &sender = entries_[*one].at.nodes[*entries_[*one].at.node_at(from)],
+                   &receiver = entries_[*other].at.nodes[*entries_[*other].at.node_at(to)];
+    Entry& later = entries_[std::max(*one, *other)];
+    const std::optional<size_t> a = later.at.place_of(sender), b = later.at.place_of(receiver);
+    if (!a || !b || *a == *b) return {};
+    return Found{&later, *a, *b};
+  }
+  std::optional<size_t> last_with(const LiveVector& point, std::optional<double> time_s) const {
+    for (size_t k = entries_.size(); k-- > 0;)
+      if (entries_[k].at.is_at(time_s) && entries_[k].at.node_at(point)) return k;
+    return {};
+  }
   const Answer& answered(Entry& entry) {
     Answer& answer = *entry.answer;
     if (!answer.channels) {

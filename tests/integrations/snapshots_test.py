@@ -107,7 +107,8 @@ def instants(server):
         # Both instants have these two points, and the gains differ only by who stands between: the newest is told.
         expect(probe.ask(gain=[points["b"], STATION])["gain_db"] == later["b", "rsu"], "the newest instant")
         for wrong in ({"gain": [[3, -60, 0], points["b"]], "time": 1.0}, {"gain": [[1, 1, 1], points["b"]]},
-                      {"gain": [points["b"], points["b"]]}, {"gain": [moved["a"], points["b"]], "time": 0.75}):
+                      {"gain": [points["b"], points["b"]]}, {"gain": [moved["a"], points["b"]], "time": 0.75},
+                      {"gain": [[3, -60, 0], moved["a"]]}):  # one node at two instants
             answer = probe.ask(**wrong)
             expect("no two nodes are known at (" in answer.get("error", ""), answer)
         expect(probe.ask(forget=0.75)["snapshots"] == 1 and probe.ask(forget=9)["snapshots"] == 1, "forget")
@@ -128,6 +129,12 @@ def arrivals(server):
         compare(probe, alone, points)
         probe.take(0.1, a, c)
         expect(compare(probe, other, {**points, "c": [-3, -20, 0]}) == 3, "a vehicle that came")
+        # A signal that was sent before c came, from a place that a has left since: between both, as c finds them.
+        probe.take(0.15, a)
+        probe.take(0.16, node("a", 3, -57), c)
+        late = probe.ask(gain=[points["a"], [-3, -20, 0]], time=0.15)["gain_db"]
+        expect(late == probe.ask(gain=[[3, -57, 0], [-3, -20, 0]], time=0.16)["gain_db"], late)
+        expect(late is not None and abs(late - other["a", "c"]) > 0.01, (late, other["a", "c"]))
         for wrong, text in (({"type": "tank"}, "no [[live_vehicle]] of type"), ({"mount": "hook"}, "add a [[mount]]")):
             answer = probe.ask(take=0.2, nodes=[{**a, **wrong}])
             expect(text in answer.get("error", ""), answer)

@@ -112,6 +112,7 @@ void WavetracerChannel::add(cModule* radio) {
   cModule* const host = inet::getContainingNode(radio);
   radios_[radio->getId()] = {omnetpp::check_and_cast<const IRadio*>(radio), host->getId()};
   if (hosts_.count(host->getId()) == 0) hosts_[host->getId()] = make(host);
+  if (!begins_.empty()) take();  // signals in the air arrive at it, too
 }
 
 void WavetracerChannel::remove(cModule* radio) {
