@@ -12,6 +12,7 @@
 namespace wavetracer::live::van3twin {
 namespace {
 
+constexpr int most_lines_per_second = 10;  // about clients, in the log
 constexpr std::chrono::milliseconds longest_pause{100};
 constexpr std::chrono::seconds silent_before_replaced{10};
 constexpr int datagrams_a_round = 1000;  // then the server looks whether it is to stop
@@ -22,19 +23,26 @@ std::string key_of(const std::string& tx, const std::string& rx) { return tx + "
 
 Server::Server(Simulation& simulation, const DatagramSocket& socket, const Options& options, Log log,
                FrameSolved solved)
-    : simulation_(simulation), socket_(socket), options_(options), log_(std::move(log)), solved_(std::move(solved)) {}
+    : simulation_(simulation),
+      socket_(socket),
+      options_(options),
+      log_(log),
+      of_clients_(std::move(log), most_lines_per_second),
+      solved_(std::move(solved)) {}
 
 void Server::run(const std::function<bool()>& stop) {
   while (!stop()) {
+    of_clients_.catch_up(Clock::now());
     if (!socket_.wait(longest_pause)) continue;
     for (int k = 0; k < datagrams_a_round; ++k) {
       const std::optional<Datagram> datagram = socket_.receive(most_bytes);
       if (!datagram) break;
       const std::string answer = handle(*datagram);
       if (!answer.empty() && !socket_.send(datagram->sender, answer))
-        log_(fmt::format("client {}: an answer could not be sent", datagram->sender.name()));
+        of_clients_.say(fmt::format("client {}: an answer could not be sent", datagram->sender.name()), Clock::now());
     }
   }
+  of_clients_.finish();
   if (not_understood_ > 0)
     log_(fmt::format("{} datagrams were no messages of the protocol, and had no answer", not_understood_));
   if (turned_away_ > 0)
@@ -64,12 +72,14 @@ std::string Server::locate(const Datagram& datagram, const LocationUpdate& updat
   const Traffic::Placed placed = source->traffic.update(update);
   if (placed != Traffic::Placed::yes && !source->told) {
     source->told = true;
-    log_(fmt::format(
-        "warning: client {}: vehicle {} is left out, since {}; its links have no path. More of them are left "
-        "out in silence",
-        source->name, update.id,
-        placed == Traffic::Placed::no_place ? "all places are taken (count of [[live_vehicle]])"
-                                            : "it is outside of the scene (--offset, live.margin_m)"));
+    of_clients_.say(
+        fmt::format(
+            "warning: client {}: vehicle {} is left out, since {}; its links have no path. More of them are left "
+            "out in silence",
+            source->name, update.id,
+            placed == Traffic::Placed::no_place ? "all places are taken (count of [[live_vehicle]])"
+                                                : "it is outside of the scene (--offset, live.margin_m)"),
+        Clock::now());
   }
   return confirmation(update);
 }
@@ -102,20 +112,20 @@ Server::Source* Server::admit(const SocketAddress& address) {
                          sources_.size()));
       return nullptr;
     }
-    log_(fmt::format("client {} is forgotten: another one came", oldest->second->name));
+    of_clients_.say(fmt::format("client {} is forgotten: another one came", oldest->second->name), now);
     sources_.erase(oldest);
   }
   auto source = std::make_unique<Source>(
       Source{address.name(), Traffic(simulation_.live_types(), simulation_.live_bounds(), options_.coordinates)});
   source->spoke = now;
-  log_(fmt::format("client {} came", source->name));
+  of_clients_.say(fmt::format("client {} came", source->name), now);
   return sources_.emplace(address, std::move(source)).first->second.get();
 }
 
 void Server::forget(const SocketAddress& address) {
   const auto found = sources_.find(address);
   if (found == sources_.end()) return;
-  log_(fmt::format("client {} left", found->second->name));
+  of_clients_.say(fmt::format("client {} left", found->second->name), Clock::now());
   sources_.erase(found);
 }
 
@@ -140,8 +150,9 @@ void Server::solve(Source& source) {
   } catch (const DeviceError&) {
     throw;
   } catch (const std::exception& error) {
-    log_(fmt::format("client {}: this frame could not be computed, and its links have no path: {}", source.name,
-                     error.what()));
+    of_clients_.say(fmt::format("client {}: this frame could not be computed, and its links have no path: {}",
+                                source.name, error.what()),
+                    Clock::now());
     simulation_.forget();
   }
 }

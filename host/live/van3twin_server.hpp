@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "live/datagram_socket.hpp"
+#include "live/limited_log.hpp"
 #include "live/server.hpp"
 #include "live/van3twin_message.hpp"
 #include "live/van3twin_traffic.hpp"
@@ -56,6 +57,7 @@ class Server {
   const DatagramSocket& socket_;
   Options options_;
   Log log_;
+  LimitedLog of_clients_;  // lines that any datagram may cause
   FrameSolved solved_;
   std::map<SocketAddress, std::unique_ptr<Source>> sources_;
   const Clock::time_point began_ = Clock::now();

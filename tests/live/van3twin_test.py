@@ -180,6 +180,21 @@ def too_many_clients():
     print("a third client has to wait for a place")
 
 
+def comes_and_leaves_often(count=300):
+    """A client that fills the log: no line is lost in silence, and few are written."""
+    with serving() as server, Van3twinClient(server.name) as client:
+        for _ in range(count):
+            client.move("veh1", 3, -60)
+            client.send("SHUTDOWN_SIONNA")
+        expect(client.figure("PATHGAIN", "veh1", "veh2") == "300", "nobody is left")
+        expect(server.end() == 0, server.log)
+        lines = [line for line in server.log if " came" in line or " left" in line and "left out" not in line]
+        left_out = sum(int(line.split(" more lines")[0].split()[-1]) for line in server.log if " more lines" in line)
+        expect(len(lines) + left_out == 2 * count, f"{len(lines)} lines and {left_out} left out")
+        expect(10 <= len(lines) <= 100 and left_out > count, f"{len(lines)} lines of log")
+    print(f"{count} times a client comes and leaves: {len(lines)} lines of log, {left_out} counted")
+
+
 def refusals():
     def refused(text, *arguments):
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
@@ -223,6 +238,7 @@ def main():
     coming_and_leaving()
     hostile()
     too_many_clients()
+    comes_and_leaves_often()
     refusals()
     latency()
 

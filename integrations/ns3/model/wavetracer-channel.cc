@@ -13,7 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include "wavetracer/live_client.hpp"
+#include "wavetracer/live_nodes.hpp"
 
 namespace ns3 {
 
@@ -46,14 +46,11 @@ constexpr double speedOfLight = 299792458.0;
 }  // namespace
 
 struct WavetracerChannel::Connection {
-  wavetracer::LiveClient client;
+  wavetracer::LiveNodes nodes;
 };
 
-// A node: a vehicle with a type, or a station without one.
 struct WavetracerChannel::End {
   Ptr<const MobilityModel> mobility;
-  std::string name;  // of its antenna on the server
-  std::string id, type;
   double headingDeg = 0;
   bool headingIsSet = false;
   Vector asked;  // the position of the last question
@@ -61,10 +58,13 @@ struct WavetracerChannel::End {
 
 // The channels of one instant.
 struct WavetracerChannel::Frame {
-  Frame(wavetracer::LiveChannels answer, Time when) : time(when), channels(std::move(answer)) {
+  Frame(wavetracer::LiveNodeChannels answer, Time when, const std::string& gain)
+      : time(when), links(std::move(answer)) {
+    const wavetracer::LiveChannels& channels = links.channels;
     ports = channels.answer().at("rx_ports").get<size_t>() * channels.answer().at("tx_ports").get<size_t>();
     firstPath.assign(1, 0);
     for (const uint32_t count : channels.paths) firstPath.push_back(firstPath.back() + count);
+    gainDb = channels.link(gain.c_str());
     delayS = channels.path("delay_s");
     a = channels.path("a");
     dopplerHz = channels.path("doppler_hz");
@@ -72,12 +72,11 @@ struct WavetracerChannel::Frame {
       angles.push_back(channels.path(name));
   }
   Time time;
-  wavetracer::LiveChannels channels;
+  wavetracer::LiveNodeChannels links;
   size_t ports;
   std::vector<size_t> firstPath;  // per link, and one more
   std::vector<double> gainDb, delayS, dopplerHz, a;
   std::vector<std::vector<double>> angles;
-  std::vector<int64_t> rows;  // per pair of ends: the link, or -1
 };
 
 TypeId WavetracerChannel::GetTypeId() {
@@ -129,6 +128,7 @@ void WavetracerChannel::DoDispose() {
     ConstCast<MobilityModel>(end.mobility)
         ->TraceDisconnectWithoutContext("CourseChange", MakeCallback(&WavetracerChannel::CourseChanged, this));
   m_ends.clear();
+  m_nodes.clear();
   m_endOf.clear();
   m_frame.reset();
   m_connection.reset();
@@ -144,7 +144,7 @@ void WavetracerChannel::Connect() {
   options.retries = m_retries;
   if (!m_tokenFile.empty()) options.token = ReadToken(m_tokenFile);
   try {
-    m_connection.reset(new Connection{wavetracer::LiveClient(options)});
+    m_connection.reset(new Connection{wavetracer::LiveNodes(options)});
   } catch (const std::exception& error) {
     NS_FATAL_ERROR("wavetracer: " << error.what());
   }
@@ -152,50 +152,33 @@ void WavetracerChannel::Connect() {
 
 double WavetracerChannel::GetFrequency() {
   Connect();
-  return m_connection->client.world().at("frequency_hz").get<double>();
+  return m_connection->nodes.frequency_hz();
 }
 
-void WavetracerChannel::Add(Ptr<Node> node, const End& end) {
+void WavetracerChannel::Add(Ptr<Node> node, const std::function<wavetracer::LiveNode()>& make) {
+  Connect();
   const Ptr<MobilityModel> mobility = node->GetObject<MobilityModel>();
   if (!mobility)
     NS_FATAL_ERROR("wavetracer: node " << node->GetId() << " has no mobility model: install one before it is added");
   if (!m_endOf.emplace(PeekPointer(mobility), m_ends.size()).second)
     NS_FATAL_ERROR("wavetracer: node " << node->GetId() << " was added twice");
+  try {
+    m_nodes.push_back(make());
+  } catch (const std::exception& error) {
+    NS_FATAL_ERROR("wavetracer: node " << node->GetId() << ": " << error.what());
+  }
   mobility->TraceConnectWithoutContext("CourseChange", MakeCallback(&WavetracerChannel::CourseChanged, this));
-  m_ends.push_back(end);
+  m_ends.emplace_back();
   m_ends.back().mobility = mobility;
   m_frame.reset();
 }
 
 void WavetracerChannel::AddVehicle(Ptr<Node> node, const std::string& type, const std::string& mount) {
-  Connect();
-  const auto& types = m_connection->client.world().at("types");
-  const auto found =
-      std::find_if(types.begin(), types.end(), [&](const auto& each) { return each.at("type") == type; });
-  if (found == types.end())
-    NS_FATAL_ERROR("wavetracer: the configuration of the server has no [[live_vehicle]] of type \"" << type << '"');
-  const auto& mounts = found->at("mounts");
-  const auto place = std::find_if(mounts.begin(), mounts.end(),
-                                  [&](const auto& each) { return mount.empty() || each.at("name") == mount; });
-  if (place == mounts.end())
-    NS_FATAL_ERROR("wavetracer: vehicles of type \"" << type << "\" have no antenna \"" << mount
-                                                     << "\": add a [[mount]] to the configuration of the server");
-  End end;
-  end.id = "node" + std::to_string(node->GetId());
-  end.type = type;
-  end.name = end.id + '/' + place->at("name").get<std::string>();
-  Add(node, end);
+  Add(node, [&] { return m_connection->nodes.vehicle("node" + std::to_string(node->GetId()), type, mount); });
 }
 
 void WavetracerChannel::AddStation(Ptr<Node> node, const std::string& name) {
-  Connect();
-  bool known = false;
-  for (const char* list : {"transmitters", "receivers"})
-    for (const auto& each : m_connection->client.world().at(list)) known = known || each == name;
-  if (!known) NS_FATAL_ERROR("wavetracer: the configuration of the server has no fixed antenna \"" << name << '"');
-  End end;
-  end.name = name;
-  Add(node, end);
+  Add(node, [&] { return m_connection->nodes.station(name); });
 }
 
 void WavetracerChannel::SetHeading(Ptr<Node> node, double degrees) {
@@ -217,8 +200,9 @@ size_t WavetracerChannel::EndOf(Ptr<const MobilityModel> mobility) const {
 }
 
 bool WavetracerChannel::HasMoved() const {
-  return std::any_of(m_ends.begin(), m_ends.end(),
-                     [](const End& end) { return !end.type.empty() && !Same(end.mobility->GetPosition(), end.asked); });
+  for (size_t k = 0; k < m_ends.size(); ++k)
+    if (m_nodes[k].is_vehicle() && !Same(m_ends[k].mobility->GetPosition(), m_ends[k].asked)) return true;
+  return false;
 }
 
 void WavetracerChannel::Update() {
@@ -231,51 +215,28 @@ void WavetracerChannel::Update() {
   if (!m_frame || (!keeps && HasMoved())) Ask();
 }
 
+wavetracer::LivePlace WavetracerChannel::PlaceOf(End& end) const {
+  const Vector at = end.mobility->GetPosition(), speed = end.mobility->GetVelocity();
+  const Vector way = speed.GetLength() > 0 ? speed : m_frame ? at - end.asked : Vector();
+  if (!end.headingIsSet && std::hypot(way.x, way.y) > 0) end.headingDeg = wavetracer::yaw_of({way.x, way.y, way.z});
+  end.asked = at;
+  const Vector place = at + m_offset;
+  return {{place.x, place.y, place.z}, {speed.x, speed.y, speed.z}, end.headingDeg};
+}
+
 void WavetracerChannel::Ask() {
   Connect();
   const auto began = std::chrono::steady_clock::now();
-  const auto& bounds = m_connection->client.world().at("bounds_m");
-  nlohmann::json vehicles = nlohmann::json::array();
-  for (End& end : m_ends) {
-    if (end.type.empty()) continue;
-    const Vector at = end.mobility->GetPosition(), speed = end.mobility->GetVelocity();
-    const Vector way = speed.GetLength() > 0 ? speed : m_frame ? at - end.asked : Vector();
-    if (!end.headingIsSet && std::hypot(way.x, way.y) > 0) end.headingDeg = std::atan2(way.y, way.x) * 180 / M_PI;
-    end.asked = at;
-    const double place[3] = {at.x + m_offset.x, at.y + m_offset.y, at.z + m_offset.z};
-    bool inside = true;
-    for (size_t k = 0; k < 3; ++k)
-      inside =
-          inside && place[k] >= bounds.at("lower")[k].get<double>() && place[k] <= bounds.at("upper")[k].get<double>();
-    if (!inside) {
-      NS_LOG_INFO(end.id << " is outside of the scene at " << at);
-      continue;
-    }
-    vehicles.push_back({{"id", end.id}, {"type", end.type}, {"position_m", place}, {"yaw_deg", end.headingDeg}});
-    if (speed.GetLength() > 0) vehicles.back()["velocity_m_s"] = {speed.x, speed.y, speed.z};
-  }
+  std::vector<wavetracer::LivePlace> places;
+  for (End& end : m_ends) places.push_back(PlaceOf(end));
   const Time now = Simulator::Now();
   try {
-    m_frame = std::make_unique<Frame>(m_connection->client.channels(now.GetSeconds(), std::move(vehicles)), now);
-    m_frame->gainDb = m_frame->channels.link(m_gain.c_str());
+    m_frame = std::make_unique<Frame>(m_connection->nodes.channels(now.GetSeconds(), m_nodes, places), now, m_gain);
   } catch (const std::exception& error) {
     NS_FATAL_ERROR("wavetracer: at " << now.GetSeconds() << " s: " << error.what());
   }
-  const wavetracer::LiveChannels& channels = m_frame->channels;
-  std::unordered_map<std::string, size_t> endOf;
-  for (size_t k = 0; k < m_ends.size(); ++k) endOf[m_ends[k].name] = k;
-  const auto places = [&](const std::vector<std::string>& names) {
-    std::vector<int64_t> out;
-    for (const std::string& name : names) out.push_back(endOf.count(name) ? static_cast<int64_t>(endOf[name]) : -1);
-    return out;
-  };
-  const std::vector<int64_t> tx = places(channels.transmitters), rx = places(channels.receivers);
-  m_frame->rows.assign(m_ends.size() * m_ends.size(), -1);
-  for (size_t row = 0; row < channels.size(); ++row) {
-    const int64_t from = tx[channels.tx[row]], to = rx[channels.rx[row]];
-    if (from >= 0 && to >= 0)
-      m_frame->rows[static_cast<size_t>(from) * m_ends.size() + static_cast<size_t>(to)] = static_cast<int64_t>(row);
-  }
+  for (const size_t k : m_frame->links.outside)
+    NS_LOG_INFO(m_nodes[k].id << " is outside of the scene at " << m_ends[k].asked);
   ++m_frames;
   m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
@@ -283,26 +244,26 @@ void WavetracerChannel::Ask() {
 int64_t WavetracerChannel::Row(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
   const size_t a = EndOf(from), b = EndOf(to);
   Update();
-  return m_frame->rows[a * m_ends.size() + b];
+  return m_frame->links.row(a, b);
 }
 
 double WavetracerChannel::GetGainDb(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
   const int64_t row = Row(from, to);
   const auto link = static_cast<size_t>(row);
-  if (row < 0 || m_frame->channels.paths[link] == 0) return m_noPathGain;
+  if (row < 0 || m_frame->links.channels.paths[link] == 0) return m_noPathGain;
   return std::max(m_frame->gainDb[link], m_noPathGain);
 }
 
 Time WavetracerChannel::GetDelay(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
   const int64_t row = Row(from, to);
   const auto link = static_cast<size_t>(row);
-  if (row < 0 || m_frame->channels.paths[link] == 0) return Seconds(from->GetDistanceFrom(to) / speedOfLight);
+  if (row < 0 || m_frame->links.channels.paths[link] == 0) return Seconds(from->GetDistanceFrom(to) / speedOfLight);
   return Seconds(m_frame->delayS[m_frame->firstPath[link]]);  // paths are sorted by delay
 }
 
 bool WavetracerChannel::IsLineOfSight(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {
   const int64_t row = Row(from, to);
-  return row >= 0 && m_frame->channels.los[static_cast<size_t>(row)] != 0;
+  return row >= 0 && m_frame->links.channels.los[static_cast<size_t>(row)] != 0;
 }
 
 std::vector<WavetracerPath> WavetracerChannel::GetPaths(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to) {

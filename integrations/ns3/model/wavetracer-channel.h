@@ -11,10 +11,16 @@
 
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
+
+namespace wavetracer {
+struct LiveNode;
+struct LivePlace;
+}  // namespace wavetracer
 
 namespace ns3 {
 
@@ -70,12 +76,13 @@ class WavetracerChannel : public Object {
   struct Connection;
 
   void Connect();
-  void Add(Ptr<Node> node, const End& end);
+  void Add(Ptr<Node> node, const std::function<wavetracer::LiveNode()>& make);
   size_t EndOf(Ptr<const MobilityModel> mobility) const;
   // Makes m_frame that of the present positions. Returns its row of the link, or -1.
   int64_t Row(Ptr<const MobilityModel> from, Ptr<const MobilityModel> to);
   void Update();
   bool HasMoved() const;
+  wavetracer::LivePlace PlaceOf(End& end) const;
   void Ask();
   void CourseChanged(Ptr<const MobilityModel> mobility);
 
@@ -87,6 +94,7 @@ class WavetracerChannel : public Object {
 
   std::unique_ptr<Connection> m_connection;
   std::vector<End> m_ends;
+  std::vector<wavetracer::LiveNode> m_nodes;  // of each end
   std::unordered_map<const MobilityModel*, size_t> m_endOf;
   std::unique_ptr<Frame> m_frame;
   Time m_checked;         // the time of the last comparison of positions
