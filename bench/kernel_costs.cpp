@@ -55,6 +55,8 @@ template <Name kernel>
 double tries_of(N n) {
   return n.items(kernel.text) * n.tuning.points.per_item;
 }
+// Nodes, each of which several work-items take.
+double onlooking_nodes(N n) { return n.items("point_prefixes/onlookers") / n.tuning.onlooker_lanes; }
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 double met_nodes(N n) { return std::min(n.items("sequences/commute"), nodes(n)); }
 
@@ -168,7 +170,7 @@ constexpr KernelCost costs[] = {
     {"transmissions/transmissions", "transmission", "legs", legs, leg_bytes, scene_operations},
     {"scatter/lit", "scattering", "sequences", items_of<"scatter/lit">, always<12>, always<20>, true},
     {"scatter/scatter", "scattering", "tiles of links", joined, scatter_bytes, nothing},
-    {"point_prefixes/onlookers", "scattering by mirrors", "sequences", items_of<"point_prefixes/onlookers">, always<12>,
+    {"point_prefixes/onlookers", "scattering by mirrors", "sequences", onlooking_nodes, always<12>,
      always<static_cast<size_t>(image_operations)>, true},
     {"point_prefixes/point_prefixes", "scattering by mirrors", "tiles of sequences",
      tries_of<"point_prefixes/point_prefixes">, nothing, always<static_cast<size_t>(point_operations)>, true},

@@ -34,6 +34,7 @@ PointPrefixes::PointPrefixes(gpu::Context& context, uint32_t row_depth, uint32_t
       place_(context),
       nodes_work_(tuning_of(context.info()).prefixes),
       rows_work_(tuning_of(context.info()).points),
+      onlooker_lanes_(tuning_of(context.info()).onlooker_lanes),
       local_(context.info().simple_local_size()),
       reflections_(reflections),
       most_(most_points(context.info(), row_depth)),
@@ -59,20 +60,21 @@ uint32_t PointPrefixes::find_onlookers(const DeviceScene& scene, const TileBuffe
   return grow_until_filled(
       [&] {
         context_.fill(count_, 0, Stage::point_prefixes);
-        onlookers_(nodes_work_.range(found.node_count), Stage::point_prefixes,
-                   calls::point_prefixes::onlookers{
-                       .table = found.table,
-                       .nodes = found.nodes,
-                       .ends = ends.transmitters,
-                       .first_ends = ends.first_ends,
-                       .surfaces = scene.exact_surfaces,
-                       .boxes = scene.surfaces,
-                       .tiles_of = tiles.of_surfaces,
-                       .blocks = tiles.blocks,
-                       .out = entries_,
-                       .count = count_,
-                       .counters = counters.buffer(),
-                       .args = wt_onlookers_arguments{found.node_count, reflections_, first, end, capacity()}});
+        onlookers_(
+            nodes_work_.range(size_t{found.node_count} * onlooker_lanes_), Stage::point_prefixes,
+            calls::point_prefixes::onlookers{.table = found.table,
+                                             .nodes = found.nodes,
+                                             .ends = ends.transmitters,
+                                             .first_ends = ends.first_ends,
+                                             .surfaces = scene.exact_surfaces,
+                                             .boxes = scene.surfaces,
+                                             .tiles_of = tiles.of_surfaces,
+                                             .blocks = tiles.blocks,
+                                             .out = entries_,
+                                             .count = count_,
+                                             .counters = counters.buffer(),
+                                             .args = wt_onlookers_arguments{found.node_count, reflections_, first, end,
+                                                                            capacity(), onlooker_lanes_}});
       },
       [&] { return count_.read_one(0, Stage::point_prefixes); }, capacity,
       [&](size_t larger) {

@@ -56,7 +56,7 @@ class PointPrefixes {
   gpu::KernelOf<calls::point_prefixes::point_keys> keys_;
   gpu::KernelOf<calls::point_prefixes::place_points> place_;
   Work nodes_work_, rows_work_;
-  uint32_t local_, reflections_, most_;
+  uint32_t onlooker_lanes_, local_, reflections_, most_;
   gpu::Buffer<uint32_t> entries_, first_row_, count_;  // four words per entry
   PointPrefixList list_;
 };

@@ -91,6 +91,7 @@ struct Tuning {
   uint32_t pairs_lanes, pairs_group;        // wedge_pairs: work-items per group of prefixes
   Work tiles;                               // rows of scatter
   Work points;                              // point_prefixes: tiles that an end tries by a chain of mirrors
+  uint32_t onlooker_lanes;                  // onlookers: work-items per node
   uint32_t gather_lanes;                    // beam_gather: work-items per aperture
   uint32_t visible_lanes, visible_targets;  // beam_visible: work-items per group, candidates that a group takes in turn
 
@@ -149,6 +150,8 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // One search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},
       .points = cpu ? Work{64, 1} : Work{4, 32},  // the images of a chain serve the tiles of a surface; not measured
+      // The ground has most blocks, and few nodes see it.
+      .onlooker_lanes = cpu ? 1u : 32u,
       .gather_lanes = cpu ? 1u : 128u,
       .visible_lanes = cpu ? 1u : 32u,
       .visible_targets = cpu ? 32u : 1u,

@@ -30,15 +30,15 @@ inline int may_show_block(const global wt_exact_surface* mirror, const global wt
          low.y <= box->upper[1] + margin && high.z >= box->lower[2] - margin && low.z <= box->upper[2] + margin;
 }
 
-// A work-item takes one node. ends: all ends that launch rays; those of root r are first_ends[r] .. first_ends[r + 1].
-// Appends (node, end, first tile, tiles) for each block of the tiles from args.first_tile to args.end_tile - 1 that the
-// last mirror may show; *count is their number. blocks: see TileBuffers.
+// args.lanes work-items take each node, and share its blocks of tiles. ends: all ends that launch rays; those of root r
+// are first_ends[r] .. first_ends[r + 1]. Appends (node, end, first tile, tiles) for each block of the tiles from
+// args.first_tile to args.end_tile - 1 that the last mirror may show; *count is their number. blocks: see TileBuffers.
 kernel void onlookers(const global ulong* table, const global uint* nodes, const global double4* ends,
                       const global uint* first_ends, const global wt_exact_surface* surfaces,
                       const global wt_surface* boxes, const global uint4* tiles_of, const global double* blocks,
                       global uint4* out, global uint* count, const global wt_counters* counters,
                       wt_onlookers_arguments args) {
-  const uint i = get_global_id(0);
+  const uint i = get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= wt_node_count(counters, args.node_count) || (nodes[i] & WT_ROOT)) return;
   const uint surface = wt_trie_surface(table[nodes[i]]);
   const uint4 tiles = tiles_of[surface];
@@ -53,9 +53,10 @@ kernel void onlookers(const global ulong* table, const global uint* nodes, const
     for (uint k = 0; k < depth; ++k) image = wt_reflected(surfaces + chain[k], image);
     // The surface must have a side that faces the image; an absent vehicle's has none.
     if (!(fabs(wt_above(surfaces + surface, image)) > wt_rounding(image))) continue;
-    for (uint tile = first, next; tile < last; tile = next) {
-      const uint block = (tile - tiles.x) / WT_TILE_BLOCK;
-      next = min(tiles.x + (block + 1) * WT_TILE_BLOCK, last);
+    for (uint block = (first - tiles.x) / WT_TILE_BLOCK + lane; tiles.x + block * WT_TILE_BLOCK < last;
+         block += args.lanes) {
+      const uint begin = tiles.x + block * WT_TILE_BLOCK;
+      const uint tile = max(first, begin), next = min(begin + WT_TILE_BLOCK, last);
       if (depth > 0 && tiles.w != WT_NONE &&
           !may_show_block(surfaces + chain[depth - 1], boxes + chain[depth - 1], image,
                           blocks + 6 * (size_t)(tiles.w + block)))

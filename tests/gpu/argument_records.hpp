@@ -99,7 +99,7 @@ inline const std::vector<Record> argument_records{
      sizeof(wt_onlookers_arguments),
      {FIELD(wt_onlookers_arguments, node_count), FIELD(wt_onlookers_arguments, reflections),
       FIELD(wt_onlookers_arguments, first_tile), FIELD(wt_onlookers_arguments, end_tile),
-      FIELD(wt_onlookers_arguments, capacity)}},
+      FIELD(wt_onlookers_arguments, capacity), FIELD(wt_onlookers_arguments, lanes)}},
     {"wt_point_prefixes_arguments",
      sizeof(wt_point_prefixes_arguments),
      {FIELD(wt_point_prefixes_arguments, entry_count), FIELD(wt_point_prefixes_arguments, row_count),

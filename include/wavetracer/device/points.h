@@ -29,6 +29,7 @@ typedef struct {
   wt_uint reflections;           // the most mirrors of a prefix
   wt_uint first_tile, end_tile;  // tiles that are looked for
   wt_uint capacity;
+  wt_uint lanes;  // work-items of a node, which share its blocks of tiles
 } wt_onlookers_arguments;
 
 typedef struct {
