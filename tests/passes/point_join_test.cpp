@@ -20,7 +20,14 @@ struct Halves {
   std::vector<bool> above;
 };
 
-// Every third of the hidden ones stays hidden, and every fourth passes a surface before its tile.
+// A number of a prefix that does not depend on its place in the list, which devices fill in any order.
+uint32_t number_of(const wt_solved& header, const PathRow& row) {
+  uint32_t out = header.transmitter;
+  for (const uint32_t step : row.steps) out = 31 * out + step;
+  return out % 65521;
+}
+
+// A third is hidden, and a quarter passes a surface before its tile.
 Halves test_legs(const PointWorld& world, const TileTable& tiles, SolvedList& list) {
   Halves out{list.headers.read(0, list.count), download_rows(list), {}};
   std::vector<uint32_t> steps(size_t{list.count} * list.max_depth, WT_NONE);
@@ -31,14 +38,15 @@ Halves test_legs(const PointWorld& world, const TileTable& tiles, SolvedList& li
     const glm::dvec3 before = row.points.size() > 1 ? row.points[row.points.size() - 2] : from;
     const Quad& quad = world.quads[tiles.surface(tiles.at(row.steps.back() & ~WT_STEP_KIND))];
     out.above.push_back(glm::dot(normal_of(quad), before - quad.corner) > 0);
-    row.blocked = i % 3 == 0;
-    if (i % 4 == 0) {
+    const uint32_t number = number_of(out.headers[i], row);
+    row.blocked = number % 3 == 0;
+    if (number % 4 == 0) {
       row.steps.insert(row.steps.end() - 1, WT_STEP_TRANSMISSION | 3u);
       row.points.insert(row.points.end() - 1, 0.5 * (before + row.points.back()));
     }
     out.headers[i].blocked = row.blocked;
     out.headers[i].depth = static_cast<uint32_t>(row.steps.size());
-    out.headers[i].quarters = 1u << i % 3 | 8u;
+    out.headers[i].quarters = 1u << number % 3 | 8u;
     for (size_t k = 0; k < row.steps.size(); ++k) {
       steps[i * list.max_depth + k] = row.steps[k];
       for (int axis = 0; axis < 3; ++axis)
