@@ -137,9 +137,8 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // GPUs: an H200 takes 0.41 ms for the legs of 132,000 solved paths in groups of 16, 0.31 in groups of 32 to 128
       // (bench_drive, 100 vehicles, depth 3, 2026-11-24).
       .exact = {1, cpu ? 16u : 32u},
-      .prefixes = {1, 64},  // the ground bounds many wedges and a wall few
-      // A wedge may be seen by few prefixes or by thousands; not measured.
-      .join_lanes = cpu ? 1u : 32u,
+      .prefixes = {1, 64},           // the ground bounds many wedges and a wall few
+      .join_lanes = cpu ? 1u : 32u,  // a wedge may be seen by few prefixes or by thousands; not measured
       // Most prefixes are not a transmitter's and end at once. GPUs: an H100 takes 0.36 ms instead of 0.52 in groups of
       // 32, for 600,000 prefixes (munich, 1 x 100, `run --repeat 60`, 2026-11-25). Pairs take long, and are few.
       .join_group = cpu ? 32u : 256u,
@@ -150,9 +149,7 @@ inline Tuning tuning_of(const gpu::DeviceInfo& device) {
       // One search for the entry serves many rows where there are few cores.
       .tiles = {cpu ? 64u : 1u, small},
       .points = cpu ? Work{64, 1} : Work{4, 32},  // the images of a chain serve the tiles of a surface; not measured
-      // The ground has most blocks, and few nodes see it: with one work-item a node an H200 takes 14.6 ms, not 0.40
-      // (bench_kernels --world "scattering by mirrors", 2026-11-29).
-      .onlooker_lanes = cpu ? 1u : 32u,
+      .onlooker_lanes = cpu ? 1u : 32u,           // an H200: 0.40 ms, and 14.6 with 1 (bench_kernels, 2026-11-29)
       .gather_lanes = cpu ? 1u : 128u,
       .visible_lanes = cpu ? 1u : 32u,
       .visible_targets = cpu ? 32u : 1u,
