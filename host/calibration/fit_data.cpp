@@ -11,6 +11,9 @@
 namespace wavetracer::calibration {
 namespace {
 
+// The logarithm of a spread in its unit, dB.
+double spread_db(double spread) { return 10 * std::log10(spread); }
+
 constexpr size_t most_profile_bins = 10'000;
 
 const MeasuredPoint& measured_of(const Calibration& result, const FittedPoint& point) {
@@ -45,7 +48,7 @@ void add_spreads(FitData& out, const Request& request, const Calibration& result
     if (!spread) continue;
     ++count;
     if (!fits) continue;
-    out.data.push_back({.value = 10 * std::log10(*spread), .kind = 1 + kind});
+    out.data.push_back({.value = spread_db(*spread), .kind = 1 + kind});
     out.shapes.push_back({i, kind});
   }
   if (count > 0 && !fits && !request.patterns.empty())
@@ -67,7 +70,7 @@ void add_profiles(FitData& out, const Request& request, const Calibration& resul
 }  // namespace
 
 double shape_db(const Computed& computed, const ShapeDatum& datum) {
-  if (datum.kind < spread_kinds.size()) return 10 * std::log10(computed.*spread_kinds[datum.kind].computed);
+  if (datum.kind < spread_kinds.size()) return spread_db(computed.*spread_kinds[datum.kind].computed);
   return datum.bin < computed.profile.size() ? computed.profile[datum.bin] : std::numeric_limits<double>::quiet_NaN();
 }
 

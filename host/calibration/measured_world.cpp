@@ -147,8 +147,9 @@ Computed MeasuredWorld::of_link(const Paths& paths, size_t first, size_t end, do
   Spreads spreads(first < end ? paths.delay_s[first] : 0);
   std::vector<DelayPower> components;
   for (size_t row = first; row < end; ++row) {
-    spreads.add(power_of(paths, row), paths.delay_s[row], paths.aoa_phi_rad[row]);
-    if (profile_bins_ > 0) components.push_back({paths.delay_s[row], power_of(paths, row)});
+    const double of_path = power_of(paths, row);
+    spreads.add(of_path, paths.delay_s[row], paths.aoa_phi_rad[row]);
+    if (profile_bins_ > 0) components.push_back({paths.delay_s[row], of_path});
   }
   return {10 * std::log10(power), spreads.delay_ns(), spreads.azimuth_deg(),
           delay_profile(components, profile_bin_s_, profile_bins_)};

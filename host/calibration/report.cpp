@@ -49,10 +49,8 @@ std::string page_html(const Calibration& result, const std::string& command_line
   std::string text = fmt::format("<h1>Calibration: {}</h1>\n{}", xml_text(result.config.file),
                                  study::heading_html(heading, {how(result)}));
   text += svg + study::table_html(agreement_table(result)) + study::table_html(parameter_table(result));
-  if (const study::NumberTable spreads = spread_table(result); !spreads.rows.empty())
-    text += study::table_html(spreads);
-  if (const study::NumberTable profiles = profile_table(result); !profiles.rows.empty())
-    text += study::table_html(profiles);
+  for (const study::NumberTable& table : {spread_table(result), profile_table(result)})
+    if (!table.rows.empty()) text += study::table_html(table);
   const std::vector<std::string> found = findings(result);
   if (!found.empty()) text += "<h2>Notes</h2>\n<ul>\n";
   for (const std::string& item : found) text += fmt::format("<li>{}.</li>\n", xml_text(item));
@@ -65,10 +63,8 @@ std::string page_html(const Calibration& result, const std::string& command_line
 std::string calibration_text(const Calibration& result) {
   std::string text =
       how(result) + "\n\n" + table_text(agreement_table(result)) + "\n" + table_text(parameter_table(result));
-  if (const study::NumberTable spreads = spread_table(result); !spreads.rows.empty())
-    text += "\n" + table_text(spreads);
-  if (const study::NumberTable profiles = profile_table(result); !profiles.rows.empty())
-    text += "\n" + table_text(profiles);
+  for (const study::NumberTable& table : {spread_table(result), profile_table(result)})
+    if (!table.rows.empty()) text += "\n" + table_text(table);
   for (const std::string& item : findings(result)) text += "note: " + item + "\n";
   return text;
 }

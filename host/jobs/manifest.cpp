@@ -85,11 +85,11 @@ MissedCounts decode_missed(const Json& json) {
   return out;
 }
 
-FrameCounts decode_counts(const Json& counts) {
-  const auto count = [&](const char* name) { return whole_at<uint64_t>(counts, name); };
-  return {count("rays"),      count("segments"),   count("hits"),
-          count("sequences"), count("candidates"), count("solved"),
-          count("paths"),     count("receptions"), whole_or<uint64_t>(counts, "weak", 0)};
+FrameCounts decode_counts(const Json& json) {
+  FrameCounts out;
+  for (const auto& [name, count, optional] : frame_count_names)
+    out.*count = optional ? whole_or<uint64_t>(json, name, 0) : whole_at<uint64_t>(json, name);
+  return out;
 }
 
 Shard decode(const Json& json, ManifestOf what) {
@@ -169,10 +169,8 @@ std::string encode_manifest_line(const Shard& shard) {
   json["end_s"] = t.end_s;
   json["vertices"] = t.vertices;
   json["links"] = t.links;
-  json["counts"] = {{"rays", t.counts.rays},           {"segments", t.counts.segments},     {"hits", t.counts.hits},
-                    {"sequences", t.counts.sequences}, {"candidates", t.counts.candidates}, {"solved", t.counts.solved},
-                    {"paths", t.counts.paths},         {"receptions", t.counts.receptions}};
-  if (t.counts.weak > 0) json["counts"]["weak"] = t.counts.weak;
+  for (const auto& [name, count, optional] : frame_count_names)
+    if (!optional || t.counts.*count > 0) json["counts"][name] = t.counts.*count;
   json["kinds"] = t.kinds;  // in the order of path_kinds
   json["segments_per_depth"] = t.segments_per_depth;
   if (t.left_out.all > 0)

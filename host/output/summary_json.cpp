@@ -40,11 +40,10 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
 Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
 Json counts(const Totals& totals, const TraceConfig& trace) {
-  const FrameCounts& sum = totals.counts;
-  Json json = {{"rays", sum.rays},           {"segments", sum.segments},     {"hits", sum.hits},
-               {"sequences", sum.sequences}, {"candidates", sum.candidates}, {"solved", sum.solved},
-               {"paths", sum.paths},         {"receptions", sum.receptions}};
-  if (trace.reflects_scattered() && trace.scattering_floor_db) json["weak"] = sum.weak;
+  const bool leaves_out = trace.reflects_scattered() && trace.scattering_floor_db;
+  Json json;
+  for (const auto& [name, count, optional] : frame_count_names)
+    if (!optional || leaves_out) json[name] = totals.counts.*count;
   return json;
 }
 

@@ -11,18 +11,6 @@
 namespace wavetracer {
 namespace {
 
-void add(FrameCounts& sum, const FrameCounts& more) {
-  sum.rays += more.rays;
-  sum.segments += more.segments;
-  sum.hits += more.hits;
-  sum.sequences += more.sequences;
-  sum.candidates += more.candidates;
-  sum.solved += more.solved;
-  sum.paths += more.paths;
-  sum.weak += more.weak;
-  sum.receptions += more.receptions;
-}
-
 void add(PathKindCounts& sum, const PathKindCounts& more) {
   for (size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
 }

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "passes/advice.hpp"
@@ -18,12 +17,6 @@ namespace {
 
 constexpr uint32_t least_joined = 1 << 12;
 
-uint32_t most_joined(const gpu::DeviceInfo& device, uint32_t row_depth) {
-  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * row_depth),
-                                 device.global_memory / (4 * bytes_of_row(row_depth)));
-  return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_joined, 1u << 30));
-}
-
 }  // namespace
 
 PointJoin::PointJoin(gpu::Context& context, JoinedPoints limits)
@@ -32,7 +25,7 @@ PointJoin::PointJoin(gpu::Context& context, JoinedPoints limits)
       limits_(std::move(limits)),
       lanes_(tuning_of(context.info()).join_lanes),
       group_(tuning_of(context.info()).join_group),
-      most_(most_joined(context.info(), limits_.row_depth)),
+      most_(most_rows(context.info(), limits_.row_depth, 0, 4, least_joined)),
       counts_(context.buffer<uint32_t>(3, "counts of paths over tiles")) {
   list_.max_depth = limits_.row_depth;
   list_.deepest = limits_.max_depth;

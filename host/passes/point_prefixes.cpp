@@ -16,13 +16,7 @@ namespace wavetracer {
 namespace {
 
 constexpr uint32_t least_points = 1 << 12;
-
-uint32_t most_points(const gpu::DeviceInfo& device, uint32_t row_depth) {
-  const uint64_t bytes = bytes_of_row(row_depth) + 2 * sizeof(uint32_t) + sizeof(wt_point_prefix);
-  const uint64_t most =
-      std::min(device.max_buffer / (3 * sizeof(double) * row_depth), device.global_memory / (8 * bytes));
-  return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_points, 1u << 30));
-}
+constexpr uint64_t bytes_beside_row = 2 * sizeof(uint32_t) + sizeof(wt_point_prefix);
 
 }  // namespace
 
@@ -37,7 +31,7 @@ PointPrefixes::PointPrefixes(gpu::Context& context, uint32_t row_depth, uint32_t
       onlooker_lanes_(tuning_of(context.info()).onlooker_lanes),
       local_(context.info().simple_local_size()),
       reflections_(reflections),
-      most_(most_points(context.info(), row_depth)),
+      most_(most_rows(context.info(), row_depth, bytes_beside_row, 8, least_points)),
       entries_(context.buffer<uint32_t>(4 * 1024, {"onlookers of tiles", advice::tiles})),
       first_row_(context.buffer<uint32_t>(1024 + 1, {"rows of onlookers", advice::tiles})),
       count_(context.buffer<uint32_t>(1, {"onlookers of tiles", advice::tiles})) {

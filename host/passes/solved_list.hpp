@@ -2,6 +2,8 @@
 // Solved candidates on the device: solve produces them, occlusion marks them, and visible selects from them. The layout
 // is wt_solved in wavetracer/device/records.h.
 #pragma once
+#include <algorithm>
+
 #include "gpu/gpu.hpp"
 #include "passes/advice.hpp"
 #include "wavetracer/device/records.h"
@@ -11,6 +13,15 @@ namespace wavetracer {
 // The memory of a row with this many interactions.
 constexpr uint64_t bytes_of_row(uint32_t max_depth) {
   return sizeof(wt_solved) + uint64_t{3 * sizeof(double) + sizeof(uint32_t)} * max_depth;
+}
+
+// The most rows of a list that takes at most this part of the device's memory, with so many bytes beside each row; at
+// least the rows that the list begins with.
+inline uint32_t most_rows(const gpu::DeviceInfo& device, uint32_t max_depth, uint64_t bytes_beside, uint64_t part,
+                          uint32_t least) {
+  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(max_depth, 1u)),
+                                 device.global_memory / (part * (bytes_of_row(max_depth) + bytes_beside)));
+  return static_cast<uint32_t>(std::clamp<uint64_t>(most, least, 1u << 30));
 }
 
 struct SolvedList {

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "passes/advice.hpp"
 #include "passes/solved_list.hpp"
 
@@ -14,17 +12,10 @@ namespace {
 
 constexpr uint32_t least_candidates = 1 << 14;
 
-// The most candidates, at least as many as the list begins with.
-uint32_t most_candidates(const gpu::DeviceInfo& device, uint32_t row_depth) {
-  const uint64_t most = std::min(device.max_buffer / (3 * sizeof(double) * std::max(row_depth, 1u)),
-                                 device.global_memory / (4 * (sizeof(wt_wedge_candidate) + bytes_of_row(row_depth))));
-  return static_cast<uint32_t>(std::clamp<uint64_t>(most, least_candidates, 1u << 30));
-}
-
 }  // namespace
 
 WedgeCandidates::WedgeCandidates(gpu::Context& context, uint32_t row_depth)
-    : context_(context), most_(most_candidates(context.info(), row_depth)) {
+    : context_(context), most_(most_rows(context.info(), row_depth, sizeof(wt_wedge_candidate), 4, least_candidates)) {
   make_room(least_candidates);
 }
 

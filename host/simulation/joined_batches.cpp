@@ -133,10 +133,7 @@ std::vector<CarrierFields> joined_carriers(const std::vector<FrameResult>& batch
 }
 
 void add_counts(FrameResult& to, const FrameResult& from) {
-  for (auto count : {&FrameCounts::rays, &FrameCounts::segments, &FrameCounts::hits, &FrameCounts::sequences,
-                     &FrameCounts::candidates, &FrameCounts::solved, &FrameCounts::paths, &FrameCounts::receptions,
-                     &FrameCounts::weak})
-    to.counts.*count += from.counts.*count;
+  add(to.counts, from.counts);
   add_part(to.certificate, from.certificate);
   for (const auto& [stage, seconds] : from.seconds) to.seconds[stage] += seconds;
   for (const auto& [name, kernel] : from.kernels) {

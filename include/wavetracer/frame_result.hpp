@@ -36,6 +36,27 @@ struct FrameCounts {
   uint64_t weak = 0;        // paths left out, because they are surely weaker than trace.scattering_floor_db
 };
 
+// The counts with their names in files, in the order of files. An optional one may be missing there.
+struct FrameCountName {
+  const char* name;
+  uint64_t FrameCounts::*count;
+  bool optional = false;
+};
+inline constexpr std::array frame_count_names{FrameCountName{"rays", &FrameCounts::rays},
+                                              FrameCountName{"segments", &FrameCounts::segments},
+                                              FrameCountName{"hits", &FrameCounts::hits},
+                                              FrameCountName{"sequences", &FrameCounts::sequences},
+                                              FrameCountName{"candidates", &FrameCounts::candidates},
+                                              FrameCountName{"solved", &FrameCounts::solved},
+                                              FrameCountName{"paths", &FrameCounts::paths},
+                                              FrameCountName{"receptions", &FrameCounts::receptions},
+                                              FrameCountName{"weak", &FrameCounts::weak, true}};
+static_assert(sizeof(FrameCounts) == frame_count_names.size() * sizeof(uint64_t), "every count needs a name");
+
+inline void add(FrameCounts& sum, const FrameCounts& more) {
+  for (const FrameCountName& each : frame_count_names) sum.*each.count += more.*each.count;
+}
+
 // Statistics of the ray cache in a frame. Counts are of this frame alone.
 struct CacheSummary {
   bool on = false;       // false: the frame had no cache, and everything below is 0 or empty

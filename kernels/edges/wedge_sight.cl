@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // wedge_sight: finds the pieces of its edge that a prefix may see. Rays only say that a prefix sees a face. This pass
 // decides, without losing any path, whether the edge can be seen in the mirrors and past other surfaces.
+#include "lib/join.clh"
 #include "lib/shown_part.clh"
 #include "wavetracer/device/arguments.h"
-
-inline double3 image_of(const global wt_wedge_prefix* p) {
-  return (double3)((double)p->image[0], (double)p->image[1], (double)p->image[2]);
-}
 
 // The images of prefixes are float32.
 inline double margin_of(double3 image) { return 1e-3 + 4e-7 * (fabs(image.x) + fabs(image.y) + fabs(image.z)); }
@@ -59,7 +56,7 @@ kernel void wedge_sight(const global WT_NODE* nodes, const global WT_LEAF* trian
   const wt_sight sight = {nodes,       triangles, args.triangle_slots,  args.extent_m,   surfaces,
                           first_sides, sides,     args.static_surfaces, args.only_opaque};
   const global wt_wedge* w = wedges + wt_wedge_of(keys[i]);
-  const double3 image = image_of(prefixes + i);
+  const double3 image = wt_image_of(prefixes + i);
   const double3 start = wt_on_edge(w, 0.0), end = wt_on_edge(w, w->length);
   uint chain[WT_MAX_DEPTH], root;
   const uint depth = wt_chain(table, prefixes[i].node, chain, &root);
