@@ -17,6 +17,7 @@ Trajectories read_trajectories(const std::filesystem::path& path, const Trajecto
   // These bytes are skipped: blanks, the byte order marks of UTF-8 and UTF-16, and the zero bytes of UTF-16, which
   // expat reads.
   constexpr std::string_view passed_over(" \t\r\n\xEF\xBB\xBF\xFF\xFE\0", 10);
+  if (is_carla_recorder_file(start)) return read_carla_recorder_file(stream, options);
   if (is_osi_trace(start)) return read_osi(stream, options);
   const size_t first = start.find_first_not_of(passed_over);
   if (first == start.npos) {

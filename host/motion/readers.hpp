@@ -51,11 +51,14 @@ struct UtcTime {
 // for other text.
 std::optional<UtcTime> utc_time(std::string_view text);
 
-// Reads recordings of CARLA as text, which client.show_recorder_file_info(file, show_all=True) returns.
-// Lengths in it are Unreal's: centimetres, y to the right; angles in degrees. Sizes are in it only if the recording was
-// started with additional_data=True.
+// Reads recordings of CARLA: the file that its server writes (client.start_recorder), or its text, which
+// client.show_recorder_file_info(file, show_all=True) returns.
+// Lengths in both are Unreal's: centimetres, y to the right; angles in degrees. Sizes are in them only if the recording
+// was started with additional_data=True. The text has six digits of each number, the file all.
+Trajectories read_carla_recorder_file(ByteStream& stream, const TrajectoryOptions& options);
 Trajectories read_carla(ByteStream& stream, const TrajectoryOptions& options);
-// Tells whether a text begins like such a recording.
+// Tell whether a file begins like these.
+bool is_carla_recorder_file(std::string_view start);
 bool is_carla_recording(std::string_view start);
 
 // Reads trajectories that esmini writes: its CSV log (--csv_logger) and its recording as text (dat2csv).

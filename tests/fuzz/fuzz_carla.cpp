@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: recordings of CARLA as text.
+// Fuzz target: recordings of CARLA, as its server writes them and as text.
 #include "fuzz/fuzz.hpp"
 #include "motion/readers.hpp"
 
@@ -9,6 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   return fuzz::accept_or_refuse([&] {
     const TrajectoryOptions options;
     ByteStream stream(file.write(data, size));
-    read_carla(stream, options);
+    if (is_carla_recorder_file(stream.peek()))
+      read_carla_recorder_file(stream, options);
+    else
+      read_carla(stream, options);
   });
 }
