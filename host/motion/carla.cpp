@@ -91,6 +91,7 @@ class CarlaReader {
                       *time_s_, frame_line_, time_s));
     time_s_ = time_s;
     frame_line_ = lines_.number();
+    tracks_.begin_frame(time_s);
   }
 
   void create(Scanner& scan) {

@@ -41,6 +41,8 @@ class CarlaTracks {
   CarlaActor& create(uint64_t number, std::string blueprint);
   // Returns null if there is no such actor, or if it is neither a vehicle nor a person.
   CarlaActor* moving(uint64_t number);
+  // Must be called for each frame, with its time, which is later than those before.
+  void begin_frame(double time_s) { tracks_.add_frame(time_s); }
   void add(const CarlaSample& sample) { samples_.push_back(sample); }
   void warn(std::string message) { tracks_.warn(std::move(message)); }
   // no_samples: what to do if there are no places of vehicles.

@@ -145,6 +145,7 @@ class RecorderReader {
       fail(fmt::format("is at {} s, before the frame ahead of it: the file is damaged", time_s));
     if (time_s_ && time_s == *time_s_) fail(fmt::format("is at {} s, as the frame ahead of it", time_s));
     time_s_ = time_s;
+    tracks_.begin_frame(time_s);
   }
 
   void create(PacketReader& packet) {

@@ -154,7 +154,7 @@ Trajectories TrackBuilder::finish(ReferencePoint reference) {
   double first_cut_s = 0;
   for (Track& track : out_.tracks) {
     place(track);
-    if (const auto time_s = split_segments(track, out_.step_s, options_.max_speed_m_s)) {
+    if (const auto time_s = split_segments(track, out_.step_s, options_.max_speed_m_s, frames_s_)) {
       if (cut.empty()) first_cut_s = *time_s;
       cut.push_back(track.id);
     }

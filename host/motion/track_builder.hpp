@@ -40,6 +40,9 @@ class TrackBuilder {
   // Declares that positions are (longitude, latitude) in degrees and the height, which is above the ground unless the
   // file has heights of its own. Throws if the options cannot place degrees.
   void in_degrees(bool above_ground = true);
+  // Declares that the file has a frame at this time, later than those before. If it declares all, steps may vary: a
+  // vehicle is absent only in frames that lack it.
+  void add_frame(double time_s) { frames_s_.push_back(time_s); }
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
   // Returns the tracks so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }
@@ -64,6 +67,7 @@ class TrackBuilder {
   Trajectories out_;
   std::vector<uint64_t> last_line_;  // for each track
   ByName<uint32_t> track_of_, type_of_;
+  std::vector<double> frames_s_;
   std::vector<std::string> unknown_types_;
   uint64_t changed_types_ = 0, off_network_ = 0, off_ground_ = 0;
   bool degrees_ = false, above_ground_ = false;

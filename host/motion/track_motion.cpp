@@ -137,7 +137,8 @@ void set_order(Trajectories& trajectories) {
   trajectories.step_s = unrounded_step(tracks, median_step(tracks), largest_s);
 }
 
-std::optional<double> split_segments(Track& track, double step_s, double max_speed_m_s) {
+std::optional<double> split_segments(Track& track, double step_s, double max_speed_m_s,
+                                     const std::vector<double>& frames_s) {
   if (track.samples.size() >= 4) {
     std::vector<double> steps_s;
     append_steps(track, steps_s);
@@ -146,7 +147,10 @@ std::optional<double> split_segments(Track& track, double step_s, double max_spe
   track.segments = {0};
   for (size_t k = 1; k < track.samples.size(); ++k) {
     const Sample &a = track.samples[k - 1], &b = track.samples[k];
-    if (b.time_s - a.time_s > gap_steps * step_s || is_jump(a, b, max_speed_m_s)) {
+    const auto next = std::ranges::upper_bound(frames_s, a.time_s);
+    const bool gap =
+        frames_s.empty() ? b.time_s - a.time_s > gap_steps * step_s : next != frames_s.end() && *next < b.time_s;
+    if (gap || is_jump(a, b, max_speed_m_s)) {
       track.segments.push_back(static_cast<uint32_t>(k));
     }
   }

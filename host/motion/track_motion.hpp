@@ -21,8 +21,11 @@ double median_step(const std::vector<Track>& tracks);
 void set_order(Trajectories& trajectories);
 
 // Cuts the track at gaps and at jumps, by the rule of read.hpp. step_s: of the whole file; a track of at least four
-// samples that is sampled more slowly throughout uses its own step. Returns the time before the first cut.
-std::optional<double> split_segments(Track& track, double step_s, double max_speed_m_s);
+// samples that is sampled more slowly throughout uses its own step. frames_s: the times of all frames of the file, in
+// order, if they are known: then a gap is a frame without the vehicle, however long a step takes. Returns the time
+// before the first cut.
+std::optional<double> split_segments(Track& track, double step_s, double max_speed_m_s,
+                                     const std::vector<double>& frames_s = {});
 
 // Fills missing yaw and pitch with the direction of motion, kept while the vehicle stands; zero if it never moves.
 // Returns whether such a zero was needed.

@@ -132,6 +132,20 @@ TEST_CASE("long recordings of CARLA's server: times that the text would round to
   CHECK(recorded_track(t, "hero").samples[3].time_s == 12345.677);
 }
 
+TEST_CASE("steps of a recording of CARLA vary: a vehicle is absent in frames without it, and jumps still cut") {
+  const auto at = [](uint64_t frame, double time_s, float x) {
+    return start_of(frame, time_s) + packet_of(6, {numbers_of(174, {x, 500, 10, 0, 2, 90})});
+  };
+  const std::string varied = at(2, 0.016, 1010) + at(3, 0.032, 1020) + at(4, 0.048, 1030) + at(5, 0.172, 1100);
+  CHECK(recorded_track(read_text(recorder_head + first_frame + varied, {}, "drive.log"), "hero").segments.size() == 1);
+  const std::string absent = varied + start_of(6, 0.188) + at(7, 0.204, 1120);
+  CHECK(recorded_track(read_text(recorder_head + first_frame + absent, {}, "drive.log"), "hero").segments ==
+        std::vector<uint32_t>{0, 5});
+  const std::string jump = varied + at(6, 0.188, 60000);
+  CHECK(recorded_track(read_text(recorder_head + first_frame + jump, {}, "drive.log"), "hero").segments ==
+        std::vector<uint32_t>{0, 5});
+}
+
 TEST_CASE("a recording of CARLA that ends early has its whole packets, and says so") {
   const std::string all =
       recorder_head + first_frame + start_of(2, 0.05) + packet_of(6, {numbers_of(174, {1000, 550, 10, 0, 0, 90})});
