@@ -3,10 +3,11 @@
 """Measures `wavetracer serve --protocol van3twin` as VaN3Twin's modules use it: all vehicles are placed, then every pair is
 asked for its path gain, delay and line of sight, step by step.
 
-usage: van3twin_latency.py PROGRAM [--vehicles N] [--steps N] [--device TEXT]
+usage: van3twin_latency.py PROGRAM [--vehicles N] [--steps N] [--device TEXT] [--pause MS]
 
 Prints p50 and p99 in milliseconds: of confirmations, of the first question of each step, for which the channels of all
-pairs are computed, and of all questions. The world is that of configs/ns3/corner.toml.
+pairs are computed, and of all questions. --pause: the time from the last update of a step to its first question, which a
+simulator needs for its own work; the server computes the channels meanwhile. The world is that of configs/ns3/corner.toml.
 """
 import argparse
 import pathlib
@@ -32,13 +33,14 @@ def timed(times, action, *arguments):
     return out
 
 
-def measure(client, vehicles, steps):
+def measure(client, vehicles, steps, pause_s):
     names = [f"veh{k + 1}" for k in range(vehicles)]
     confirmations, firsts, questions, heard = [], [], [], 0
     for step in range(steps):
         for k, name in enumerate(names):
             x, y, bearing_deg = place(k, step)
             timed(confirmations, client.move, name, x, y, 0.0, bearing_deg)
+        time.sleep(pause_s)
         asked = []
         for a in names:
             for b in names:
@@ -57,6 +59,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--vehicles", type=int, default=20)
     parser.add_argument("--steps", type=int, default=50)
+    parser.add_argument("--pause", type=float, default=0, help="ms")
     parser.add_argument("--device")
     options = parser.parse_args()
     command = [options.program, "serve", "--protocol", "van3twin", "-c", SOURCE / "configs/ns3/corner.toml", "--listen",
@@ -66,7 +69,7 @@ def main():
     if not line.startswith("listening on "):
         sys.exit(server.communicate()[1])
     with Van3twinClient(line.removeprefix("listening on ").strip()) as client:
-        times, heard = measure(client, options.vehicles, options.steps)
+        times, heard = measure(client, options.vehicles, options.steps, options.pause / 1e3)
     server.terminate()
     server.communicate()
     print(f"{options.vehicles} vehicles, {options.steps} steps: {heard} pairs with a path")

@@ -13,7 +13,7 @@ namespace wavetracer::live::van3twin {
 namespace {
 
 constexpr int most_lines_per_second = 10;  // about clients, in the log
-constexpr std::chrono::milliseconds longest_pause{100};
+constexpr std::chrono::milliseconds longest_pause{100}, quiet{1};
 constexpr std::chrono::seconds silent_before_replaced{10};
 constexpr int datagrams_a_round = 1000;  // then the server looks whether it is to stop
 
@@ -33,7 +33,12 @@ Server::Server(Simulation& simulation, const DatagramSocket& socket, const Optio
 void Server::run(const std::function<bool()>& stop) {
   while (!stop()) {
     of_clients_.catch_up(Clock::now());
-    if (!socket_.wait(longest_pause)) continue;
+    Source* const ahead = due();
+    if (!socket_.wait(ahead ? quiet : longest_pause)) {
+      if (ahead) solve(*ahead);
+      frames_ahead_ += ahead != nullptr;
+      continue;
+    }
     for (int k = 0; k < datagrams_a_round; ++k) {
       const std::optional<Datagram> datagram = socket_.receive(most_bytes);
       if (!datagram) break;
@@ -43,6 +48,7 @@ void Server::run(const std::function<bool()>& stop) {
     }
   }
   of_clients_.finish();
+  log_(fmt::format("{} frames were computed, {} of them before they were asked for", frames_, frames_ahead_));
   if (not_understood_ > 0)
     log_(fmt::format("{} datagrams were no messages of the protocol, and had no answer", not_understood_));
   if (turned_away_ > 0)
@@ -89,9 +95,18 @@ std::string Server::tell(const Datagram& datagram, const Question& question) {
   Source* const source = find(datagram.sender);
   if (!source) return answer(question, Link{});
   if (source->traffic.has_changed()) solve(*source);
+  source->asked = true;
   const auto found =
       source->links.find(key_of(source->traffic.transmitter(question.from), source->traffic.receiver(question.to)));
   return answer(question, found == source->links.end() ? Link{} : found->second);
+}
+
+Server::Source* Server::due() const {
+  const auto found = std::ranges::find_if(sources_, [](const auto& each) {
+    const Source& source = *each.second;
+    return source.asked && source.traffic.has_changed() && source.traffic.round_is_whole();
+  });
+  return found == sources_.end() ? nullptr : found->second.get();
 }
 
 Server::Source* Server::find(const SocketAddress& address) {
@@ -132,6 +147,8 @@ void Server::forget(const SocketAddress& address) {
 // A frame that cannot be computed leaves no links: nothing of an older frame is told.
 void Server::solve(Source& source) {
   source.links.clear();
+  source.asked = false;
+  ++frames_;
   try {
     const std::vector<LivePose> poses = source.traffic.poses();
     const double time_s = std::chrono::duration<double>(Clock::now() - began_).count();

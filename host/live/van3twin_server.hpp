@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `wavetracer serve --protocol van3twin`: answers the datagrams of VaN3Twin's ns-3 modules, one by one on one thread. A
-// question after a vehicle has moved computes the channels of all vehicles; others are answered from that frame.
+// question after a vehicle has moved computes the channels of all vehicles; others are answered from that frame. If all
+// vehicles have been updated and no datagram comes for a millisecond, the frame is computed before it is asked for.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -40,7 +41,8 @@ class Server {
     LiveTraffic live = {};
     std::unordered_map<std::string, Link> links = {};  // by the names of both antennas
     Clock::time_point spoke = {};
-    bool told = false;  // the log says already that a vehicle of it is absent
+    bool told = false;   // the log says already that a vehicle of it is absent
+    bool asked = false;  // its last frame was asked about
   };
 
   // Returns the answer, or "" if there is none.
@@ -51,6 +53,9 @@ class Server {
   // Returns null if no more clients can be kept: one is replaced only after it was silent for ten seconds.
   Source* admit(const SocketAddress& address);
   void solve(Source& source);
+  // The first client whose frame will probably be asked for, or null: one that asked about its last frame, and has
+  // updated every vehicle since then.
+  Source* due() const;
   void forget(const SocketAddress& address);
 
   Simulation& simulation_;
@@ -61,7 +66,7 @@ class Server {
   FrameSolved solved_;
   std::map<SocketAddress, std::unique_ptr<Source>> sources_;
   const Clock::time_point began_ = Clock::now();
-  uint64_t not_understood_ = 0, turned_away_ = 0;
+  uint64_t not_understood_ = 0, turned_away_ = 0, frames_ = 0, frames_ahead_ = 0;
 };
 
 }  // namespace wavetracer::live::van3twin

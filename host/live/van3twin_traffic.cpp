@@ -68,6 +68,10 @@ Traffic::Placed Traffic::update(const LocationUpdate& update) {
   return Placed::yes;
 }
 
+bool Traffic::round_is_whole() const {
+  return std::ranges::all_of(vehicles_, [&](const auto& each) { return each.second.round == round_; });
+}
+
 std::vector<LivePose> Traffic::poses() {
   std::vector<LivePose> out;
   for (const auto& [id, vehicle] : vehicles_) out.push_back(vehicle.pose);

@@ -32,6 +32,8 @@ class Traffic {
 
   // True if a vehicle came, moved or left since the last call of poses().
   bool has_changed() const { return changed_; }
+  // True if the present round has an update of every vehicle, so that the next update probably begins another one.
+  bool round_is_whole() const;
   // The vehicles that are present.
   std::vector<LivePose> poses();
   // The names of the antennas by which a vehicle sends and receives, or "" if it is absent or has none.

@@ -48,6 +48,24 @@ TEST_CASE("datagrams as the client of VaN3Twin writes them") {
   CHECK(!is_about_origin(asked("CALC_REQUEST_LOS:veh0,veh10")));
 }
 
+TEST_CASE("a round of updates is whole once every vehicle has one") {
+  const std::vector<LiveType> types = two_types();
+  const LiveBounds bounds{{-100, -100, -1}, {100, 100, 10}};
+  Traffic traffic(types, bounds, {});
+  traffic.update(at("a", 0, 0));
+  traffic.update(at("b", 10, 0));
+  CHECK(traffic.round_is_whole());
+  traffic.update(at("a", 1, 0));
+  CHECK(!traffic.round_is_whole());
+  traffic.update(at("b", 11, 0));
+  CHECK(traffic.round_is_whole());
+  traffic.update(at("c", 20, 0));  // a new one in the same round
+  CHECK(traffic.round_is_whole());
+  for (int round = 0; round < 4; ++round) traffic.update(at("a", round, 0));
+  CHECK(traffic.size() == 1);  // the others have left
+  CHECK(traffic.round_is_whole());
+}
+
 TEST_CASE("answers as the client of VaN3Twin reads them") {
   const Question gain = asked("CALC_REQUEST_PATHGAIN:a,b"), delay = asked("CALC_REQUEST_DELAY:a,b");
   const Question los = asked("CALC_REQUEST_LOS:a,b");

@@ -123,6 +123,29 @@ def coming_and_leaving():
     print("vehicles without a place, that leave, and outside of the scene")
 
 
+def ahead(rounds=20):
+    """A frame that is computed before it is asked for is that of the last poses, and never of others."""
+    links = truth(CARS)
+    with serving() as server, Van3twinClient(server.name) as client:
+        aside = {name: (x, y - 7, bearing_deg) for name, (x, y, bearing_deg) in CARS.items()}
+        names = list(CARS)
+        place(client, aside)
+        for _ in range(rounds):
+            client.figure("LOS", names[0], names[1])  # a client that asks
+            place(client, CARS)
+            time.sleep(0.05)  # the server computes this frame meanwhile
+            compare(client, links)
+            place(client, aside)
+            time.sleep(0.05)
+        place(client, CARS)  # the frame before was computed, and is that of other poses
+        compare(client, links)
+        expect(server.end() == 0, server.log)
+        line = next(line for line in server.log if "before they were asked for" in line)
+        frames, early = int(line.split(" frames")[0].split()[-1]), int(line.split(" of them")[0].split()[-1])
+        expect(frames >= rounds and 0 < early < frames, line)
+    print(f"{early} of {frames} frames were computed before they were asked for")
+
+
 def mutated(generator):
     """A valid datagram with a few bytes changed, cut, doubled or put in; or bytes that are all random."""
     if generator.random() < 0.2:
@@ -236,6 +259,7 @@ def latency(steps=10):
 def main():
     figures()
     coming_and_leaving()
+    ahead()
     hostile()
     too_many_clients()
     comes_and_leaves_often()
