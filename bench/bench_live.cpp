@@ -28,7 +28,7 @@ std::string frame_line(const LiveInstant& instant, uint32_t number, bool cold) {
   return out.dump();
 }
 
-// What a run by the protocol of lines has shown.
+// The times, counts and answers of a run by the protocol of lines.
 struct StreamTimes {
   std::map<std::string, Seconds> seconds;  // by stages
   Seconds cold_s;

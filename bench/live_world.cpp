@@ -23,7 +23,7 @@ LiveDrive live_drive(const LiveOptions& options, uint32_t vehicles) {
       generate_traffic(fmt::format("--seed 1 --blocks 6x6 --vehicles {} --seconds {:.3f} --step {:.3f}", vehicles,
                                    options.frames * options.step_s, options.step_s));
   LiveDrive out;
-  glm::dvec3 middle(0);  // of the first vehicle's way
+  glm::dvec3 middle(0);  // the middle of the first vehicle's way
   for (uint32_t k = 0; k < options.frames; ++k) {
     nlohmann::json poses = nlohmann::json::array();
     for (const auto& [track, pose] : vehicles_at(traffic, k * options.step_s)) {

@@ -189,8 +189,8 @@ class RecorderReader {
   ByteStream& stream_;
   CarlaTracks tracks_;
   std::string_view rest_;  // unread part of the chunk
-  std::string data_;       // of the packet
-  uint8_t kind_ = 0;       // of the packet
+  std::string data_;       // the bytes of the packet
+  uint8_t kind_ = 0;       // the kind of the packet
   std::optional<double> time_s_;
   uint64_t frame_ = 0;
 };

@@ -6,22 +6,16 @@
 #include <omnetpp.h>
 
 #include <map>
-#include <memory>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "inet/common/geometry/common/Coord.h"
 #include "inet/physicallayer/wireless/common/contract/packetlevel/IRadio.h"
-#include "wavetracer/live_nodes.hpp"
-#include "wavetracer/live_snapshots.hpp"
+#include "wavetracer_server.h"
 
 namespace wavetracer {
 
 // It listens to the medium, which is the parent of the module that owns it: radios come and go, and at the begin of
 // each transmission it notes where all of them are. It asks the server when a gain of such an instant is wanted first.
-// All errors, also those of the server, are cRuntimeError.
 class WavetracerChannel : public omnetpp::cListener {
  public:
   // owner: has the parameters of WavetracerModel. It must be made before radios are added to the medium.
@@ -33,35 +27,25 @@ class WavetracerChannel : public omnetpp::cListener {
   double gain(const inet::Coord& from, const inet::Coord& to, inet::units::values::Hz frequency,
               omnetpp::simtime_t at = -1);
   // The number of questions so far.
-  uint64_t questions() const { return server_ ? server_->questions() : 0; }
+  uint64_t questions() const { return server_.questions(); }
 
   void receiveSignal(omnetpp::cComponent* source, omnetpp::simsignal_t signal, omnetpp::cObject* value,
                      omnetpp::cObject* details) override;
 
  private:
-  struct Host {
-    LiveNode node;
-    double length_m = 0;
-  };
   struct Radio {
     const inet::physicallayer::IRadio* radio;
     int host;  // the id of its module
   };
 
-  void connect();
   void add(omnetpp::cModule* radio);
   void remove(omnetpp::cModule* radio);
-  Host make(omnetpp::cModule* host) const;
   void take();
 
-  omnetpp::cModule *owner_, *medium_;
-  LiveCoordinates coordinates_;
-  std::vector<std::pair<std::string, std::string>> stations_, vehicles_;  // patterns and names
-  std::unique_ptr<LiveNodes> server_;
-  std::unique_ptr<LiveSnapshots> snapshots_;
-  std::map<int, Radio> radios_;               // by the ids of their modules
-  std::map<int, Host> hosts_;                 // by the ids of their modules
-  std::multiset<omnetpp::simtime_t> begins_;  // of the transmissions that the medium has
+  WavetracerServer server_;
+  std::map<int, Radio> radios_;                  // by the ids of their modules
+  std::map<int, WavetracerServer::Host> hosts_;  // by the ids of their modules
+  std::multiset<omnetpp::simtime_t> begins_;     // of the transmissions that the medium has
 };
 
 }  // namespace wavetracer

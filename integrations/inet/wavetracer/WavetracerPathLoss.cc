@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "inet/common/InitStages.h"
 #include "inet/physicallayer/wireless/common/contract/packetlevel/INarrowbandSignalAnalogModel.h"
 
 namespace wavetracer {
@@ -15,22 +14,11 @@ using inet::units::values::mps;
 
 Define_Module(WavetracerPathLoss);
 
-void WavetracerPathLoss::initialize(int stage) {
-  inet::Module::initialize(stage);
-  if (stage == inet::INITSTAGE_LOCAL) channel_ = std::make_unique<WavetracerChannel>(this);
-}
-
-void WavetracerPathLoss::finish() { recordScalar("questions to wavetracer", channel_->questions()); }
-
-std::ostream& WavetracerPathLoss::printToStream(std::ostream& stream, int, int) const {
-  return stream << "WavetracerPathLoss";
-}
-
 double WavetracerPathLoss::computePathLoss(const inet::physicallayer::ITransmission* transmission,
                                            const inet::physicallayer::IArrival* arrival) const {
   const auto* signal =
       omnetpp::check_and_cast<const inet::physicallayer::INarrowbandSignalAnalogModel*>(transmission->getAnalogModel());
-  return std::min(1.0, channel_->gain(transmission->getStartPosition(), arrival->getStartPosition(),
+  return std::min(1.0, channel().gain(transmission->getStartPosition(), arrival->getStartPosition(),
                                       signal->getCenterFrequency(), transmission->getStartTime()));
 }
 

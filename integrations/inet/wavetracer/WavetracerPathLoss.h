@@ -2,19 +2,14 @@
 #ifndef WAVETRACER_INET_PATH_LOSS_H
 #define WAVETRACER_INET_PATH_LOSS_H
 
-#include <memory>
-#include <ostream>
-
-#include "WavetracerChannel.h"
-#include "inet/common/Module.h"
+#include "WavetracerModel.h"
 #include "inet/physicallayer/wireless/common/contract/packetlevel/IPathLoss.h"
 
 namespace wavetracer {
 
 // The gain of a link from ray tracing, as one number for all frequencies: for scalar signals.
-class WavetracerPathLoss : public inet::Module, public inet::physicallayer::IPathLoss {
+class WavetracerPathLoss : public WavetracerModel<inet::physicallayer::IPathLoss> {
  public:
-  std::ostream& printToStream(std::ostream& stream, int level, int evFlags = 0) const override;
   double computePathLoss(const inet::physicallayer::ITransmission* transmission,
                          const inet::physicallayer::IArrival* arrival) const override;
   // Throws cRuntimeError: a gain from ray tracing is not one of a distance.
@@ -23,13 +18,6 @@ class WavetracerPathLoss : public inet::Module, public inet::physicallayer::IPat
   // NaN, unspecified: reflections may carry further than free space.
   inet::units::values::m computeRange(inet::units::values::mps propagationSpeed, inet::units::values::Hz frequency,
                                       double loss) const override;
-
- protected:
-  void initialize(int stage) override;
-  void finish() override;
-
- private:
-  std::unique_ptr<WavetracerChannel> channel_;
 };
 
 }  // namespace wavetracer
