@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -146,7 +148,8 @@ std::string device_name(LiveOptions options, const std::string& config) {
 }
 
 // Places all vehicles, then asks for figures of all pairs, instant by instant, as VaN3Twin's modules do. The time from
-// pose to channel is that of the first question of an instant, for which the channels of all pairs are computed.
+// pose to channel is that of the first question of an instant, for which the channels of all pairs are computed. There
+// are at least two vehicles.
 void run_datagrams(const LiveOptions& options, uint32_t vehicles, const std::string& command) {
   const LiveDrive drive = live_drive(options, vehicles);
   const std::string config = live_config(options, drive, vehicles, options.rays);
@@ -183,7 +186,6 @@ void run_datagrams(const LiveOptions& options, uint32_t vehicles, const std::str
     questions.insert(questions.end(), asked.begin(), asked.end());
     if (k > 0 && !asked.empty()) firsts.push_back(asked[0]);  // the first frame is cold
   }
-  if (firsts.empty()) throw RuntimeError("VaN3Twin asks about pairs of vehicles: --vehicles must be 2 or more");
   line.name += ", VaN3Twin";
   line.value = percentile(firsts, 0.5);
   line.extra = {{"p99_s", percentile(firsts, 0.99)},
@@ -206,20 +208,24 @@ int main(int argc, char** argv) {
   using namespace wavetracer;
   CLI::App app("Latency from pose to channel of wavetracer serve");
   bench::LiveOptions options;
+  std::vector<uint32_t> vehicles{1, 20, 100};
+  std::vector<std::string> protocols{"live", "van3twin"}, details{"links", "paths", "matrices"},
+      encodings{"json", "cbor"};
   options.program =
       (std::filesystem::absolute(argv[0]).parent_path() / "../host/app/wavetracer").lexically_normal().string();
   app.add_option("--program", options.program, "the program wavetracer");
   app.add_option("--device", options.device, "as for wavetracer serve");
-  app.add_option("--vehicles", options.vehicles, "vehicles in the streets, a line each")->check(CLI::Range(1, 1000));
+  app.add_option("--vehicles", vehicles, "vehicles in the streets, a line each")->check(CLI::Range(1, 1000));
   app.add_option("--frames", options.frames, "frames of a drive")->check(CLI::Range(6, 100000));
   app.add_option("--step", options.step_s, "seconds from frame to frame")->check(CLI::Range(0.001, 10.0));
   app.add_option("--rays", options.rays, "rays per transmitter of cold frames")->check(CLI::Range(100, 1000000000));
   app.add_option("--refresh", options.refresh, "rays per transmitter of frames that reuse");
-  app.add_option("--protocol", options.protocol, "live or van3twin, whose answers have one figure each")
+  app.add_option("--protocol", protocols, "live, and van3twin, whose answers have one figure each; a line each")
       ->check(CLI::IsMember({"live", "van3twin"}));
-  app.add_option("--detail", options.detail, "links, paths, vertices, or matrices: paths between antennas of two ports")
+  app.add_option("--detail", details,
+                 "links, paths, vertices, or matrices: paths between antennas of two ports; a line each")
       ->check(CLI::IsMember({"links", "paths", "vertices", "matrices"}));
-  app.add_option("--encoding", options.encoding, "json or cbor, of which only json has errors measured")
+  app.add_option("--encoding", encodings, "json, and cbor, whose errors are not measured; a line each")
       ->check(CLI::IsMember({"json", "cbor"}));
   app.add_option("--compared", options.compared, "frames that errors are taken from")->check(CLI::Range(1, 1000));
   app.add_option("--reference-factor", options.reference_factor, "times the rays, of frames that errors refer to");
@@ -227,9 +233,17 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     const std::string command = bench::command_line(argc, argv);
-    for (const uint32_t vehicles : options.vehicles)
-      options.datagrams() ? bench::run_datagrams(options, vehicles, command)
-                          : bench::run_stream(options, vehicles, command);
+    for (options.protocol = "live"; const uint32_t count : vehicles)
+      for (const std::string& detail : details)
+        for (const std::string& encoding : encodings) {
+          if (std::ranges::count(protocols, "live") == 0) continue;
+          options.detail = detail;
+          options.encoding = encoding;
+          bench::run_stream(options, count, command);
+        }
+    options.detail = "links";
+    for (options.protocol = "van3twin"; const uint32_t count : vehicles)
+      if (count > 1 && std::ranges::count(protocols, "van3twin") > 0) bench::run_datagrams(options, count, command);
   } catch (const Error& error) {
     fmt::print(stderr, "bench_live: {}\n", error.what());
     return static_cast<int>(error.code());

@@ -10,7 +10,6 @@ namespace wavetracer::bench {
 
 struct LiveOptions {
   std::string program, device, protocol = "live", detail = "paths", encoding = "json";
-  std::vector<uint32_t> vehicles{1, 20, 100};
   uint32_t frames = 100, compared = 3;
   uint64_t rays = 100'000, refresh = 3'000, reference_factor = 10;
   double step_s = 0.1;

@@ -100,11 +100,14 @@ DRIVES = [(f"{n:,} vehicles, depth {depth}, {words}", f"{world}: {case}")
               (1000, 3, "city of 12 x 12 blocks, 1000 vehicles, links of at most 300 m",
                (("10,000 new rays a frame after 10^6", "reuse, 1e+06 rays, 1e+04 anew"),)))
           for words, case in cases]
-LIVE = [(words, f"city, {case}") for words, case in (
-    ("10 vehicles", "10 vehicles, 100000 rays, 3000 anew"), ("50 vehicles", "50 vehicles, 100000 rays, 3000 anew"),
-    ("100 vehicles", "100 vehicles, 100000 rays, 3000 anew"),
-    ("100 vehicles, answers in CBOR", "100 vehicles, 100000 rays, 3000 anew, columns in CBOR"),
-    ("100 vehicles, all paths, in CBOR", "100 vehicles, 100000 rays, 3000 anew, paths, columns in CBOR"))]
+LIVE = [(f"{count}{words}", f"city, {count}, 100000 rays, 3000 anew{case}")
+        for count, every in (("1 vehicle and a road-side unit", True), ("10 vehicles", False), ("20 vehicles", True),
+                             ("50 vehicles", False), ("100 vehicles", True))
+        for words, case in (("", ""), (", answers in CBOR", ", columns in CBOR"),
+                            (", all paths", ", paths"), (", all paths, in CBOR", ", paths, columns in CBOR"),
+                            (", matrices of 2 x 2", ", matrices"),
+                            (", matrices of 2 x 2, in CBOR", ", matrices, columns in CBOR"),
+                            (", asked by VaN3Twin", ", VaN3Twin"))[:7 if every else 1]]
 COVERAGE = [(words, f"{scene}, 22500 receivers, 1e+06 rays, depth 3, error against 10 times the rays")
             for words, scene in (("22,500 places in Munich", "munich"), ("22,500 places in a generated city", "city"))]
 SCALING = [(f"{words}, {'one' if n == 1 else n} {device}{'' if n == 1 else 's'}",
