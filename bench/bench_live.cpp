@@ -48,8 +48,10 @@ json read_answer(const LiveOptions& options, const std::string& answer, StreamTi
     for (const json& link : read.at("links")) out.paths += link.at("paths").get<size_t>();
   } else {
     const json columns = json::from_cbor(LiveStream::columns_of(answer), true, true, json::cbor_tag_handler_t::ignore);
-    read["links"] = json(columns.at("links").at("tx").get_binary().size() / sizeof(uint32_t), json::object());
-    if (columns.contains("paths")) out.paths = columns.at("paths").at("delay_s").get_binary().size() / sizeof(double);
+    const auto& counts = columns.at("links").at("paths").get_binary();  // uint32, the lowest byte first
+    read["links"] = json(counts.size() / sizeof(uint32_t), json::object());
+    out.paths = 0;
+    for (size_t i = 0; i < counts.size(); ++i) out.paths += size_t{counts[i]} << (8 * (i % sizeof(uint32_t)));
   }
   out.links = read.at("links").size();
   return read;

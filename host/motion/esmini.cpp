@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Columns are found by their names in the header; those of the log come in blocks, one for each vehicle that is
-// present.
+// present. Steps may vary, as those of a run without a fixed step do.
 // Names of entities must be unique, as OpenSCENARIO demands.
 #include "motion/readers.hpp"
 
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 
 #include "motion/input_text.hpp"
@@ -87,6 +88,7 @@ class LogReader {
     if (rows_.cells().size() < first_block)
       rows_.fail(fmt::format("the row has {} cells, and so no time", rows_.cells().size()));
     const double time_s = cell_number(rows_, 1, "TimeStamp");
+    tracks_.add_frame(time_s);
     for (size_t first = first_block; first + width_ <= rows_.cells().size(); first += width_) {
       const std::string& id = rows_.cells()[first + *place_[name]];
       if (id.empty()) break;
@@ -124,6 +126,11 @@ class RecordingReader {
     } while (rows_.cells()[0] != "time");
     read_header();
     while (rows_.next()) add_row();
+    if (repeated_ > 0)
+      tracks_.warn(
+          fmt::format("{}: {} rows have the time of an earlier one of their entity, since the text has few digits: the "
+                      "first of each counts; give dat2csv a --precision of 6, or esmini a --fixed_timestep",
+                      rows_.file(), repeated_));
     tracks_.warn(
         fmt::format("{}: a recording of esmini tells no sizes and types: entities are cars of SUMO's size, "
                     "whose centre is {} m ahead of the rear axle; its log (--csv_logger) or an OSI trace (--osi_file) "
@@ -133,8 +140,9 @@ class RecordingReader {
   }
 
  private:
-  enum Column : size_t { time, name, x, y, z, yaw, pitch, speed, columns };
-  static constexpr std::array<std::string_view, columns> names = {"time", "name", "x", "y", "z", "h", "p", "speed"};
+  enum Column : size_t { time, number_of, name, x, y, z, yaw, pitch, speed, columns };
+  static constexpr std::array<std::string_view, columns> names = {"time", "id", "name", "x",    "y",
+                                                                  "z",    "h",  "p",    "speed"};
 
   void read_header() {
     const std::vector<std::string>& cells = rows_.cells();
@@ -152,8 +160,9 @@ class RecordingReader {
     const auto number = [&](Column which) { return cell_number(rows_, place_[which], names[which]); };
     const std::string& id = rows_.cells()[place_[name]];
     if (id.empty()) rows_.fail("the name of the entity is empty");
+    if (!begin_row(number(time), id, number(number_of))) return;
     Sample sample;
-    sample.time_s = number(time);
+    sample.time_s = *time_s_;
     sample.yaw_rad = number(yaw);
     sample.pitch_rad = -number(pitch);
     sample.speed_m_s = number(speed);
@@ -162,10 +171,26 @@ class RecordingReader {
     tracks_.add(id, esmini_type, sample, rows_.number(), fmt::format("entity '{}'", id));
   }
 
+  // Returns false if the entity has a row at this time already. Another entity of that name is an error of its sample.
+  bool begin_row(double time_s, const std::string& id, double entity) {
+    if (time_s_ != time_s) {
+      tracks_.add_frame(time_s);
+      present_.clear();
+    }
+    time_s_ = time_s;
+    const auto [found, first] = present_.emplace(id, entity);
+    const bool repeated = !first && found->second == entity;
+    repeated_ += repeated;
+    return !repeated;
+  }
+
   CsvRows rows_;
   TrackBuilder tracks_;
   std::array<size_t, columns> place_{};
   size_t width_ = 0;
+  std::optional<double> time_s_;           // the time of the row before
+  std::map<std::string, double> present_;  // names and numbers of the entities that have a row at this time
+  uint64_t repeated_ = 0;
 };
 
 }  // namespace

@@ -56,9 +56,9 @@ struct TrajectoryOptions {
 // GPX: tracks with times, in degrees; see motion/readers.hpp.
 //
 // A missing heading is the direction of motion, and is kept while the vehicle stands. A track is cut into segments at
-// gaps and jumps. A gap is longer than 1.5 steps; in recordings of CARLA, whose steps vary, it is a frame without the
-// vehicle. A jump is farther than this: 1.5 times the higher speed of both ends
-// times the time t, plus 5 m (a change of lanes in one step), plus 5 m/s^2 t^2 (braking and starting).
+// gaps and jumps. A gap is longer than 1.5 steps; in recordings of CARLA and esmini, whose steps vary, it is a frame
+// without the vehicle. A jump is farther than this: 1.5 times the higher speed of both ends times the time t, plus 5 m
+// (a change of lanes in one step), plus 5 m/s^2 t^2 (braking and starting).
 Trajectories read_trajectories(const std::filesystem::path& path, const TrajectoryOptions& options = {});
 
 struct Waypoint {

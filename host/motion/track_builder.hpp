@@ -40,9 +40,11 @@ class TrackBuilder {
   // Declares that positions are (longitude, latitude) in degrees and the height, which is above the ground unless the
   // file has heights of its own. Throws if the options cannot place degrees.
   void in_degrees(bool above_ground = true);
-  // Declares that the file has a frame at this time, later than those before. If it declares all, steps may vary: a
-  // vehicle is absent only in frames that lack it.
-  void add_frame(double time_s) { frames_s_.push_back(time_s); }
+  // Declares that the file has a frame at this time; one that is not after those before is left out. If all frames are
+  // declared, steps may vary: a vehicle is absent only in frames that lack it.
+  void add_frame(double time_s) {
+    if (frames_s_.empty() || time_s > frames_s_.back()) frames_s_.push_back(time_s);
+  }
   void warn(std::string message) { out_.warnings.push_back(std::move(message)); }
   // Returns the tracks so far, by first appearance in the file, in file coordinates.
   const std::vector<Track>& tracks() const { return out_.tracks; }

@@ -116,6 +116,29 @@ TEST_CASE("a recording of esmini as text: the centre is ahead of the axle, and a
   }
 }
 
+TEST_CASE("a run of esmini in real time: steps vary, and a text of few digits repeats times") {
+  std::string rows = header(1);
+  for (const double time_s : {0.0, 0.001, 0.002, 0.003, 0.061, 0.062})
+    rows += fmt::format("0, {:f}, ", time_s) + block("Ego", 10, 10 * time_s, 0, 0) + "\n";
+  const Trajectories log = read_text(rows, {}, "sim.csv");
+  CHECK(log.tracks.at(0).samples.size() == 6);
+  CHECK(log.tracks[0].segments.size() == 1);
+  CHECK(log.warnings.empty());
+
+  const std::string columns = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
+  const auto row = [](const char* time, int id, double x) {
+    return fmt::format("{}, {}, Ego, {:.3f}, 0, 0, 0, 0, 0, 10, 0, 0\n", time, id, x);
+  };
+  const std::string begin = columns + row("0.000", 0, 0) + row("0.001", 0, 0.01);
+  const Trajectories t = read_text(begin + row("0.001", 0, 0.012) + row("0.058", 0, 0.58), {}, "sim.csv");
+  CHECK(t.tracks.at(0).samples.size() == 3);
+  CHECK(t.tracks[0].segments.size() == 1);
+  check_near(t.tracks[0].samples[1].position_m, {1.41, 0, 0}, 1e-9);
+  check_contains(t.warnings.at(0), "1 rows have the time of an earlier one of their entity");
+  CHECK_THROWS_WITH_AS(read_text(begin + row("0.001", 1, 5), {}, "sim.csv"), Contains("ids must be unique"),
+                       InputError);
+}
+
 TEST_CASE("what is wrong with a log or a recording is said with its line") {
   const auto check = [](const std::string& content, const char* text) {
     CAPTURE(text);
