@@ -22,7 +22,7 @@ class WavetracerRadios {
   explicit WavetracerRadios(omnetpp::cComponent* owner) : server_(owner) {}
 
   void add(const WavetracerPhy80211p& radio);
-  void remove(const WavetracerPhy80211p& radio) { radios_.erase(&radio); }
+  void remove(const WavetracerPhy80211p& radio);
   // Notes where all radios are now.
   void take();
   // The power gain from the radio whose antenna is `from` to another one, of the transmission that began at this time.
@@ -32,8 +32,13 @@ class WavetracerRadios {
   uint64_t questions() const { return server_.questions(); }
 
  private:
+  struct Radio {
+    const WavetracerPhy80211p* radio;
+    WavetracerServer::Host host;
+  };
+
   WavetracerServer server_;
-  std::map<const WavetracerPhy80211p*, WavetracerServer::Host> radios_;
+  std::map<int, Radio> radios_;  // by the ids of their modules, so that every run has one order
 };
 
 }  // namespace wavetracer
