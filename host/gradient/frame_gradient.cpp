@@ -8,7 +8,6 @@
 #include <complex>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,65 +71,78 @@ void leave_out(PathGradients& of, size_t first) {
 // The names of records, as PathGradients::materials says.
 class RecordNames {
  public:
-  explicit RecordNames(const MaterialTable& materials) : materials_(materials) {}
+  explicit RecordNames(const FieldTables& tables) : tables_(tables) {
+    for (std::vector<uint32_t>& of : known_) of.assign(tables.names.size(), unknown);
+  }
 
   // Returns the index of the name.
   uint32_t number(uint32_t record, PathParameter parameter) {
     if (record == no_material_number) return no_material_number;
-    const std::string name = name_of(record, parameter);
+    const bool is_thickness = parameter == PathParameter::thickness;
+    uint32_t& number = known_[is_thickness][record];
+    if (number == unknown) number = number_of(name_of(record, is_thickness));
+    return number;
+  }
+
+  std::vector<std::string> names;
+
+ private:
+  static constexpr uint32_t unknown = no_material_number;
+
+  uint32_t number_of(const std::string& name) {
     const auto found = std::ranges::find(names, name);
     if (found != names.end()) return static_cast<uint32_t>(found - names.begin());
     names.push_back(name);
     return static_cast<uint32_t>(names.size() - 1);
   }
 
-  std::vector<std::string> names;
-
- private:
-  bool is_layer(uint32_t record) const {
-    return !materials_.walls[record].empty() && !materials_.names[record].empty();
-  }
+  bool is_layer(uint32_t record) const { return !tables_.walls[record].empty() && !tables_.names[record].empty(); }
 
   // Layers of a wall follow each other, in the order of the wall.
-  std::string name_of(uint32_t record, PathParameter parameter) const {
-    if (materials_.names[record].empty()) return materials_.walls[record];
-    if (!is_layer(record) || parameter != PathParameter::thickness) return materials_.names[record];
+  std::string name_of(uint32_t record, bool is_thickness) const {
+    if (tables_.names[record].empty()) return tables_.walls[record];
+    if (!is_layer(record) || !is_thickness) return tables_.names[record];
     uint32_t layer = 0;
     while (is_layer(record - layer - 1)) ++layer;
-    return fmt::format("{}.layers[{}]", materials_.walls[record], layer);
+    return fmt::format("{}.layers[{}]", tables_.walls[record], layer);
   }
 
-  const MaterialTable& materials_;
+  const FieldTables& tables_;
+  std::array<std::vector<uint32_t>, 2> known_;  // the index of each record, for thickness the second one
 };
+
+// Adds the entries of a row of `rows`; the records of one material become one entry.
+void add_row(PathGradients& to, const ModelGradients& rows, size_t row, RecordNames& materials) {
+  const size_t first = to.size();
+  for (uint64_t entry = rows.first[row]; entry < rows.first[row + 1]; ++entry) {
+    const uint32_t material = materials.number(rows.material[entry], rows.parameter[entry]);
+    size_t at = first;
+    while (at < to.size() && (to.parameter[at] != rows.parameter[entry] || to.material[at] != material)) ++at;
+    if (at == to.size())
+      add_entry(to, rows, entry, material);
+    else
+      add_slopes(to, at, rows, entry);
+  }
+}
 
 }  // namespace
 
 FrameGradient::FrameGradient(const Scene& scene, const Config& config, std::span<const Scene> models,
                              std::span<const Instance> instances)
-    : model_(scene, config, models, instances),
-      geometry_(scene, config, models, instances),
-      materials_(make_material_table(scene, models, instances, config.radio.frequency_hz)) {}
+    : model_(scene, config, models, instances), geometry_(scene, config, models, instances) {}
 
 PathGradients FrameGradient::operator()(const FrameResult& frame, const GradientChoice& choice) {
   check_rows(choice, frame.paths.size());
   const ModelGradients rows = model_.compute(frame.frame, geometry_(frame.paths, frame.world), frame.world, choice);
   std::vector<size_t> row_of(frame.paths.size(), rows.path.size());
   for (size_t row = 0; row < rows.path.size(); ++row) row_of[rows.path[row]] = row;
-  RecordNames materials(materials_);
+  RecordNames materials(model_.tables());
   PathGradients out;
   for (size_t path = 0; path < row_of.size(); ++path) {
     if (row_of[path] == rows.path.size())
       throw RuntimeError(
           fmt::format("path {} is not one of those that its points give: the frame is of another simulation", path));
-    std::map<std::pair<PathParameter, uint32_t>, size_t> known;
-    for (uint64_t entry = rows.first[row_of[path]]; entry < rows.first[row_of[path] + 1]; ++entry) {
-      const uint32_t material = materials.number(rows.material[entry], rows.parameter[entry]);
-      const auto [at, added] = known.try_emplace({rows.parameter[entry], material}, out.size());
-      if (added)
-        add_entry(out, rows, entry, material);
-      else
-        add_slopes(out, at->second, rows, entry);
-    }
+    add_row(out, rows, row_of[path], materials);
     if (!is_same(rows.paths.a[row_of[path]], frame.paths.a[path])) leave_out(out, out.first.back());
     out.first.push_back(out.size());
   }

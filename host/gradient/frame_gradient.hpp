@@ -5,7 +5,6 @@
 
 #include "gradient/path_gradient.hpp"
 #include "gradient/recorded_geometry.hpp"
-#include "radio/material_table.hpp"
 #include "wavetracer/frame_result.hpp"
 #include "wavetracer/gradient.hpp"
 
@@ -24,7 +23,6 @@ class FrameGradient {
  private:
   GradientModel model_;
   RecordedGeometry geometry_;
-  MaterialTable materials_;
 };
 
 }  // namespace wavetracer

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
+#include "gradient/moved_vertices.hpp"
 #include "wavetracer/device/path_edges.h"
 #include "wavetracer/device/utd.h"
 
@@ -31,7 +32,14 @@ std::pair<glm::dvec3, glm::dvec3> end_directions(const device::wt_field_world& w
   return {departure, -leg.direction};
 }
 
+bool meets_cell(const device::wt_field_world& world, const device::wt_path& path) {
+  for (uint32_t k = 0; k < path.depth; ++k)
+    if (device::wt_is_cell(&world, device::wt_step(&path, k))) return true;
+  return false;
+}
+
 bool scatters_at_pole(const device::wt_field_world& world, const device::wt_path& path) {
+  if (!meets_cell(world, path)) return false;
   device::wt_walk_leg leg = device::wt_first_leg(&path);
   for (uint32_t k = 0; k < path.depth; ++k) {
     const device::wt_walk_leg next = device::wt_next_leg(&world, &path, k, &leg);
@@ -52,6 +60,7 @@ bool leaves_face(const device::wt_edge& edge, double azimuth, const device::wt_e
 }
 
 bool leaves_any_face(const device::wt_field_world& world, const device::wt_path& path) {
+  if (diffractions_of(path) == 0) return false;
   device::wt_edge edges[WT_EDGE_ROOM];
   const uint32_t count = device::wt_edges_of(&world, &path, edges);
   for (uint32_t i = 0; i < count; ++i) {
@@ -63,19 +72,25 @@ bool leaves_any_face(const device::wt_field_world& world, const device::wt_path&
   return false;
 }
 
-}  // namespace
-
-GradientGap gap_of_turns(const device::wt_field_world& world, const device::wt_path& path) {
-  const auto [departure, arrival] = end_directions(world, path);
+// departure, arrival: see end_directions.
+GradientGap gap_of_antennas(const device::wt_field_world& world, const device::wt_path& path,
+                            const glm::dvec3& departure, const glm::dvec3& arrival) {
   const bool found = is_pole(in_own_axes(world.transmitters[path.transmitter], departure)) ||
                      is_pole(in_own_axes(world.receivers[path.receiver], arrival));
   return found ? GradientGap::pole : GradientGap::none;
 }
 
+}  // namespace
+
+GradientGap gap_of_turns(const device::wt_field_world& world, const device::wt_path& path) {
+  const auto [departure, arrival] = end_directions(world, path);
+  return gap_of_antennas(world, path, departure, arrival);
+}
+
 GradientGap gap_of_positions(const device::wt_field_world& world, const device::wt_path& path) {
   const auto [departure, arrival] = end_directions(world, path);
   if (is_pole(departure) || is_pole(arrival) || scatters_at_pole(world, path)) return GradientGap::pole;
-  return leaves_any_face(world, path) ? GradientGap::singular : gap_of_turns(world, path);
+  return leaves_any_face(world, path) ? GradientGap::singular : gap_of_antennas(world, path, departure, arrival);
 }
 
 }  // namespace wavetracer

@@ -2,12 +2,18 @@
 #include "gradient/path_gradient.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "gradient/path_gaps.hpp"
@@ -53,35 +59,34 @@ void check_values(const PathColumns& columns, const Paths& paths, size_t row) {
                     row));
 }
 
-// The entries of one path.
-struct PathEntries {
-  std::vector<PathDirection> directions;
-  std::vector<std::array<std::complex<double>, 4>> a;
-  std::vector<std::array<double, 5>> real;
-  std::vector<GradientGap> gap;
-
-  void add(const PathDirection& direction, const PathColumns& columns, size_t lane, GradientGap known_gap) {
-    std::array<std::complex<double>, 4> slopes_a;
-    std::array<double, 5> slopes;
-    for (size_t i = 0; i < 4; ++i) slopes_a[i] = {columns.a[i].first.d[lane], columns.a[i].second.d[lane]};
-    for (size_t i = 0; i < 5; ++i) slopes[i] = columns.real[i].d[lane];
-    const bool finite =
-        std::ranges::all_of(slopes, [](double d) { return std::isfinite(d); }) &&
-        std::ranges::all_of(slopes_a, [](const auto& d) { return std::isfinite(d.real()) && std::isfinite(d.imag()); });
-    const GradientGap why = known_gap != GradientGap::none ? known_gap
-                            : finite                       ? GradientGap::none
-                                                           : GradientGap::singular;
-    if (why != GradientGap::none) {
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
-      slopes_a.fill({none, none});
-      slopes.fill(none);
-    }
-    directions.push_back(direction);
-    a.push_back(slopes_a);
-    real.push_back(slopes);
-    gap.push_back(why);
+// Writes entry `at`, the derivatives in one direction.
+void write_entry(ModelGradients& to, size_t at, const PathDirection& direction, const PathColumns& columns, int lane,
+                 GradientGap known_gap) {
+  std::array<std::complex<double>, 4> slopes_a;
+  std::array<double, 5> slopes;
+  bool finite = true;
+  const auto slope_of = [&](const Tangent& column) {
+    const double slope = column.d[lane];
+    finite = finite && std::isfinite(slope);
+    return slope;
+  };
+  for (size_t i = 0; i < 4; ++i) slopes_a[i] = {slope_of(columns.a[i].first), slope_of(columns.a[i].second)};
+  for (size_t i = 0; i < 5; ++i) slopes[i] = slope_of(columns.real[i]);
+  const GradientGap why = known_gap != GradientGap::none ? known_gap
+                          : finite                       ? GradientGap::none
+                                                         : GradientGap::singular;
+  if (why != GradientGap::none) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    slopes_a.fill({none, none});
+    slopes.fill(none);
   }
-};
+  to.parameter[at] = direction.parameter;
+  to.material[at] = direction.material;
+  to.a[at] = slopes_a;
+  std::tie(to.delay_s[at], to.aod_theta_rad[at], to.aod_phi_rad[at], to.aoa_theta_rad[at], to.aoa_phi_rad[at]) =
+      std::tuple_cat(slopes);
+  to.gap[at] = why;
+}
 
 std::vector<bool> chosen_rows(const PathGeometry& geometry, const GradientChoice& choice) {
   if (!choice.paths) return std::vector<bool>(geometry.size(), true);
@@ -90,27 +95,40 @@ std::vector<bool> chosen_rows(const PathGeometry& geometry, const GradientChoice
   return out;
 }
 
-std::vector<PathDirection> six_from(PathParameter first) {
-  std::vector<PathDirection> out;
+using SixDirections = std::array<PathDirection, tangent::lanes>;
+SixDirections six_from(PathParameter first) {
+  SixDirections out;
   for (int i = 0; i < tangent::lanes; ++i)
-    out.push_back({static_cast<PathParameter>(static_cast<int>(first) + i), no_material_number});
+    out[static_cast<size_t>(i)] = {static_cast<PathParameter>(static_cast<int>(first) + i), no_material_number};
   return out;
 }
 
-void append(ModelGradients& to, const PathEntries& entries) {
-  for (size_t i = 0; i < entries.directions.size(); ++i) {
-    to.parameter.push_back(entries.directions[i].parameter);
-    to.material.push_back(entries.directions[i].material);
-    to.a.push_back(entries.a[i]);
-    const auto& [delay_s, aod_theta, aod_phi, aoa_theta, aoa_phi] = entries.real[i];
-    to.delay_s.push_back(delay_s);
-    to.aod_theta_rad.push_back(aod_theta);
-    to.aod_phi_rad.push_back(aod_phi);
-    to.aoa_theta_rad.push_back(aoa_theta);
-    to.aoa_phi_rad.push_back(aoa_phi);
-    to.gap.push_back(entries.gap[i]);
-  }
-  to.first.push_back(to.parameter.size());
+// Calls work(tables, row) for each chosen row, on all cores. Rows that follow each other share their tables.
+template <class Work>
+void for_each_row(const std::vector<uint32_t>& rows, const PathTables& first_tables, const Work& work) {
+  constexpr size_t rows_at_a_time = 64;
+  tbb::enumerable_thread_specific<PathTables> all(first_tables);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), rows_at_a_time),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      PathTables& tables = all.local();
+                      for (size_t i = range.begin(); i < range.end(); ++i) {
+                        tables.set_row(rows[i]);
+                        work(tables, rows[i]);
+                      }
+                    });
+}
+
+// Makes room for this many entries of each row.
+void make_room(ModelGradients& out, const std::vector<uint32_t>& counts) {
+  out.first.resize(counts.size() + 1);
+  std::inclusive_scan(counts.begin(), counts.end(), out.first.begin() + 1, std::plus<>(), uint64_t{0});
+  const size_t count = out.first.back();
+  out.parameter.resize(count);
+  out.material.resize(count);
+  out.a.resize(count);
+  for (auto* column : {&out.delay_s, &out.aod_theta_rad, &out.aod_phi_rad, &out.aoa_theta_rad, &out.aoa_phi_rad})
+    column->resize(count);
+  out.gap.resize(count);
 }
 
 }  // namespace
@@ -130,34 +148,50 @@ ModelGradients GradientModel::compute(uint32_t frame, const PathGeometry& geomet
   const device::wt_field_world world = rows.world(tables_);
   const ConstantTables constants = constant_tables(tables_);
   ModelGradients out;
-  for (const uint32_t row : rows.rows) out.path.push_back(row / 2);
+  std::vector<uint32_t> wanted;
+  for (uint32_t row = 0; row < rows.rows.size(); ++row) {
+    out.path.push_back(rows.rows[row] / 2);
+    if (chosen[out.path.back()]) wanted.push_back(row);
+  }
   out.paths = paths_of(rows, tables_, scene_.origin_m, frame);
-  std::vector<PathEntries> entries(rows.rows.size());
-  tbb::parallel_for(size_t{0}, entries.size(), [&](size_t row) {
-    if (!chosen[out.path[row]]) return;
-    PathTables path(tables_, constants, rows, world, static_cast<uint32_t>(row));
-    const auto add = [&](std::span<const PathDirection> directions, GradientGap gap) {
-      Tangent delay;
-      const tangent::wt_path_field field = path.fields(directions, frequency_hz_, delay);
-      const PathColumns columns = columns_of_field(field, delay, tables_.ports);
-      check_values(columns, out.paths, row);
-      for (size_t lane = 0; lane < directions.size(); ++lane)
-        entries[row].add(directions[lane], columns, lane,
-                         path.is_singular(directions[lane]) ? GradientGap::singular : gap);
-    };
-    if (choice.materials) {
-      const std::vector<PathDirection> directions = path.material_directions();
-      for (size_t i = 0; i < directions.size(); i += tangent::lanes)
-        add(std::span(directions).subspan(i, std::min<size_t>(tangent::lanes, directions.size() - i)),
-            GradientGap::none);
-    }
-    if (choice.positions)
-      add(six_from(PathParameter::tx_x),
-          path.is_solved() ? gap_of_positions(world, path.path()) : GradientGap::not_solved);
-    if (choice.orientations) add(six_from(PathParameter::tx_turn_x), gap_of_turns(world, path.path()));
-  });
-  for (const PathEntries& of_path : entries) append(out, of_path);
+  const PathTables tables(tables_, constants, rows, world);
+  std::vector<uint32_t> counts(rows.rows.size());
+  const uint32_t of_ends = tangent::lanes * (uint32_t{choice.positions} + uint32_t{choice.orientations});
+  for (const uint32_t row : wanted) counts[row] = of_ends;
+  if (choice.materials)
+    for_each_row(wanted, tables, [&](PathTables& path, uint32_t row) {
+      counts[row] += static_cast<uint32_t>(path.material_directions().size());
+    });
+  make_room(out, counts);
+  for_each_row(wanted, tables, [&](PathTables& path, uint32_t row) { write_row(out, path, row, choice); });
   return out;
+}
+
+void GradientModel::write_row(ModelGradients& out, PathTables& path, uint32_t row, const GradientChoice& choice) const {
+  size_t at = out.first[row];
+  const auto add = [&](std::span<const PathDirection> directions, GradientGap gap) {
+    Tangent delay;
+    const tangent::wt_path_field field = path.fields(directions, frequency_hz_, delay);
+    const PathColumns columns = columns_of_field(field, delay, tables_.ports);
+    check_values(columns, out.paths, row);
+    for (size_t lane = 0; lane < directions.size(); ++lane)
+      write_entry(out, at++, directions[lane], columns, static_cast<int>(lane),
+                  path.is_singular(directions[lane]) ? GradientGap::singular : gap);
+  };
+  if (choice.materials) {
+    const std::span<const PathDirection> directions = path.material_directions();
+    for (size_t i = 0; i < directions.size(); i += tangent::lanes)
+      add(directions.subspan(i, std::min<size_t>(tangent::lanes, directions.size() - i)), GradientGap::none);
+  }
+  if (choice.positions) {
+    static const SixDirections positions = six_from(PathParameter::tx_x);
+    const bool solved = path.solve_vertices();
+    add(positions, solved ? gap_of_positions(path.world(), path.path()) : GradientGap::not_solved);
+  }
+  if (choice.orientations) {
+    static const SixDirections turns = six_from(PathParameter::tx_turn_x);
+    add(turns, gap_of_turns(path.world(), path.path()));
+  }
 }
 
 }  // namespace wavetracer

@@ -16,6 +16,8 @@
 
 namespace wavetracer {
 
+class PathTables;
+
 // The result of GradientModel: derivatives of rows of `paths`. material: the record in MaterialTable
 // (radio/material_table.hpp): the materials of the scene, then the layers of its walls, then those of each model in
 // turn. A wall of layers has the S of its own record, and the rest of those of its layers. `materials` is empty.
@@ -38,7 +40,12 @@ class GradientModel {
   ModelGradients compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
                          const GradientChoice& choice = {}) const;
 
+  const FieldTables& tables() const { return tables_; }
+
  private:
+  // Writes the entries of a row, which have their room.
+  void write_row(ModelGradients& out, PathTables& path, uint32_t row, const GradientChoice& choice) const;
+
   const Scene& scene_;
   std::span<const Scene> models_;
   std::vector<Instance> instances_;

@@ -30,18 +30,24 @@ ConstantTables constant_tables(const FieldTables& tables) {
 }
 
 PathTables::PathTables(const FieldTables& tables, const ConstantTables& constants, const FieldFrame& frame,
-                       const device::wt_field_world& world, uint32_t row)
-    : tables_(tables), frame_(frame), plain_(world), row_(row), constants_(constants) {
-  const device::wt_path_list list = frame.list();
-  path_ = device::wt_path_of(&list, frame.rows[row]);
-  moved_ = moved_vertices(world, path_);
-  transmitter_ = tangent::constant(frame.transmitters[path_.transmitter]);
-  receiver_ = tangent::constant(frame.receivers[path_.receiver]);
+                       const device::wt_field_world& world)
+    : tables_(tables),
+      constants_(constants),
+      frame_(frame),
+      plain_(world),
+      list_(frame.list()),
+      inside_(tables.foliages.size()),
+      materials_(constants.materials),
+      foliages_(constants.foliages) {}
+
+void PathTables::set_row(uint32_t row) {
+  row_ = row;
+  path_ = device::wt_path_of(&list_, frame_.rows[row]);
   list_neighbours();
 }
 
-// Rows of the same link whose delays are equal to a picosecond decide on which side of a boundary the path is. They are
-// compared by their steps, so their vertices are not set.
+// Rows of the same link whose delays are equal to a picosecond decide on which side of a boundary of an edge the path
+// is. They are compared by their steps, so their vertices are not set.
 void PathTables::list_neighbours() {
   const auto link = [&](uint32_t row) {
     const wt_solved& path = frame_.solved[frame_.rows[row] / 2];
@@ -51,31 +57,36 @@ void PathTables::list_neighbours() {
     return link(row) == link(row_) && std::abs(frame_.delays[row] - frame_.delays[row_]) < 1e-12;
   };
   uint32_t begin = row_, end = row_ + 1;
-  while (begin > 0 && near(begin - 1)) --begin;
-  while (end < frame_.rows.size() && near(end)) ++end;
+  if (diffractions_of(path_) > 0) {
+    while (begin > 0 && near(begin - 1)) --begin;
+    while (end < frame_.rows.size() && near(end)) ++end;
+  }
   place_ = row_ - begin;
   // The row itself is solved path 0.
-  std::vector<uint32_t> order{row_};
+  order_.assign(1, row_);
   for (uint32_t row = begin; row < end; ++row)
-    if (row != row_) order.push_back(row);
+    if (row != row_) order_.push_back(row);
   max_depth_ = 1;
-  for (const uint32_t row : order) max_depth_ = std::max(max_depth_, frame_.solved[frame_.rows[row] / 2].depth);
+  for (const uint32_t row : order_) max_depth_ = std::max(max_depth_, frame_.solved[frame_.rows[row] / 2].depth);
   rows_.resize(end - begin);
   delays_.assign(frame_.delays.begin() + begin, frame_.delays.begin() + end);
-  for (uint32_t i = 0; i < order.size(); ++i) {
-    const uint32_t number = frame_.rows[order[i]] / 2;
-    rows_[order[i] - begin] = 2 * i;
+  solved_.clear();
+  steps_.clear();
+  for (uint32_t i = 0; i < order_.size(); ++i) {
+    const uint32_t number = frame_.rows[order_[i]] / 2;
+    rows_[order_[i] - begin] = 2 * i;
     solved_.push_back(frame_.solved[number]);
     solved_.back().transmitter = solved_.back().receiver = 0;
     const auto first = frame_.steps.begin() + static_cast<ptrdiff_t>(size_t{number} * frame_.max_depth);
     steps_.insert(steps_.end(), first, first + std::min(max_depth_, frame_.max_depth));
     steps_.resize((i + 1) * max_depth_);
   }
-  vertices_.assign(3 * order.size() * max_depth_, Tangent(0.0));
+  vertices_.resize(3 * order_.size() * max_depth_, 0.0);
 }
 
-std::vector<PathDirection> PathTables::material_directions() const {
-  std::vector<PathDirection> out;
+std::span<const PathDirection> PathTables::material_directions() {
+  std::vector<PathDirection>& out = directions_;
+  out.clear();
   const auto add = [&](uint32_t material, std::initializer_list<PathParameter> parameters) {
     for (const PathParameter parameter : parameters)
       if (std::ranges::none_of(
@@ -118,24 +129,24 @@ void PathTables::seed_material(const PathDirection& direction, int lane, double 
   };
   switch (direction.parameter) {
     case PathParameter::permittivity:
-      material.permittivity[0].d[lane] = 1;
+      material.permittivity[0].d.set(lane, 1);
       break;
     case PathParameter::conductivity:
-      material.permittivity[1].d[lane] = -1 / (2 * std::numbers::pi * frequency_hz * vacuum_permittivity_f_m);
+      material.permittivity[1].d.set(lane, -1 / (2 * std::numbers::pi * frequency_hz * vacuum_permittivity_f_m));
       break;
     case PathParameter::thickness:
-      material.thickness_m.d[lane] = 1;
+      material.thickness_m.d.set(lane, 1);
       break;
     case PathParameter::scattering:
-      material.scattering.d[lane] = 1;
-      each_foliage([&](tangent::wt_foliage& leaves) { leaves.scattering.d[lane] = 1; });
+      material.scattering.d.set(lane, 1);
+      each_foliage([&](tangent::wt_foliage& leaves) { leaves.scattering.d.set(lane, 1); });
       break;
     case PathParameter::attenuation:
-      each_foliage([&](tangent::wt_foliage& leaves) { leaves.loss_np_m.d[lane] = np_of_db; });
+      each_foliage([&](tangent::wt_foliage& leaves) { leaves.loss_np_m.d.set(lane, np_of_db); });
       break;
     case PathParameter::most_attenuation:
       each_foliage([&](tangent::wt_foliage& leaves) {
-        if (leaves.most_np >= 0.0) leaves.most_np.d[lane] = np_of_db;  // below 0 there is no such limit
+        if (leaves.most_np >= 0.0) leaves.most_np.d.set(lane, np_of_db);  // below 0 there is no such limit
       });
       break;
     default:
@@ -150,88 +161,114 @@ bool PathTables::is_singular(const PathDirection& direction) const {
   return false;
 }
 
-void PathTables::set_positions(bool moves) {
-  const auto set = [&](Tangent* to, const tangent::wt_double3& p) {
-    const Tangent axes[3] = {p.x, p.y, p.z};
-    for (int axis = 0; axis < 3; ++axis) to[axis] = moves ? axes[axis] : Tangent(axes[axis].value);
+// Seeds of the last call go, and all other entries of the tables are those of all paths.
+void PathTables::take_seeds_back() {
+  for (const PathDirection& direction : seeded_) materials_[direction.material] = constants_.materials[direction.material];
+  if (!seeded_.empty()) foliages_ = constants_.foliages;
+  seeded_.clear();
+}
+
+bool PathTables::solve_vertices() {
+  moved_.set(plain_, path_);
+  return moved_.solved;
+}
+
+// The ends and vertices as constants.
+void PathTables::stay() {
+  const auto set = [](Tangent* to, const glm::dvec3& p) {
+    for (int axis = 0; axis < 3; ++axis) to[axis] = p[axis];
+  };
+  set(from_, path_.from);
+  set(to_, path_.to);
+  for (uint32_t k = 0; k < path_.depth; ++k)
+    set(&vertices_[3 * device::wt_entry(&path_, k)], device::wt_vertex(&path_, k));
+}
+
+void PathTables::move_ends() {
+  const auto set = [](Tangent* to, const tangent::wt_double3& p) {
+    to[0] = p.x;
+    to[1] = p.y;
+    to[2] = p.z;
   };
   set(from_, moved_.from);
   set(to_, moved_.to);
-  set(transmitter_.position_m, moved_.from);
-  set(receiver_.position_m, moved_.to);
   for (uint32_t k = 0; k < path_.depth; ++k) set(&vertices_[3 * device::wt_entry(&path_, k)], moved_.vertices[k]);
-  const size_t kinds = foliages_.size(), solved = frame_.rows[row_] / 2;
-  inside_.assign(kinds, 0.0);
-  for (size_t kind = 0; kind < kinds; ++kind) inside_[kind] = frame_.inside[solved * kinds + kind];
+  if (!foliages_.empty()) sum_inside();
 }
 
 // The derivatives of the metres in each kind of vegetation; their values are rounded sums, see wt_parts_of_length.
-void PathTables::move_ends() {
+void PathTables::sum_inside() {
   const device::wt_volumes all = tables_.volumes.all();
   const tangent::wt_volumes moved{constants_.volumes.data(), all.triangles, all.earlier};
-  std::vector<Tangent> sums(foliages_.size(), 0.0);
+  Tangent sums[WT_MOST_KINDS] = {};
   tangent::wt_double3 from = moved_.from;
-  for (uint32_t leg = 0; leg <= path_.depth && !sums.empty(); ++leg) {
+  for (uint32_t leg = 0; leg <= path_.depth; ++leg) {
     const tangent::wt_double3 to = leg < path_.depth ? moved_.vertices[leg] : moved_.to;
     for (uint32_t k = 0; k < tables_.volumes.volumes.size(); ++k)
       if (device::wt_length_inside(all.volumes + k, all.triangles, value_of(from), value_of(to)) > 0)
         sums[all.volumes[k].kind] += tangent::wt_length_in_space(moved, k, from, to);
     from = to;
   }
-  for (size_t kind = 0; kind < sums.size(); ++kind) inside_[kind] = with_value(inside_[kind].value, sums[kind]);
+  for (size_t kind = 0; kind < inside_.size(); ++kind) inside_[kind] = with_value(inside_[kind].value, sums[kind]);
 }
 
-// A turn about axis e moves each column of the rotation by e x column.
-void PathTables::turn_ends() {
-  for (int end = 0; end < 2; ++end) {
-    Tangent* r = end == 0 ? transmitter_.rotation : receiver_.rotation;
-    for (int column = 0; column < 3; ++column)
-      for (int axis = 0; axis < 3; ++axis) {
-        const int up = (axis + 1) % 3, after = (axis + 2) % 3, lane = 3 * end + axis;
-        r[3 * up + column].d[lane] = -r[3 * after + column].value;
-        r[3 * after + column].d[lane] = r[3 * up + column].value;
-      }
-  }
+// Ends are copied where they are not those of the row before. A turn about axis e moves each column of the rotation by
+// e x column.
+void PathTables::set_end(tangent::wt_field_end& to, KnownEnd& known, const std::vector<device::wt_field_end>& ends,
+                         uint32_t number, bool turns, int first_lane) {
+  if (known.number == number && known.turns == turns) return;
+  known = {number, turns};
+  to = tangent::constant(ends[number]);
+  for (int column = 0; turns && column < 3; ++column)
+    for (int axis = 0; axis < 3; ++axis) {
+      const int up = (axis + 1) % 3, after = (axis + 2) % 3, lane = first_lane + axis;
+      to.rotation[3 * up + column].d.set(lane, -to.rotation[3 * after + column].value);
+      to.rotation[3 * after + column].d.set(lane, to.rotation[3 * up + column].value);
+    }
+}
+
+tangent::wt_field_world PathTables::moved_world() const {
+  return {plain_.surfaces,
+          plain_.materials_of,
+          materials_.data(),
+          plain_.wedges,
+          plain_.surface_of_tile,
+          plain_.area_of_tile,
+          plain_.instances,
+          &transmitter_,
+          &receiver_,
+          constants_.antennas.data(),
+          plain_.samples,
+          plain_.wavelength_m,
+          plain_.seed,
+          plain_.transmissions,
+          plain_.reflections,
+          plain_.scatters,
+          plain_.foliage_count,
+          foliages_.data(),
+          inside_.data(),
+          tangent::constant(plain_.air)};
 }
 
 tangent::wt_path_field PathTables::fields(std::span<const PathDirection> directions, double frequency_hz,
                                           Tangent& delay) {
   const bool moves = !directions.empty() && directions[0].parameter == PathParameter::tx_x;
   const bool turns = !directions.empty() && directions[0].parameter == PathParameter::tx_turn_x;
-  materials_ = constants_.materials;
-  foliages_ = constants_.foliages;
-  set_positions(moves);
-  if (moves) move_ends();
-  transmitter_ = tangent::constant(frame_.transmitters[path_.transmitter]);
-  receiver_ = tangent::constant(frame_.receivers[path_.receiver]);
-  transmitter_.antenna = frame_.transmitters[path_.transmitter].antenna;
-  if (turns) turn_ends();
-  if (!moves && !turns)
+  const size_t solved = frame_.rows[row_] / 2;
+  for (size_t kind = 0; kind < inside_.size(); ++kind) inside_[kind] = frame_.inside[solved * inside_.size() + kind];
+  take_seeds_back();
+  moves ? move_ends() : stay();
+  set_end(transmitter_, known_transmitter_, frame_.transmitters, path_.transmitter, turns, 0);
+  set_end(receiver_, known_receiver_, frame_.receivers, path_.receiver, turns, 3);
+  if (!moves && !turns) {
+    seeded_.assign(directions.begin(), directions.end());
     for (size_t lane = 0; lane < directions.size(); ++lane)
       seed_material(directions[lane], static_cast<int>(lane), frequency_hz);
+  }
   const tangent::wt_path_list list{solved_.data(), vertices_.data(), steps_.data(), from_, to_,
                                    nullptr,        nullptr,          max_depth_};
   const tangent::wt_ordered_rows ordered{&list, rows_.data(), delays_.data(), static_cast<uint32_t>(rows_.size())};
-  const tangent::wt_field_world world{plain_.surfaces,
-                                      plain_.materials_of,
-                                      materials_.data(),
-                                      plain_.wedges,
-                                      plain_.surface_of_tile,
-                                      plain_.area_of_tile,
-                                      plain_.instances,
-                                      &transmitter_,
-                                      &receiver_,
-                                      constants_.antennas.data(),
-                                      plain_.samples,
-                                      plain_.wavelength_m,
-                                      plain_.seed,
-                                      plain_.transmissions,
-                                      plain_.reflections,
-                                      plain_.scatters,
-                                      plain_.foliage_count,
-                                      foliages_.data(),
-                                      inside_.data(),
-                                      tangent::constant(plain_.air)};
+  const tangent::wt_field_world world = moved_world();
   const tangent::wt_path path = tangent::wt_path_of(&list, rows_[place_]);
   delay = tangent::wt_path_length(&path) / speed_of_light_m_s;
   return tangent::wt_field_of(&world, &ordered, place_);

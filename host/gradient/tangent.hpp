@@ -4,7 +4,6 @@
 // alone. At a kink the derivative is that of the side that the value takes. No derivative is finite where the square
 // root of 0 changes; one that is not finite says that there is none.
 #pragma once
-#include <array>
 #include <cmath>
 #include <concepts>
 
@@ -12,12 +11,35 @@ namespace wavetracer::tangent {
 
 inline constexpr int lanes = 6;  // directions at a time: the coordinates of both ends of a path
 
+// The derivatives in all directions. They are pairs, because every processor of this architecture has registers for
+// pairs of doubles, and compilers do not find them in loops over numbers that they return.
+struct Slopes {
+  using Pair = double __attribute__((vector_size(16)));
+  static constexpr int count = lanes / 2;
+  Pair pairs[count];
+
+  double operator[](int lane) const { return pairs[lane / 2][lane % 2]; }
+  void set(int lane, double slope) { pairs[lane / 2][lane % 2] = slope; }
+};
+
+inline Slopes operator+(const Slopes& a, const Slopes& b) {
+  return {a.pairs[0] + b.pairs[0], a.pairs[1] + b.pairs[1], a.pairs[2] + b.pairs[2]};
+}
+inline Slopes operator-(const Slopes& a, const Slopes& b) {
+  return {a.pairs[0] - b.pairs[0], a.pairs[1] - b.pairs[1], a.pairs[2] - b.pairs[2]};
+}
+inline Slopes operator*(double factor, const Slopes& a) {
+  const Slopes::Pair both{factor, factor};
+  return {both * a.pairs[0], both * a.pairs[1], both * a.pairs[2]};
+}
+
 struct Tangent {
   double value;
-  std::array<double, lanes> d;
+  Slopes d;
 
   Tangent() = default;  // is not set, like a double
   constexpr Tangent(double v) : value(v), d{} {}
+  Tangent(double v, const Slopes& slopes) : value(v), d(slopes) {}
   template <std::integral T>
   constexpr Tangent(T v) : Tangent(static_cast<double>(v)) {}
 
@@ -27,16 +49,10 @@ struct Tangent {
 
 // The function value of x, whose derivative by x is slope.
 inline Tangent chained(double value, const Tangent& x, double slope) {
-  Tangent out;
-  out.value = value;
-  for (int i = 0; i < lanes; ++i) out.d[i] = slope * x.d[i];
-  return out;
+  return {value, slope * x.d};
 }
 inline Tangent chained(double value, const Tangent& x, double slope_x, const Tangent& y, double slope_y) {
-  Tangent out;
-  out.value = value;
-  for (int i = 0; i < lanes; ++i) out.d[i] = slope_x * x.d[i] + slope_y * y.d[i];
-  return out;
+  return {value, slope_x * x.d + slope_y * y.d};
 }
 
 // The value with the derivatives of x.
@@ -46,25 +62,19 @@ inline Tangent with_value(double value, Tangent x) {
 }
 
 inline bool is_constant(const Tangent& x) {
-  for (const double d : x.d)
-    if (d != 0) return false;
+  for (int i = 0; i < lanes; ++i)
+    if (x.d[i] != 0) return false;
   return true;
 }
 
 inline Tangent operator-(const Tangent& a) { return chained(-a.value, a, -1); }
 inline Tangent operator+(const Tangent& a, const Tangent& b) {
-  Tangent out;
-  out.value = a.value + b.value;
-  for (int i = 0; i < lanes; ++i) out.d[i] = a.d[i] + b.d[i];
-  return out;
+  return {a.value + b.value, a.d + b.d};
 }
 inline Tangent operator+(const Tangent& a, double b) { return with_value(a.value + b, a); }
 inline Tangent operator+(double a, const Tangent& b) { return with_value(a + b.value, b); }
 inline Tangent operator-(const Tangent& a, const Tangent& b) {
-  Tangent out;
-  out.value = a.value - b.value;
-  for (int i = 0; i < lanes; ++i) out.d[i] = a.d[i] - b.d[i];
-  return out;
+  return {a.value - b.value, a.d - b.d};
 }
 inline Tangent operator-(const Tangent& a, double b) { return with_value(a.value - b, a); }
 inline Tangent operator-(double a, const Tangent& b) { return chained(a - b.value, b, -1); }
@@ -116,7 +126,7 @@ inline Tangent sqrt(const Tangent& x) {
   if (root > 0) return chained(root, x, 0.5 / root);
   Tangent out;
   out.value = root;
-  for (int i = 0; i < lanes; ++i) out.d[i] = x.d[i] == 0 ? 0 : x.d[i] * HUGE_VAL;
+  for (int i = 0; i < lanes; ++i) out.d.set(i, x.d[i] == 0 ? 0 : x.d[i] * HUGE_VAL);
   return out;
 }
 inline Tangent fabs(const Tangent& x) { return chained(std::fabs(x.value), x, std::signbit(x.value) ? -1 : 1); }
@@ -138,10 +148,7 @@ inline Tangent ldexp(const Tangent& x, int exponent) {
   return chained(std::ldexp(x.value, exponent), x, std::ldexp(1.0, exponent));
 }
 inline Tangent fma(const Tangent& a, const Tangent& b, const Tangent& c) {
-  Tangent out;
-  out.value = std::fma(a.value, b.value, c.value);
-  for (int i = 0; i < lanes; ++i) out.d[i] = a.value * b.d[i] + b.value * a.d[i] + c.d[i];
-  return out;
+  return {std::fma(a.value, b.value, c.value), a.value * b.d + b.value * a.d + c.d};
 }
 inline Tangent fma(const Tangent& a, const Tangent& b, double c) {
   return chained(std::fma(a.value, b.value, c), a, b.value, b, a.value);

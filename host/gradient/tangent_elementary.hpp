@@ -47,14 +47,8 @@ inline wt_double2 chained_complex(device::wt_double2 value, const wt_double2& a,
 
 inline wt_double2 wt_times(const wt_double2& a, const wt_double2& b) {
   const device::wt_double2 value = device::wt_times(value_of(a), value_of(b));
-  wt_double2 out;
-  out.x.value = value.x;
-  out.y.value = value.y;
-  for (int i = 0; i < lanes; ++i) {
-    out.x.d[i] = a.x.value * b.x.d[i] + a.x.d[i] * b.x.value - (a.y.value * b.y.d[i] + a.y.d[i] * b.y.value);
-    out.y.d[i] = a.x.value * b.y.d[i] + a.x.d[i] * b.y.value + (a.y.value * b.x.d[i] + a.y.d[i] * b.x.value);
-  }
-  return out;
+  return {{value.x, a.x.value * b.x.d + b.x.value * a.x.d - (a.y.value * b.y.d + b.y.value * a.y.d)},
+          {value.y, a.x.value * b.y.d + b.y.value * a.x.d + (a.y.value * b.x.d + b.x.value * a.y.d)}};
 }
 
 // a / b; its derivative is (a' - b' a / b) / b.

@@ -67,6 +67,8 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   MaterialTable table = make_material_table(scene, models, instances, config.radio.frequency_hz);
   tables.materials = std::move(table.materials);
   tables.materials_of = std::move(table.materials_of);
+  tables.names = std::move(table.names);
+  tables.walls = std::move(table.walls);
   add_antennas(tables, config);
   tables.air = air_at(config.air, config.radio.frequency_hz);
   tables.volumes = volume_table(scene);

@@ -70,13 +70,12 @@ TEST_CASE("values of derivatives are those of FieldModel to the last bit, with a
     const device::wt_field_world plain = frame.world(tables);
     const ConstantTables constants = constant_tables(tables);
     REQUIRE(paths.size() == frame.rows.size());
+    PathTables path(tables, constants, frame, plain);
     for (uint32_t row = 0; row < paths.size(); ++row) {
-      PathTables path(tables, constants, frame, plain, row);
+      path.set_row(row);
       tangent::Tangent delay;
-      const auto field =
-          path.fields(path.material_directions().empty() ? std::vector<PathDirection>{}
-                                                         : std::vector<PathDirection>{path.material_directions()[0]},
-                      5.9e9, delay);
+      const std::span<const PathDirection> directions = path.material_directions();
+      const auto field = path.fields(directions.first(std::min<size_t>(directions.size(), 1)), 5.9e9, delay);
       CHECK(same_bits(delay.value, paths.delay_s[row]));
       CHECK(same_bits(field.gain_db.value, paths.gain_db[row]));
       CHECK(same_bits(field.departure.phi.value, paths.aod_phi_rad[row]));

@@ -17,7 +17,7 @@ namespace {
 // A number that grows by `slope` per unit of lane 2.
 Tangent growing(double value, double slope) {
   Tangent out(value);
-  out.d[2] = slope;
+  out.d.set(2, slope);
   return out;
 }
 
