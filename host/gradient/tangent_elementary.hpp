@@ -2,6 +2,7 @@
 // Functions of tangents with a derivative that is known: those of wavetracer/device/elementary.h, some of complex.h,
 // and the transition function. The value is that of the device's function, and the derivative follows the chain rule.
 #pragma once
+#include "gradient/sloped_transition.hpp"
 #include "gradient/tangent_vector.hpp"
 #include "wavetracer/device/complex.h"
 #include "wavetracer/device/transition.h"
@@ -74,21 +75,9 @@ inline wt_double2 wt_root(const wt_double2& a) {
   return chained_complex(root, a, device::wt_over({0.5, 0}, root));
 }
 
-// (3 + s) g(s) is a polynomial P(t), see transition.h, so g' = (P'(t) t' - g) / (3 + s).
 inline wt_double2 wt_transition_over_root(const Tangent& argument) {
-  const double s = argument.value, t = (3 - s) / (3 + s), w = t * t;
-  double p[4] = {}, slope[4] = {};  // polynomials in w: even and odd part, real and imaginary, as in the table
-  for (int i = WT_TRANSITION_ROWS - 1; i >= 0; --i)
-    for (int k = 0; k < 4; ++k) {
-      slope[k] = slope[k] * w + p[k];
-      p[k] = p[k] * w + device::wt_transition_rows[i][k];
-    }
-  const device::wt_double2 g = device::wt_transition_over_root(s);
-  const double turn = -6 / ((3 + s) * (3 + s));  // t'
-  const double real = 2 * t * slope[0] + p[2] + 2 * w * slope[2],
-               imaginary = 2 * t * slope[1] + p[3] + 2 * w * slope[3];
-  return {chained(g.x, argument, (real * turn - g.x) / (3 + s)),
-          chained(g.y, argument, (imaginary * turn - g.y) / (3 + s))};
+  const SlopedTransition g = sloped_transition(argument.value);
+  return {chained(g.value.x, argument, g.slope.x), chained(g.value.y, argument, g.slope.y)};
 }
 
 }  // namespace wavetracer::tangent

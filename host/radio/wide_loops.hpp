@@ -11,9 +11,13 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define WAVETRACER_WIDE __attribute__((target_clones("avx2", "default")))
+#define WAVETRACER_WIDE_FMA __attribute__((target_clones("fma", "default")))
 #else
 #define WAVETRACER_WIDE
+#define WAVETRACER_WIDE_FMA
 #endif
+// WAVETRACER_WIDE_FMA is for functions that call fma: its first version has instructions for them. They round once, as
+// those of the library do.
 // Put this before a function that such a function calls in its loops: it becomes a part of each version.
 #define WAVETRACER_WIDE_PART [[gnu::always_inline]] inline
 
