@@ -117,7 +117,8 @@ MovedVertices::LengthForm MovedVertices::length_form(const device::wt_field_worl
 MovedVertices::EdgeRates MovedVertices::edge_rates(LengthForm form, double* error_m) const {
   const auto eliminate = [&](size_t row, size_t pivot) {
     const double share = form.rows[row][pivot] / form.rows[pivot][pivot];
-    for (size_t column = pivot; column < edges_ + 6; ++column) form.rows[row][column] -= share * form.rows[pivot][column];
+    for (size_t column = pivot; column < edges_ + 6; ++column)
+      form.rows[row][column] -= share * form.rows[pivot][column];
     form.slope[row] -= share * form.slope[pivot];
   };
   for (size_t pivot = 0; pivot < edges_; ++pivot)

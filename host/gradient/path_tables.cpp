@@ -163,7 +163,8 @@ bool PathTables::is_singular(const PathDirection& direction) const {
 
 // Seeds of the last call go, and all other entries of the tables are those of all paths.
 void PathTables::take_seeds_back() {
-  for (const PathDirection& direction : seeded_) materials_[direction.material] = constants_.materials[direction.material];
+  for (const PathDirection& direction : seeded_)
+    materials_[direction.material] = constants_.materials[direction.material];
   if (!seeded_.empty()) foliages_ = constants_.foliages;
   seeded_.clear();
 }

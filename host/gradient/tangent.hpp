@@ -48,9 +48,7 @@ struct Tangent {
 };
 
 // The function value of x, whose derivative by x is slope.
-inline Tangent chained(double value, const Tangent& x, double slope) {
-  return {value, slope * x.d};
-}
+inline Tangent chained(double value, const Tangent& x, double slope) { return {value, slope * x.d}; }
 inline Tangent chained(double value, const Tangent& x, double slope_x, const Tangent& y, double slope_y) {
   return {value, slope_x * x.d + slope_y * y.d};
 }
@@ -68,14 +66,10 @@ inline bool is_constant(const Tangent& x) {
 }
 
 inline Tangent operator-(const Tangent& a) { return chained(-a.value, a, -1); }
-inline Tangent operator+(const Tangent& a, const Tangent& b) {
-  return {a.value + b.value, a.d + b.d};
-}
+inline Tangent operator+(const Tangent& a, const Tangent& b) { return {a.value + b.value, a.d + b.d}; }
 inline Tangent operator+(const Tangent& a, double b) { return with_value(a.value + b, a); }
 inline Tangent operator+(double a, const Tangent& b) { return with_value(a + b.value, b); }
-inline Tangent operator-(const Tangent& a, const Tangent& b) {
-  return {a.value - b.value, a.d - b.d};
-}
+inline Tangent operator-(const Tangent& a, const Tangent& b) { return {a.value - b.value, a.d - b.d}; }
 inline Tangent operator-(const Tangent& a, double b) { return with_value(a.value - b, a); }
 inline Tangent operator-(double a, const Tangent& b) { return chained(a - b.value, b, -1); }
 inline Tangent operator*(const Tangent& a, const Tangent& b) {

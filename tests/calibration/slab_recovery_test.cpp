@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The permittivity of a slab is found again where levels oscillate with it: from the prior's middle the nearest minimum
+// of the misfit is a wrong one. Cases that need a device are skipped with a message if there is none.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "calibration/measured_world.hpp"
+#include "calibration/prior_samples.hpp"
+#include "calibration/recovery.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// A wall of brick, whose permittivity is 3.91 in the library.
+SceneFile wall() { return SceneFile({Part{{Quad{{-60, 10, -20}, {120, 0, 0}, {0, 0, 40}}}, "brick"}}); }
+
+std::string wall_text(const SceneFile& scene, double thickness_m, const std::string& permittivity) {
+  return fmt::format(
+      "scene.file = \"{}\"\n[radio]\nfrequency_hz = 5.9e9\n[trace]\nrays = 20000\nmax_depth = 1\ndiffraction = false\n"
+      "[[material]]\nname = \"material-0\"\nthickness_m = {}\n{}"
+      "[[transmitter]]\nname = \"a\"\nposition_m = [-20, 3, 6]\n",
+      scene.path().string(), thickness_m, permittivity);
+}
+
+std::vector<glm::dvec3> places_before_wall(size_t count) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> along(-45, 45), across(-9, 9);
+  std::vector<glm::dvec3> out;
+  for (size_t i = 0; i < count; ++i) out.push_back({along(random), across(random), 1.5});
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the number of samples follows the oscillations of a slab") {
+  constexpr double thick_m = 0.2, wavelength_m = 299792458.0 / 5.9e9;
+  calibration::NamedRecords world{{"a", "b", "c"}, std::vector<device::wt_material>(3), {}, 5.9e9};
+  const auto set = [&](uint32_t record, double imaginary, double thickness_m) {
+    device::wt_material& to = world.records[record];
+    to.permittivity[0] = 4;
+    to.permittivity[1] = imaginary;
+    to.thickness_m = thickness_m;
+  };
+  set(0, -0.01, thick_m);
+  set(1, -20, thick_m);
+  set(2, 0, INFINITY);
+  const auto parameter = [&](uint32_t record, calibration::Property property, double start) {
+    return calibration::Parameter{
+        .owner = world.names[record], .property = property, .start = start, .prior = 0.5, .records = {record}};
+  };
+  using calibration::Property;
+  const calibration::Parameter permittivity = parameter(0, Property::permittivity, 4);
+  const double least = std::sqrt(1 + 3 / std::exp(1.0)), most = std::sqrt(1 + 3 * std::exp(1.0));
+  const double expected = 2 * thick_m * (most - least) / wavelength_m;
+  CHECK(calibration::oscillations(world, permittivity) == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) ==
+        static_cast<size_t>(std::ceil(20 * expected)));
+  const std::vector<calibration::Parameter> three(3, permittivity);
+  CHECK(calibration::prior_samples(world, three) == static_cast<size_t>(std::ceil(20 * expected / 3)));
+  const calibration::Parameter thickness = parameter(0, Property::thickness, thick_m);
+  CHECK(calibration::oscillations(world, thickness) ==
+        doctest::Approx(4 * thick_m * (std::exp(1.0) - std::exp(-1.0)) / wavelength_m).epsilon(1e-3));
+  // A wave that is lost in the slab, a half space, and a property without a phase have no oscillation.
+  for (const auto& still : {parameter(1, Property::permittivity, 4), parameter(2, Property::permittivity, 4),
+                            parameter(0, Property::conductivity, 0.1)}) {
+    CHECK(calibration::oscillations(world, still) == 0);
+    CHECK(calibration::prior_samples(world, std::span(&still, 1)) == 8);
+  }
+  world.records[0].thickness_m = 30;
+  const std::vector<calibration::Parameter> many(40, permittivity);
+  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) == 8);  // lost on the way
+  world.records[0].permittivity[1] = 0;
+  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) == calibration::most_prior_samples);
+  CHECK(calibration::prior_samples(world, many) == 320);
+}
+
+TEST_CASE("the permittivity of a slab is found from that of brick, whatever minima lie between") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = wall();
+  const std::vector<glm::dvec3> at = places_before_wall(40);
+  for (const double thickness_m : {0.2, 0.3})
+    for (const double truth : {2.4, 3.0, 5.5, 7.0}) {
+      const std::vector<double> levels =
+          gains(folder, wall_text(scene, thickness_m, fmt::format("permittivity = {}\n", truth)), at);
+      const auto found = calibrated(folder.file("start.toml", wall_text(scene, thickness_m, "permittivity = 3.91\n")),
+                                    folder.file("m.csv", table(at, levels)), "none", {"material-0.permittivity"}, 0);
+      MESSAGE("a slab of ", thickness_m, " m and permittivity ", truth, ": ", fitted(found, "material-0.permittivity"),
+              " after ", found.evaluations, " evaluations and ", found.fit_s, " s");
+      CHECK(fitted(found, "material-0.permittivity") == doctest::Approx(truth).epsilon(0.002));
+    }
+}
