@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include "accuracy/latin_hypercube.hpp"
 #include "base/stopwatch.hpp"
 #include "calibration/agreements_of.hpp"
 #include "calibration/chosen_parameters.hpp"
@@ -26,7 +25,6 @@ constexpr int most_rounds = 4;
 // Shares of the power that weak paths make together, which are not evaluated: in the search for the best minimum, in
 // the next round, and then.
 constexpr std::array shares_left_out{2e-2, 1e-3, 1e-4};
-constexpr size_t seed_of_samples = 1;
 constexpr double step_of_places_m = 0.02, step_of_turns_deg = 1e-3;
 constexpr double tolerated_db = 0.02;  // the error of a level that comes from paths that keep their power
 
@@ -223,10 +221,8 @@ class Calibrating {
     const size_t all = problem_.priors.size(), count = materials_count();
     std::vector<std::vector<double>> out{std::vector<double>(all, 0)};
     if (count == 0) return out;
-    const size_t samples = prior_samples(world_->materials(), std::span(out_.parameters).first(count));
-    for (std::vector<double>& row : accuracy::normal_hypercube(samples, count, seed_of_samples)) {
+    for (std::vector<double>& row : prior_samples(world_->materials(), std::span(out_.parameters).first(count))) {
       row.resize(all, 0);
-      for (size_t p = 0; p < count; ++p) row[p] *= problem_.priors[p];
       out.push_back(std::move(row));
     }
     return out;

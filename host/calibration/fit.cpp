@@ -13,7 +13,7 @@ namespace {
 
 constexpr double least_deviation = 1e-6;  // data without noise
 constexpr double least_gain = 1e-2;       // a smaller gain of the logarithm of the probability means nothing
-constexpr size_t most_iterations = 40, kept_results = 4, followed_starts = 3;
+constexpr size_t most_iterations = 40, kept_results = 4, least_followed = 3, starts_of_followed = 24;
 
 // Returns 0 for an empty list.
 double median_or_0(std::vector<double> values) { return values.empty() ? 0 : median(std::move(values)); }
@@ -270,7 +270,8 @@ FitResult fit_from_best(const Problem& problem, Linearized& model, const std::ve
   for (size_t i = 0; i < starts.size(); ++i) best.emplace_back(Fit(problem, model, takes, starts[i]).at_start(), i);
   std::ranges::sort(best);
   std::vector<size_t> followed{0};
-  for (size_t i = 0; i < best.size() && i < followed_starts; ++i)
+  const size_t count = std::max(least_followed, starts.size() / starts_of_followed);
+  for (size_t i = 0; i < best.size() && i < count; ++i)
     if (best[i].second != 0) followed.push_back(best[i].second);
   FitResult out;
   for (const size_t start : followed) {

@@ -10,13 +10,16 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
+#include "accuracy/latin_hypercube.hpp"
 #include "radio/constants.hpp"
 
 namespace wavetracer::calibration {
 namespace {
 
-constexpr size_t samples_of_parameter = 8;
+constexpr size_t samples_of_parameter = 8, seed_of_samples = 1;
+constexpr double most_prior_samples = 256;  // of one parameter
 constexpr double samples_of_oscillation = 20, deviations = 2;
 constexpr double least_echo = 0.05;  // of the amplitude that crosses a slab twice
 
@@ -56,14 +59,20 @@ double oscillations(const NamedRecords& world, const Parameter& parameter) {
   return most;
 }
 
-// Every parameter takes as many values as there are samples, so the one with the most oscillations decides. But where
-// other parameters differ as well from sample to sample, more samples tell less of it.
-size_t prior_samples(const NamedRecords& world, std::span<const Parameter> parameters) {
-  const auto count = static_cast<double>(parameters.size()), least = samples_of_parameter * count;
-  double wanted = least;
-  for (const Parameter& parameter : parameters)
-    wanted = std::max(wanted, std::ceil(samples_of_oscillation * oscillations(world, parameter) / count));
-  return static_cast<size_t>(std::min(wanted, std::max(least, static_cast<double>(most_prior_samples))));
+std::vector<std::vector<double>> prior_samples(const NamedRecords& world, std::span<const Parameter> parameters) {
+  std::vector<std::vector<double>> out =
+      accuracy::normal_hypercube(samples_of_parameter * parameters.size(), parameters.size(), seed_of_samples);
+  std::vector<double> turns;
+  for (const Parameter& parameter : parameters) turns.push_back(oscillations(world, parameter));
+  if (std::ranges::count_if(turns, [](double own) { return own > 0; }) == 1) {
+    const auto one = static_cast<size_t>(std::ranges::max_element(turns) - turns.begin());
+    const double wanted = std::min(std::ceil(samples_of_oscillation * turns[one]), most_prior_samples);
+    for (const std::vector<double>& value : accuracy::normal_hypercube(static_cast<size_t>(wanted), 1, seed_of_samples))
+      out.emplace_back(parameters.size(), 0.0)[one] = value[0];
+  }
+  for (std::vector<double>& row : out)
+    for (size_t p = 0; p < row.size(); ++p) row[p] *= parameters[p].prior;
+  return out;
 }
 
 }  // namespace wavetracer::calibration

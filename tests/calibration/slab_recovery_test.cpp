@@ -56,10 +56,26 @@ TEST_CASE("the number of samples follows the oscillations of a slab") {
   const double least = std::sqrt(1 + 3 / std::exp(1.0)), most = std::sqrt(1 + 3 * std::exp(1.0));
   const double expected = 2 * thick_m * (most - least) / wavelength_m;
   CHECK(calibration::oscillations(world, permittivity) == doctest::Approx(expected).epsilon(1e-3));
-  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) ==
-        static_cast<size_t>(std::ceil(20 * expected)));
-  const std::vector<calibration::Parameter> three(3, permittivity);
-  CHECK(calibration::prior_samples(world, three) == static_cast<size_t>(std::ceil(20 * expected / 3)));
+  const auto samples = [&](const std::vector<calibration::Parameter>& of) {
+    return calibration::prior_samples(world, of);
+  };
+  const auto dense = static_cast<size_t>(std::ceil(20 * expected));
+  CHECK(samples({permittivity}).size() == 8 + dense);
+  const auto both = samples({permittivity, parameter(0, Property::conductivity, 0.1)});
+  CHECK(both.size() == 16 + dense);
+  // Near the middle of the prior neighbours are a thirtieth of an oscillation apart, with the conductivity as it is.
+  std::vector<double> values;
+  for (const std::vector<double>& row : both)
+    if (row[1] == 0) values.push_back(row[0]);
+  CHECK(values.size() == dense);
+  std::ranges::sort(values);
+  CHECK(values.front() < -0.9);
+  CHECK(values.back() > 0.9);
+  double farthest = 0;
+  for (size_t i = 1; i < values.size(); ++i)
+    if (std::abs(values[i]) < 0.25) farthest = std::max(farthest, values[i] - values[i - 1]);
+  CHECK(farthest < 2 * 0.5 / (0.35 * static_cast<double>(dense)));
+  CHECK(samples(std::vector(3, permittivity)).size() == 24);
   const calibration::Parameter thickness = parameter(0, Property::thickness, thick_m);
   CHECK(calibration::oscillations(world, thickness) ==
         doctest::Approx(4 * thick_m * (std::exp(1.0) - std::exp(-1.0)) / wavelength_m).epsilon(1e-3));
@@ -67,14 +83,31 @@ TEST_CASE("the number of samples follows the oscillations of a slab") {
   for (const auto& still : {parameter(1, Property::permittivity, 4), parameter(2, Property::permittivity, 4),
                             parameter(0, Property::conductivity, 0.1)}) {
     CHECK(calibration::oscillations(world, still) == 0);
-    CHECK(calibration::prior_samples(world, std::span(&still, 1)) == 8);
+    CHECK(samples({still}).size() == 8);
   }
   world.records[0].thickness_m = 30;
-  const std::vector<calibration::Parameter> many(40, permittivity);
-  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) == 8);  // lost on the way
+  CHECK(samples({permittivity}).size() == 8);  // lost on the way
   world.records[0].permittivity[1] = 0;
-  CHECK(calibration::prior_samples(world, std::span(&permittivity, 1)) == calibration::most_prior_samples);
-  CHECK(calibration::prior_samples(world, many) == 320);
+  CHECK(samples({permittivity}).size() == 8 + 256);
+}
+
+TEST_CASE("the permittivity and the conductivity of a slab are found together") {
+  if (!device_present()) return;
+  const Folder folder;
+  const SceneFile scene = wall();
+  const std::vector<glm::dvec3> at = places_before_wall(40);
+  for (const double truth : {2.4, 3.0, 5.5}) {
+    const std::vector<double> levels =
+        gains(folder, wall_text(scene, 0.2, fmt::format("permittivity = {}\nconductivity_s_m = 0.02\n", truth)), at);
+    const auto found =
+        calibrated(folder.file("start.toml", wall_text(scene, 0.2, "permittivity = 3.91\nconductivity_s_m = 0.03\n")),
+                   folder.file("m.csv", table(at, levels)), "none", {"material-0"}, 0);
+    MESSAGE("permittivity ", truth, ": ", fitted(found, "material-0.permittivity"),
+            ", conductivity 0.02: ", fitted(found, "material-0.conductivity"), " after ", found.evaluations,
+            " evaluations");
+    CHECK(fitted(found, "material-0.permittivity") == doctest::Approx(truth).epsilon(0.005));
+    CHECK(fitted(found, "material-0.conductivity") == doctest::Approx(0.02).epsilon(0.05));
+  }
 }
 
 TEST_CASE("the permittivity of a slab is found from that of brick, whatever minima lie between") {
