@@ -85,8 +85,8 @@ class Linearized {
 // start: theta of the first step.
 FitResult fit(const Problem& problem, Linearized& model, const std::vector<bool>& takes, std::vector<double> start);
 
-// Fits from the first one and the best ones of these starts, three or a 24th of all, and returns the best fit: the model
-// may have several minima, as the reflection of a slab has over its permittivity.
+// Fits from the first one and the best ones of these starts, three or a 24th of all, and returns the best fit: the
+// model may have several minima, as the reflection of a slab has over its permittivity.
 FitResult fit_from_best(const Problem& problem, Linearized& model, const std::vector<bool>& takes,
                         const std::vector<std::vector<double>>& starts);
 

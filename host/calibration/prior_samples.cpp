@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both faces of a slab reflect has a phase between them of 4 pi n d / wavelength, so a change of n d by half of a
+// The waves that both faces of a slab reflect differ in phase by 4 pi n d / wavelength, so a change of n d by half of a
 // wavelength is one oscillation. In a Latin hypercube of N samples of a normal number neighbours are apart by 7.7 / N
 // standard deviations where it is one and a half deviations from its mean. So with N = 20 times the oscillations of
 // four deviations a sample is within a twentieth of an oscillation of the truth there, where the misfit is a third of
@@ -19,9 +19,9 @@ namespace wavetracer::calibration {
 namespace {
 
 constexpr size_t samples_of_parameter = 8, seed_of_samples = 1;
-constexpr double most_prior_samples = 256;  // of one parameter
+constexpr double most_prior_samples = 256;  // for one parameter
 constexpr double samples_of_oscillation = 20, deviations = 2;
-constexpr double least_echo = 0.05;  // of the amplitude that crosses a slab twice
+constexpr double least_echo = 0.05;  // the share of the amplitude that crosses a slab twice
 
 std::complex<double> index_of(const device::wt_material& record) {
   return std::sqrt(std::complex<double>(record.permittivity[0], record.permittivity[1]));

@@ -40,7 +40,7 @@ class MovedVertices {
     // Its velocity as the i-th of its variables grows.
     glm::dvec3 velocity(size_t i) const;
   };
-  // How the place along each edge changes with the six coordinates of the ends.
+  // Derivatives of the place along each edge by the six coordinates of the ends.
   using EdgeRates = std::array<std::array<double, 6>, WT_MOST_EDGES>;
   // First and second derivatives of the path's length by the places along the edges, which come first, and the
   // coordinates of the ends; there are no rows for these.
@@ -61,8 +61,8 @@ class MovedVertices {
                        const tangent::wt_double3& first, const tangent::wt_double3& last);
 
   std::vector<Anchor> anchors_;
-  size_t edges_ = 0;                         // of these, edges along which a point moves
-  std::vector<tangent::wt_double3> images_;  // of the point before a stretch, at its planes
+  size_t edges_ = 0;                         // the number of anchors that move along edges
+  std::vector<tangent::wt_double3> images_;  // the images of the point before a stretch at its planes
 };
 
 }  // namespace wavetracer

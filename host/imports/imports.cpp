@@ -197,6 +197,7 @@ ImportSummary import_map(const imports::Map& map, const std::string& name, const
   summary.straightened = plan.straightened;
   summary.straightened_by_m = plan.straightened_by_m;
   summary.rounding_m = map.rounding_m;
+  summary.tree_columns = map.tree_columns;
   summary = write_city(meshes, georeference, std::move(summary), options);
   if (options.wall_classes) write_wall_tables(plan, summary, options);
   return summary;
@@ -249,6 +250,7 @@ std::string describe(const ImportSummary& s) {
         "vegetation single trees {}, trees in rows {}, woods {}; they attenuate waves (docs/outdoors.md), and "
         "--no-vegetation leaves them out\n",
         s.trees, s.trees_of_rows, s.woods);
+  if (!s.tree_columns.empty()) out += fmt::format("trees      {}\n", s.tree_columns);
   for (const auto& [name, count] : s.walls) out += fmt::format("walls      {} {}\n", name, count);
   if (s.straightened > 0)
     out += fmt::format(

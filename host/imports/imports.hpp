@@ -64,6 +64,7 @@ struct ImportSummary {
   uint64_t buildings = 0;                 // number of solids of whole buildings
   uint64_t parts = 0;                     // number of solids of building:part
   uint64_t trees = 0, trees_of_rows = 0, woods = 0;
+  std::string tree_columns;                  // for trees of a map of GDAL: the fields of their sizes, in words
   std::string heights;                       // for city models: the old and new height of their ground, in words
   uint64_t courtyards = 0;                   // number of holes in either
   uint64_t triangles = 0;                    // includes the ground

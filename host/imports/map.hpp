@@ -33,6 +33,7 @@ struct Map {
   double rounding_m = 0;
   bool nested_are_courtyards = false;  // a footprint inside another one with the same tags is a hole in it
   std::map<std::string, uint64_t> left_out;
+  std::string tree_columns;  // in words: the fields that trees have their sizes from; empty without such trees
   std::vector<std::string> warnings;
 };
 

@@ -98,7 +98,7 @@ MapsModule open_module(const std::string& needed_for) {
   look_up(module, "wt_maps_version", version, needed_for);
   if (version() != WT_MAPS_VERSION)
     fail(needed_for, "wavetracer_maps.so is of another version of wavetracer: install both from one package");
-  look_up(module, "wt_maps_footprints", out.footprints, needed_for);
+  look_up(module, "wt_maps_shapes", out.shapes, needed_for);
   look_up(module, "wt_maps_open_raster", out.open_raster, needed_for);
   look_up(module, "wt_maps_places_of_posts", out.places_of_posts, needed_for);
   look_up(module, "wt_maps_close_raster", out.close_raster, needed_for);

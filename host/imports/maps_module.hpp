@@ -9,7 +9,7 @@
 namespace wavetracer::imports {
 
 struct MapsModule {
-  decltype(&wt_maps_footprints) footprints;
+  decltype(&wt_maps_shapes) shapes;
   decltype(&wt_maps_open_raster) open_raster;
   decltype(&wt_maps_places_of_posts) places_of_posts;
   decltype(&wt_maps_close_raster) close_raster;

@@ -138,7 +138,7 @@ class OsmReader {
     footprint.id = id;
     set_tags(footprint, tags);
     footprint.tags["vegetation"] = is_row(tags) ? "row" : "tree";
-    footprint.outer = crown_ring(place_deg, tree_size(footprint.tags).crown_m);
+    footprint.outer = crown_ring(place_deg, tree_size(footprint.tags).crown_m, MapUnit::degree);
     map_.footprints.push_back(std::move(footprint));
   }
 
@@ -146,9 +146,9 @@ class OsmReader {
     std::vector<glm::dvec2> line_deg;
     for (const osmium::NodeRef& node : way.nodes())
       if (node.location().valid()) line_deg.emplace_back(node.lon(), node.lat());
-    const std::vector<glm::dvec2> trees = planted(line_deg);
+    const std::vector<glm::dvec2> trees = planted(line_deg, MapUnit::degree);
     if (trees.size() > most_trees_of_row || (row_trees_ += trees.size()) > most_trees_of_rows)
-      return void(++map_.left_out["row of more than 1000 trees, or beyond 200,000 trees in rows"]);
+      return void(++map_.left_out[too_many_trees]);
     size_t count = 0;
     for (const glm::dvec2& place_deg : trees) plant(place_deg, fmt::format("way_{}_{}", way.id(), ++count), way.tags());
   }

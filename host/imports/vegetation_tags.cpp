@@ -30,9 +30,10 @@ double tree_crown_m(const Tags& tags, double height_m, Counts& guessed) {
       .value_or(slender * height_m);
 }
 
-// Returns metres per degree of longitude and of latitude.
-glm::dvec2 metres_at(const glm::dvec2& place_deg) {
-  return {m_per_degree * std::max(std::cos(place_deg.y * std::numbers::pi / 180), 1e-3), m_per_degree};
+// Returns metres per unit of both coordinates.
+glm::dvec2 metres_at(const glm::dvec2& place, MapUnit unit) {
+  if (unit == MapUnit::metre) return {1, 1};
+  return {m_per_degree * std::max(std::cos(place.y * std::numbers::pi / 180), 1e-3), m_per_degree};
 }
 
 }  // namespace
@@ -45,25 +46,25 @@ TreeSize tree_size(const Tags& tags) {
   return {height_m, tree_crown_m(tags, height_m, counted_later)};
 }
 
-std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m) {
+std::vector<glm::dvec2> crown_ring(const glm::dvec2& place, double crown_m, MapUnit unit) {
   constexpr int corners = 8;
   constexpr double angle = 2 * std::numbers::pi / corners;
   const double radius_m = 0.5 * crown_m * std::sqrt(angle / std::sin(angle));
-  const glm::dvec2 metres = metres_at(place_deg);
+  const glm::dvec2 metres = metres_at(place, unit);
   std::vector<glm::dvec2> out;
   for (int i = 0; i < corners; ++i)
-    out.push_back(place_deg + radius_m * glm::dvec2(std::cos(i * angle), std::sin(i * angle)) / metres);
+    out.push_back(place + radius_m * glm::dvec2(std::cos(i * angle), std::sin(i * angle)) / metres);
   return out;
 }
 
-std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg) {
+std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line, MapUnit unit) {
   std::vector<glm::dvec2> out;
   double next_m = 0;  // distance along the next piece
-  for (size_t i = 1; i < line_deg.size(); ++i) {
-    const glm::dvec2 piece_m = (line_deg[i] - line_deg[i - 1]) * metres_at(line_deg[i]);
+  for (size_t i = 1; i < line.size(); ++i) {
+    const glm::dvec2 piece_m = (line[i] - line[i - 1]) * metres_at(line[i], unit);
     const double length_m = std::hypot(piece_m.x, piece_m.y);
     for (; next_m < length_m && out.size() <= most_trees_of_row; next_m += tree_distance_m)
-      out.push_back(line_deg[i - 1] + (line_deg[i] - line_deg[i - 1]) * (next_m / length_m));
+      out.push_back(line[i - 1] + (line[i] - line[i - 1]) * (next_m / length_m));
     if (out.size() > most_trees_of_row) break;
     next_m -= length_m;
   }

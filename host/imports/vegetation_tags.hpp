@@ -12,6 +12,7 @@ namespace wavetracer::imports {
 constexpr double tree_distance_m = 8;  // distance between trees of a row
 // The limits are needed because a line across the world has few bytes and very many trees.
 constexpr size_t most_trees_of_row = 1000, most_trees_of_rows = 200000;
+constexpr const char* too_many_trees = "row of more than 1000 trees, or beyond 200,000 trees in rows";
 
 // Tells whether a material is leaves and twigs (host/scene/materials.hpp).
 bool is_vegetation(std::string_view material);
@@ -23,13 +24,14 @@ struct TreeSize {
 };
 TreeSize tree_size(const Tags& tags);
 
-// Returns a crown seen from above: eight corners around a place in degrees (longitude, latitude), with the area of the
-// circle.
-std::vector<glm::dvec2> crown_ring(const glm::dvec2& place_deg, double crown_m);
+enum class MapUnit { degree, metre };  // the unit of places; those in degrees are longitude and latitude
 
-// Returns trees along a line in degrees, from its beginning on, tree_distance_m from each other. For a line that is too
-// long, it returns most_trees_of_row + 1 trees.
-std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line_deg);
+// Returns a crown seen from above: eight corners around a place, with the area of the circle.
+std::vector<glm::dvec2> crown_ring(const glm::dvec2& place, double crown_m, MapUnit unit);
+
+// Returns trees along a line, from its beginning on, tree_distance_m from each other. For a line that is too long, it
+// returns most_trees_of_row + 1 trees.
+std::vector<glm::dvec2> planted(const std::vector<glm::dvec2>& line, MapUnit unit);
 
 // Returns a tree's crown, from a third of its height on, or a wood from the ground on, 20 m high by default.
 // leaf_type=broadleaved gives deciduous vegetation, any other value mixed vegetation. The tag "vegetation" says what it

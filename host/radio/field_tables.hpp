@@ -20,7 +20,7 @@ namespace wavetracer {
 struct FieldTables {
   std::vector<device::wt_material> materials;  // those of all scenes, at the carrier's frequency
   std::vector<uint32_t> materials_of;          // material of each surface of the world
-  std::vector<std::string> names, walls;       // of each record of materials, see MaterialTable
+  std::vector<std::string> names, walls;       // those of each record, see MaterialTable
   std::vector<uint32_t> surface_of_tile;  // with trace.scattering: surface of each tile and cell of the world (WT_CELL)
   std::vector<double> area_of_tile;       // m2; for a cell the side of a cube of its volume, m
   uint32_t cells = 0;                     // number of cells of vegetation, which are the last tiles

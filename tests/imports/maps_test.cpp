@@ -82,7 +82,8 @@ TEST_CASE("one town in the formats of many programs is one scene") {
       nearest = std::min(nearest, glm::distance(glm::dvec2(city.scene.origin_m + v), wanted - glm::dvec2(5, 0)));
     CHECK(nearest < 2e-3);
   }
-  CHECK(import_file(json, fields()).summary.left_out.at("feature without a polygon") == 1);
+  CHECK(import_file(json, fields())
+            .summary.left_out.at("point or line that is no tree (natural=tree, natural=tree_row)") == 1);
 }
 
 TEST_CASE("a map that is read has no new files beside it, and keeps the old ones") {

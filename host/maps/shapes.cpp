@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the polygons of all features of a vector map by OGR.
-// Curves become lines, collections become their polygons; heights of points are not used here.
+// Reads the polygons, points and lines of all features of a vector map by OGR.
+// Curves become lines, collections become their parts; heights of points are not used here.
 #include <cpl_error.h>
 #include <ogr_api.h>
 
@@ -15,7 +15,7 @@
 namespace wavetracer::maps {
 namespace {
 
-using Visit = int (*)(void*, const wt_maps_polygon*);
+using Visit = int (*)(void*, const wt_maps_shape*);
 
 struct Free {
   void operator()(OGRGeometryH geometry) const { OGR_G_DestroyGeometry(geometry); }
@@ -90,7 +90,7 @@ class LayerReader {
     feature_ = OGR_F_GetFID(feature);
     part_ = 0;
     const bool all = !linear || take_geometry(linear.get(), 0);
-    if (part_ == 0) ++layers_.no_polygons;
+    if (part_ == 0) ++layers_.no_shapes;
     return all;
   }
 
@@ -98,17 +98,28 @@ class LayerReader {
     constexpr int deepest = 16;  // nesting of collections
     const OGRwkbGeometryType type = OGR_GT_Flatten(OGR_G_GetGeometryType(geometry));
     if (type == wkbPolygon) return take_polygon(geometry);
-    if (depth == deepest || (type != wkbMultiPolygon && type != wkbGeometryCollection)) return true;
+    if (type == wkbPoint) return take_shape(WT_MAPS_POINT, {geometry});
+    if (type == wkbLineString) return take_shape(WT_MAPS_LINE, {geometry});
+    const bool several =
+        type == wkbMultiPolygon || type == wkbMultiPoint || type == wkbMultiLineString || type == wkbGeometryCollection;
+    if (depth == deepest || !several) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i)
       if (!take_geometry(OGR_G_GetGeometryRef(geometry, i), depth + 1)) return false;
     return true;
   }
 
   bool take_polygon(OGRGeometryH polygon) {
+    std::vector<OGRGeometryH> rings;
+    for (int i = 0; i < OGR_G_GetGeometryCount(polygon); ++i) rings.push_back(OGR_G_GetGeometryRef(polygon, i));
+    return take_shape(WT_MAPS_POLYGON, rings);
+  }
+
+  // parts: the rings of a polygon, or a point or line itself.
+  bool take_shape(int kind, const std::vector<OGRGeometryH>& parts) {
     std::vector<size_t> sizes;
     size_t points = 0;
-    for (int i = 0; i < OGR_G_GetGeometryCount(polygon); ++i) {
-      const int count = OGR_G_GetPointCount(OGR_G_GetGeometryRef(polygon, i));
+    for (const OGRGeometryH part : parts) {
+      const int count = OGR_G_GetPointCount(part);
       if (count <= 0) continue;
       sizes.push_back(static_cast<size_t>(count));
       points += sizes.back();
@@ -121,11 +132,10 @@ class LayerReader {
     }
     std::vector<double> x(points), y(points);
     size_t first = 0;
-    for (int i = 0; i < OGR_G_GetGeometryCount(polygon); ++i) {
-      const OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, i);
-      const int count = OGR_G_GetPointCount(ring);
+    for (const OGRGeometryH part : parts) {
+      const int count = OGR_G_GetPointCount(part);
       if (count <= 0) continue;
-      OGR_G_GetPoints(ring, &x[first], sizeof(double), &y[first], sizeof(double), nullptr, 0);
+      OGR_G_GetPoints(part, &x[first], sizeof(double), &y[first], sizeof(double), nullptr, 0);
       first += static_cast<size_t>(count);
     }
     if (transformation_) {
@@ -139,8 +149,8 @@ class LayerReader {
       xy.push_back(x[i]);
       xy.push_back(y[i]);
     }
-    const wt_maps_polygon out{name_.c_str(), feature_,  part_ - 1,     sizes.size(),
-                              sizes.data(),  xy.data(), values_.data()};
+    const wt_maps_shape out{kind,         name_.c_str(), feature_,  part_ - 1,
+                            sizes.size(), sizes.data(),  xy.data(), values_.data()};
     return visit_(user_, &out) == 0;
   }
 
@@ -187,9 +197,9 @@ void read_all(GDALDatasetH dataset, const wt_maps_query& query, Visit visit, voi
 }  // namespace
 }  // namespace wavetracer::maps
 
-WT_MAPS_PUBLIC int wt_maps_footprints(const char* file, const wt_maps_query* query,
-                                      int (*visit)(void*, const wt_maps_polygon*), void* user, wt_maps_layers* layers,
-                                      char error[WT_MAPS_ERROR_SIZE]) {
+WT_MAPS_PUBLIC int wt_maps_shapes(const char* file, const wt_maps_query* query,
+                                  int (*visit)(void*, const wt_maps_shape*), void* user, wt_maps_layers* layers,
+                                  char error[WT_MAPS_ERROR_SIZE]) {
   using namespace wavetracer::maps;
   *layers = {};
   return guarded(error, [&] {
