@@ -124,7 +124,7 @@ MovedVertices::EdgeRates MovedVertices::edge_rates(LengthForm form, double* erro
   for (size_t pivot = 0; pivot < edges_; ++pivot)
     for (size_t row = 0; row < edges_; ++row)
       if (row != pivot) eliminate(row, pivot);
-  EdgeRates rates;
+  EdgeRates rates{};
   *error_m = 0;
   for (size_t edge = 0; edge < edges_; ++edge) {
     for (size_t lane = 0; lane < 6; ++lane) rates[edge][lane] = -form.rows[edge][edges_ + lane] / form.rows[edge][edge];
@@ -180,7 +180,7 @@ double MovedVertices::place_between(const device::wt_field_world& world, const d
 
 void MovedVertices::set(const device::wt_field_world& world, const device::wt_path& path) {
   find_anchors(world, path);
-  EdgeRates rates;
+  EdgeRates rates{};
   double error_m = 0;
   if (edges_ > 0) rates = edge_rates(length_form(world, path), &error_m);
   vertices.resize(path.depth);
