@@ -46,7 +46,7 @@ std::pair<wt_matrix, wt_matrix> reflected(const wt_corner& corner, int face, dou
   const double cosine = std::cos(beta), sine = std::sin(beta);
   const wt_corner_wave wave = device::wt_wave_from(device::wt_cos_sin(azimuth), cosine, sine);
   const glm::dvec2 turn = device::wt_cos_sin(face == 0 ? azimuth : corner.exterior - azimuth);
-  return {device::wt_reflected_wave(corner.faces[face], face, turn, cosine, sine, 0.0, {0.0, 0.0}, wavelength_m),
+  return {device::wt_reflected_wave(corner.faces[face], face, turn, cosine, sine, 0.0, {0.0, 0.0}, 0.0, wavelength_m),
           device::wt_met(&corner, &wave, face, 1, 0)};
 }
 

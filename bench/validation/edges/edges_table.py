@@ -26,7 +26,7 @@ import tracer  # noqa: E402
 import truth  # noqa: E402
 
 STEEP_DEG = 10.0
-EXACT = ("metal_exact", "concrete_block", "corners")  # the sets of solids.py
+EXACT = ("metal_exact", "concrete_block", "corners", "corners_front")  # the sets of solids.py
 DEEP_DB = -60.0
 MISSING_DB = -400.0  # a level that says: no path
 

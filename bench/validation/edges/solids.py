@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Cases of solid bodies, by integral equations: writes metal_exact.csv, concrete_block.csv and corners.csv into a folder,
-in some minutes.
+"""Cases of solid bodies, by integral equations: writes metal_exact.csv, concrete_block.csv, corners.csv and
+corners_front.csv into a folder, in some minutes.
 
-Usage: solids.py FOLDER [metal_exact] [concrete_block] [corners]
+Usage: solids.py FOLDER [metal_exact] [concrete_block] [corners] [corners_front]
 
 Walls go down, and a corner's faces go away, for ever: nothing but the roof and its edges, or the one corner, is there. Lossy
 bodies are so lossy that what passes through them is 50 dB or more below the field in free space.
@@ -39,6 +39,8 @@ METAL_GAPS = ((5.0, 5.0), (5.0, 12.0))
 METAL_HEIGHTS = ((0, 0), (-0.05, -0.05), (-0.5, -0.5), (-2, -2), (0, -2), (0.05, 0.05), (0.3, 0.3), (0.3, -0.5), (0.6, -2))
 CORNERS = (("concrete", 1e9), ("wet_ground", 1e9))
 SOURCES = [(s, a) for s in (5.0, 8.06, 12.0) for a in (1.0, 3.0, 7.125, 15.0, 30.0, 45.0)] + [(8.0, 60.0), (8.0, 80.0)]
+FRONT_SOURCES = [(s, a) for s in (4.0, 9.0) for a in (95.0, 115.0, 140.0, 165.0)]
+FRONT_AZIMUTHS = (95.0, 110.0, 135.0, 160.0)  # degrees off the roof
 SHADOWS = (-20.0, 2.0, 8.0, 20.0, 38.0, 48.0, 55.0, 60.0)  # degrees beyond the boundary of the shadow
 
 
@@ -93,27 +95,39 @@ def blocks():
     return rows
 
 
-def corners():
-    """The body is x > 0, z < 0. Sources stand s m from the corner, a degrees off the wall, ends 9 m from it."""
-    pairs = []
-    for s, a in SOURCES:
-        source = (-s * np.sin(np.radians(a)), -s * np.cos(np.radians(a)))
-        for shadow in SHADOWS:
-            over_roof = 90 - a - shadow
-            if over_roof > 1:
-                pairs.append((source, (9 * np.cos(np.radians(over_roof)), 9 * np.sin(np.radians(over_roof)))))
+def off_wall(s, a):
+    """The body of a corner is x > 0, z < 0. The place s m from the corner, a degrees off the wall."""
+    return -s * np.sin(np.radians(a)), -s * np.cos(np.radians(a))
+
+
+def off_roof(a):
+    return 9 * np.cos(np.radians(a)), 9 * np.sin(np.radians(a))
+
+
+def corner_cases(name, pairs):
     rows = []
     for material, f_hz in CORNERS:
         boundary = Boundary([(18, 0), (0, 0), (0, -21)], spacing(material, f_hz) * (1 if material == "concrete" else 1.25), 6.0)
         for wave in "VH":
             got = fields(boundary, cases.wave_number(f_hz), epsilon(material, f_hz), wave, *zip(*pairs))
-            rows += [cases.case("corners", f_hz, wave, "corner", (0.0,), (0.0,), pair, field, material)
+            rows += [cases.case(name, f_hz, wave, "corner", (0.0,), (0.0,), pair, field, material)
                      for pair, field in zip(pairs, got)]
         print(f"corner of {material}: {len(boundary.weight)} points", flush=True)
     return rows
 
 
+def corners():
+    """Sources stand beside the wall, ends 9 m from the corner, most of them in the shadow."""
+    return corner_cases("corners", [(off_wall(s, a), off_roof(90 - a - shadow)) for s, a in SOURCES for shadow in SHADOWS
+                                    if 90 - a - shadow > 1])
+
+
+def corners_front():
+    """Both ends are in front of both faces: nothing is reflected, and the edge diffracts backwards."""
+    return corner_cases("corners_front", [(off_wall(s, a), off_roof(b)) for s, a in FRONT_SOURCES for b in FRONT_AZIMUTHS])
+
+
 if __name__ == "__main__":
-    for name, make in (("metal_exact", metal), ("concrete_block", blocks), ("corners", corners)):
+    for name, make in (("metal_exact", metal), ("concrete_block", blocks), ("corners", corners), ("corners_front", corners_front)):
         if name in sys.argv[2:] or len(sys.argv) == 2:
             truth.write(sys.argv[1], make())

@@ -132,13 +132,24 @@ inline wt_slab wt_face_slab_of(const wt_wedge_face* face, double lit, wt_double2
 
 // The reflection at a cosine of incidence, where the waves that count on one side of a boundary of reflection are not
 // those of the ray at the edge: on the mean, they meet the face at a cosine that is larger by `shift`, a complex
-// number. On the other side, where the face reflects a ray with the cosine `lit`, the shift is negative: what the edge
-// hides of that ray's surroundings counts, mirrored about the ray, since no cosine is negative. On the boundary both
-// sides leave just the ray.
+// number. On the other side, where the face reflects a ray with the cosine `lit`, what the edge hides of that ray's
+// surroundings counts, mirrored about the ray: as much as `mirrored` says, which is 1 on the boundary and 0 far from
+// it, or where the face reflects no ray. On the boundary both sides leave just the ray. No cosine is negative, since a
+// face would reflect more than it gets.
 inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, double lit, wt_double2 shift,
-                                   double wavelength_m) {
+                                   double mirrored, double wavelength_m) {
   if (shift.x == 0.0 && shift.y == 0.0) return wt_face_slab(face, cosine, wavelength_m);
-  return wt_face_slab_of(face, lit, wt_real(cosine) + shift, !(shift.x > 0.0), wavelength_m);
+  wt_double2 there = wt_real(cosine) + shift;
+  if (mirrored == 0.0) {
+    there.x = fmax(there.x, 0.0);
+    return wt_face_slab_of(face, lit, there, 0, wavelength_m);
+  }
+  there.x = fmin(there.x, 2.0 * lit);
+  const wt_slab hidden = wt_face_slab_of(face, lit, there, 1, wavelength_m);
+  wt_slab slab = wt_face_slab(face, cosine, wavelength_m);
+  slab.reflection_te = hidden.reflection_te * mirrored + slab.reflection_te * (1.0 - mirrored);
+  slab.reflection_tm = hidden.reflection_tm * mirrored + slab.reflection_tm * (1.0 - mirrored);
+  return slab;
 }
 
 // The matrix from (beta', phi') to (beta, phi) of a wave that a face reflects. te, tm: the coefficients of the face;
@@ -159,10 +170,11 @@ inline wt_matrix wt_reflection_between(int face, wt_double2 turn, double cosine,
 }
 
 // The wave reflected at one face. turn, cosine: see wt_reflection_between; sine: that of the angle between the wave and
-// the edge; lit, shift: see wt_face_slab_beside.
+// the edge; lit, shift, mirrored: see wt_face_slab_beside.
 WT_CALLED wt_matrix wt_reflected_wave(wt_wedge_face material, int face, wt_double2 turn, double cosine, double sine,
-                                      double lit, wt_double2 shift, double wavelength_m) {
-  const wt_slab slab = wt_face_slab_beside(&material, fmin(sine * fabs(turn.y), 1.0), lit, shift, wavelength_m);
+                                      double lit, wt_double2 shift, double mirrored, double wavelength_m) {
+  const wt_slab slab =
+      wt_face_slab_beside(&material, fmin(sine * fabs(turn.y), 1.0), lit, shift, mirrored, wavelength_m);
   return wt_reflection_between(face, turn, cosine, slab.reflection_te, slab.reflection_tm);
 }
 

@@ -45,8 +45,9 @@ inline double wt_bent(double exterior) { return exterior < 1.5 * WT_PI ? 1.0 - w
 // The reflection at face 0 or 1 of a convex wedge. The face reflects what comes from the end that is nearer to it by
 // azimuth: R. Luebbers' choice (IEEE Trans. AP 32(1), 1984) with face 0 on the source's side, which is the same the
 // other way. As the faces become one plane, both reflect like the mean of both ends', or it would diffract. spread: of
-// the waves that count on this side of the boundary, their mean distance from the edge, in metres.
-inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 spread) {
+// the waves that count on this side of the boundary, their mean distance from the edge, in metres; near: `mirrored` of
+// wt_face_slab_beside.
+inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 spread, double near) {
   const double in = bend->turn.in, away = bend->turn.away, nearer = 0.5 + 0.5 * bend->bent;
   const double share = (face == 0 ? in <= away : in >= away) ? nearer : 1.0 - nearer;
   const double first = bend->legs_m[0] < WT_INFINITY ? bend->legs_m[0] / (bend->legs_m[0] + bend->legs_m[1]) : 0.5;
@@ -61,9 +62,9 @@ inline wt_matrix wt_convex_reflection(const wt_bend* bend, int face, wt_double2 
     if (part == 0.0) continue;
     const wt_double2 shift =
         spread * ((is_source ? there.x : back.x) / (is_source ? bend->legs_m[0] : bend->legs_m[1]));
-    const wt_matrix wave =
-        wt_reflected_wave(wt_corner_face(&bend->corner, face), face, is_source ? there : back,
-                          is_source ? bend->cosine : -bend->cosine, bend->sine, lit, shift, bend->corner.wavelength_m);
+    const wt_matrix wave = wt_reflected_wave(wt_corner_face(&bend->corner, face), face, is_source ? there : back,
+                                             is_source ? bend->cosine : -bend->cosine, bend->sine, lit, shift, near,
+                                             bend->corner.wavelength_m);
     sum = wt_matrix_sum(sum, part, is_source ? wave : wt_other_way(wave));
   }
   return sum;
@@ -99,8 +100,8 @@ inline wt_bend wt_bend_at(const wt_wedge_frame* wedge, const wt_wedge_face* face
 // The wave that both faces of a convex wedge reflect, see wt_convex_jump.
 inline wt_matrix wt_reflected_behind(const wt_bend* bend) {
   const int forward = bend->turn.in <= bend->turn.away;
-  const wt_matrix first = wt_convex_reflection(bend, !forward, wt_real(0.0));
-  return wt_matrix_product(wt_convex_reflection(bend, forward, wt_real(0.0)), first);
+  const wt_matrix first = wt_convex_reflection(bend, !forward, wt_real(0.0), 0.0);
+  return wt_matrix_product(wt_convex_reflection(bend, forward, wt_real(0.0), 0.0), first);
 }
 
 // The mean distance from the edge, in metres, of the waves on the side of a boundary at which g has the argument s and
@@ -112,11 +113,12 @@ inline wt_double2 wt_spread_of(double s, wt_double2 g, double unit_m) {
 // Outside of a convex wedge nothing is reflected twice: the only reflection is at the face on this side. One of the two
 // terms of the incident wave has its boundary behind the other face; it belongs to the wave that both faces reflect (P.
 // Holm, IEEE Trans. AP 48(8), 2000), so that nothing is left where an end lies on a face that reflects -1. along: a
-// face is grazed, and its reflections are counted elsewhere.
-inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_double2 spread) {
+// face is grazed, and its reflections are counted elsewhere. near: see wt_convex_reflection.
+inline wt_matrix wt_convex_jump(const wt_bend* bend, wt_boundary boundary, int odd, int along, wt_double2 spread,
+                                double near) {
   const wt_corner* corner = &bend->corner;
   const int turn = boundary.turn, forward = bend->turn.in <= bend->turn.away;
-  if (odd) return wt_convex_reflection(bend, turn > 0, spread);
+  if (odd) return wt_convex_reflection(bend, turn > 0, spread, near);
   wt_matrix jump = wt_diagonal(wt_real(-1.0), wt_real(-1.0));
   if (bend->transmits) {
     const int count = corner->exterior > 2.0 * WT_PI - WT_GRAZING_RAD ? 1 : 2;
@@ -159,7 +161,8 @@ inline wt_matrix wt_jump(const wt_bend* bend, int term, double root_2kl, int alo
     return wt_corner_jump(bend, boundary, odd, 1.0 / (1.0 + away_from * away_from));
   }
 #endif
-  return wt_convex_jump(bend, boundary, odd, along, spread);
+  const double away = root_2kl * wt_cos_sin(0.5 * boundary.epsilon).y;
+  return wt_convex_jump(bend, boundary, odd, along, spread, spread.x < 0.0 ? 1.0 / (1.0 + away * away) : 0.0);
 }
 
 #ifndef __OPENCL_VERSION__
