@@ -105,10 +105,16 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
-// Says how many paths trace.scattering_floor_db has left out; empty if there are none.
+// Says which paths floors have left out; empty if there are none.
 std::string weak_line(const Run& run, const FrameCounts& n) {
-  if (n.weak == 0) return "";
-  return fmt::format("left out   {} paths that scatter and are reflected, each below trace.scattering_floor_db = {}\n",
+  std::string out;
+  const auto edges = run.summary.features.find("diffraction");
+  if (edges != run.summary.features.end() && edges->second.on && run.config.trace.diffraction_floor_db)
+    out = fmt::format("left out   paths over edges that are surely below trace.diffraction_floor_db = {}\n",
+                      *run.config.trace.diffraction_floor_db);
+  if (n.weak == 0) return out;
+  return out +
+         fmt::format("left out   {} paths that scatter and are reflected, each below trace.scattering_floor_db = {}\n",
                      grouped(n.weak), *run.config.trace.scattering_floor_db);
 }
 

@@ -100,6 +100,15 @@ Table trace_table() {
                   "the roofs or around corners, and those a little under it. They take little time, "
                   "and reach receivers far behind the houses. Such a path has no other interactions, and max_depth, "
                   "which must be at least 2, does not limit its edges."},
+          {.name = "diffraction_floor_db",
+           .slot = t(&TraceConfig::diffraction_floor_db),
+           .unit = "dB",
+           .range = {-400, 0},
+           .doc = "Only with diffraction: the path gain between isotropic antennas, without their own gains, below "
+                  "which a path over one edge or two may be left out. A bound decides, which takes every reflection "
+                  "for perfect and adds the waves of all boundaries of an edge; so no stronger path is lost, and "
+                  "weaker ones may be kept. Most paths over two edges are far too weak to matter, and a floor of -160 "
+                  "saves most of their time. Not given: none is left out."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, "

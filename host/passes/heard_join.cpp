@@ -36,7 +36,8 @@ uint32_t HeardJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .max_depth = max_depth_,
                                             .capacity = into.capacity(),
                                             .end_detour_m = end_detour_m_,
-                                            .pieces = pieces_};
+                                            .pieces = pieces_,
+                                            .floor = 0};
     kernel_(work_.range(size_t{heard.end - heard.first} * lanes), Stage::heard_join,
             calls::heard_join::heard_join{.table = heard.trie,
                                           .quarters = heard.quarters,

@@ -43,7 +43,8 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                                                         .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                                         .triangle_slots = scene.triangle_slots,
                                                         .blocker_mask = Blockers::mask,
-                                                        .wavelength_m = 0}};
+                                                        .wavelength_m = 0,
+                                                        .floors = {}}};
     if (remembers_) {
       call.leaves = scene.leg_leaves();
       call.blockers = blockers->places;

@@ -29,7 +29,8 @@ uint32_t WedgeJoin::operator()(const DeviceScene& scene, const WedgePrefixList& 
                                             .max_depth = max_depth_,
                                             .capacity = into.capacity(),
                                             .end_detour_m = end_detour_m_,
-                                            .pieces = 0};
+                                            .pieces = 0,
+                                            .floor = 0};
     kernel_({items, group_}, Stage::wedge_join,
             calls::wedge_join::wedge_join{.keys = prefixes.keys,
                                           .prefixes = prefixes.sorted,

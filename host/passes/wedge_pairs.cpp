@@ -20,7 +20,8 @@ uint32_t kept_wedges(const gpu::DeviceInfo& device, uint64_t wedges) {
 
 }  // namespace
 
-WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission)
+WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission,
+                       BendFloors floors)
     : sight(context, device_scene, scene, transmission),
       context_(context),
       kernel_(context, device_scene.definitions),
@@ -31,7 +32,8 @@ WedgePairs::WedgePairs(gpu::Context& context, const DeviceScene& device_scene, c
       lanes_(tuning_of(context.info()).pairs_lanes),
       group_(tuning_of(context.info()).pairs_group),
       kept_wedges_(kept_wedges(context.info(), scene.wedges.size())),
-      kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")) {
+      kept_(context.buffer<uint32_t>(std::max<size_t>(size_t{kept_wedges_} * kept_wedges_, 1), "pairs of wedges")),
+      floor_(static_cast<float>(floors.two)) {
   context.fill(kept_, 0, Stage::wedge_pairs);
 }
 
@@ -58,6 +60,7 @@ void WedgePairs::operator()(const DeviceScene& scene, const WedgePrefixList& pre
                             const gpu::Buffer<wt_wedge_candidate>& list, Counters& counters) {
   wt_wedge_join_arguments own = join;
   own.lanes = lanes_;
+  own.floor = floor_;
   kernel_({size_t{join.end - join.first} * lanes_, group_}, Stage::wedge_pairs,
           calls::wedge_pairs::wedge_pairs{.nodes = scene.leg_nodes(),
                                           .triangles = scene.leg_leaves(),

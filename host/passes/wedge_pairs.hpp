@@ -4,6 +4,7 @@
 #pragma once
 #include "gpu/gpu.hpp"
 #include "kernel_calls/wedge_pairs.hpp"
+#include "passes/bend_floors.hpp"
 #include "passes/compact.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
@@ -17,8 +18,10 @@ namespace wavetracer {
 
 class WedgePairs {
  public:
-  // scene: that of device_scene; transmission: do waves pass surfaces of it that are not opaque?
-  WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission);
+  // scene: that of device_scene; transmission: do waves pass surfaces of it that are not opaque? Pairs whose paths are
+  // surely below the floor are left out.
+  WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission,
+             BendFloors floors);
   // Finds the runs of prefixes that see one wedge. The prefixes must be sorted; call this before asking for their
   // pairs.
   void list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes);
@@ -41,6 +44,7 @@ class WedgePairs {
   gpu::Buffer<uint32_t> kept_;  // a word for each static wedge with each other one: the pieces that see each other
   gpu::Buffer<float> heads_;    // numbers in the bits, as Compact takes them
   gpu::Buffer<uint32_t> runs_, blocks_;
+  float floor_;
 };
 
 }  // namespace wavetracer

@@ -8,11 +8,12 @@
 
 namespace wavetracer {
 
-WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m)
+WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m, BendFloors floors)
     : context_(context),
       work_(tuning_of(context.info()).exact),
       kernel_(context),
-      wavelength_m_(static_cast<float>(wavelength_m)) {
+      wavelength_m_(static_cast<float>(wavelength_m)),
+      floors_(floors) {
   solved_.max_depth = max_depth;
   solved_.counter = counter_word(&wt_counters::wedge_solved);
   solved_.reserve(context, 1 << 12);
@@ -41,7 +42,8 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                            .capacity = static_cast<uint32_t>(solved_.headers.size()),
                                            .triangle_slots = 0,
                                            .blocker_mask = 0,
-                                           .wavelength_m = wavelength_m_}});
+                                           .wavelength_m = wavelength_m_,
+                                           .floors = {floors_.one, floors_.two}}});
   };
   solved_.count = fill_list(
       counters, &wt_counters::wedge_solved, Stage::wedge_solve, [&] { return solved_.headers.size(); }, run,

@@ -3,6 +3,7 @@
 // The list grows until it holds every solved candidate.
 #pragma once
 #include "kernel_calls/wedge_solve.hpp"
+#include "passes/bend_floors.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/radio_ends.hpp"
@@ -15,8 +16,8 @@ namespace wavetracer {
 class WedgeSolve {
  public:
   // wavelength_m: the longest; waves of corners that are too faint for it are left out (kernels/lib/wedge.clh), none if
-  // it is infinite.
-  WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m);
+  // it is infinite. Paths surely below the floors are left out.
+  WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m, BendFloors floors = {});
   SolvedList& operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                          const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
                          uint32_t candidate_count, Counters& counters);
@@ -27,6 +28,7 @@ class WedgeSolve {
   gpu::KernelOf<calls::wedge_solve::wedge_solve> kernel_;
   SolvedList solved_;
   float wavelength_m_;
+  BendFloors floors_;
 };
 
 }  // namespace wavetracer

@@ -42,13 +42,13 @@ struct DiffractedPaths {
   // wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth: interactions that a solved path has room
   // for, at least max_depth.
   DiffractedPaths(gpu::Context& context, Wedges world, uint32_t max_depth, uint32_t row_depth, double wavelength_m,
-                  std::optional<WedgePairs> two)
+                  BendFloors floors, std::optional<WedgePairs> two)
       : wedges(std::move(world)),
         prefixes(context),
         join(context, max_depth, wavelength_m),
         candidates(context, row_depth),
         pairs(std::move(two)),
-        solve(context, row_depth, wavelength_m),
+        solve(context, row_depth, wavelength_m, floors),
         waits_(context.info().cpu),
         sort_(context) {
     // With this, tests need no scene of millions of candidates.

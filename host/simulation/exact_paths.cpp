@@ -66,10 +66,11 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
   const TracingDepth depth = tracing_depth(trace);
   if (frames_follow && !trace.transmission) blockers.emplace(context);
   if (trace.diffraction) {
+    const BendFloors floors = bend_floors(trace.diffraction_floor_db, longest_wavelength_m, trace.transmission);
     std::optional<WedgePairs> two;
-    if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission);
+    if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission, floors);
     diffraction.emplace(context, Wedges(context, scene, world.fleet.models, world.fleet.instances, trace.free_edges),
-                        trace.max_depth, depth.row, longest_wavelength_m, std::move(two));
+                        trace.max_depth, depth.row, longest_wavelength_m, floors, std::move(two));
     if (trace.edge_rays > 0)
       diffraction->heard.emplace(HeardEdges{{context, device_scene, scene, false, most_pieces},
                                             {context, trace.max_depth, most_pieces, longest_wavelength_m}});

@@ -210,6 +210,7 @@ struct TraceConfig {
   std::optional<double> floor_db = {};  // with discovery = "beams": weaker paths need not be found; not given: all are
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
   uint32_t max_diffractions = 1, max_transmissions = 2;  // per path
+  std::optional<double> diffraction_floor_db = {};       // gain below which paths over edges are left out; else none is
   bool free_edges = true;                                // edges of one face diffract as half planes
   bool edge_ends = false;                                // a static edge's wave ends with the wave of its corner
   std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000

@@ -2,6 +2,7 @@
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
 // every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. Results
 // about two static wedges are kept as long as the scene is.
+#include "lib/bend_bound.clh"
 #include "lib/crossing.clh"
 #include "lib/join.clh"
 #include "lib/memory_order.clh"
@@ -56,6 +57,7 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
 typedef struct {
   uint count, most;                          // most: reflections that the other side may have
   uint numbers[TOGETHER], pieces[TOGETHER];  // pieces: those that remain for the other wedge
+  float powers[TOGETHER];                    // wt_prefix_power, with a floor
 } prefix_group;
 
 // Is this prefix the first of a group, among those of its wedge in the block? If so, its group goes to *group.
@@ -85,6 +87,35 @@ inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt
     any |= group->pieces[k];
   }
   return any;
+}
+
+// What a floor needs to know of two wedges, once it is asked: the azimuths at which each sees the other, the least
+// power of paths whose legs are 1 m long, and which prefixes of the group have their powers.
+typedef struct {
+  int known;
+  uint weighed;
+  float least, apart_m;
+  float2 ahead, back;
+} pair_floor;
+
+// Is every path from prefix k of the group to b weaker than the floor? power_b: wt_prefix_power of b, NAN until it is
+// needed.
+inline int is_weak(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
+                   const global wt_wedge_prefix* b, uint k, float floor, const wt_edge_view* back, pair_floor* pair,
+                   prefix_group* group, float* power_b) {
+  const global wt_wedge_prefix* a = prefixes + group->numbers[k];
+  if (!pair->known) {
+    const float most = WT_PAIR_BOUND * (wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0)) ? WT_PLANE_BOUND : 1.0);
+    pair->known = 1;
+    pair->least = floor / (most * most);
+    pair->apart_m = 0.9999f * (float)back->nearest;
+    pair->ahead = wt_azimuths_of_edge(v, w);
+    pair->back = wt_azimuths_of_edge(w, v);
+  }
+  if (isnan(*power_b)) *power_b = wt_prefix_power(w, b, pair->back);
+  if (!(pair->weighed >> k & 1u)) group->powers[k] = wt_prefix_power(v, a, pair->ahead);
+  pair->weighed |= 1u << k;
+  return group->powers[k] * *power_b < pair->least * pair->apart_m * (pair->apart_m + a->away + b->away);
 }
 
 // One sorted key per work-item. A run is the prefixes that see one wedge: heads[i] becomes i where one begins, else
@@ -136,16 +167,20 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     uint known = was_known || in_sight(low, high) ? was_known : ALL_PAIRS;
     const uint end = known == ALL_PAIRS ? 0 : args.count;
     const wt_edge_view back = wt_edge_seen_from(w, v);
+    pair_floor pair = {0, 0, 0.0f, 0.0f, (float2)(0.0f), (float2)(0.0f)};
     for (uint j = runs[r]; j < end && keys[j] <= last; ++j) {
       const global wt_wedge_prefix* b = prefixes + j;
       const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, &back);
+      float power_b = NAN;
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];
         const uint pieces_a = group.pieces[k];
         const uint receiver = wt_wanted_receiver(a, b, 2, args.max_depth, receiver_of_end, links, args.groups);
         if (!pieces_a || receiver == WT_NONE) continue;
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
-        if (!(wanted & (known >> 16 | ~known)) || !wt_may_bend(v, w, a, b)) continue;
+        if (!(wanted & (known >> 16 | ~known))) continue;
+        if (args.floor > 0.0f && is_weak(prefixes, v, w, b, k, args.floor, &back, &pair, &group, &power_b)) continue;
+        if (!wt_may_bend(v, w, a, b)) continue;
         known = look(&sight, low, high, wanted, known, &hiders);
         if (known >> 16 & wanted)
           wt_emit_candidate(a->node, b->node, wedge_a, wedge_b, receiver, a->quarters & b->quarters, &batch, out,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // wedge_sight: finds the pieces of its edge that a prefix may see. Rays only say that a prefix sees a face. This pass
 // decides, without losing any path, whether the edge can be seen in the mirrors and past other surfaces.
+#include "lib/bend_bound.clh"
 #include "lib/join.clh"
 #include "lib/shown_part.clh"
 #include "wavetracer/device/arguments.h"
@@ -77,6 +78,7 @@ kernel void wedge_sight(const global WT_NODE* nodes, const global WT_LEAF* trian
   const double margin = 1e-3 + 1e-6 * w->length;
   prefixes[i].first = (float)(w->length * fmax(part.first, (double)lowest / args.pieces) - margin);
   prefixes[i].final = (float)(w->length * fmin(part.last, (double)highest / args.pieces) + margin);
+  wt_weigh_prefix(w, prefixes + i);
 }
 
 // One sorted key per work-item: *seen becomes the number of prefixes that see something, whose keys come first.

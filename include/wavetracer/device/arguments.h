@@ -91,6 +91,7 @@ typedef struct {
   wt_uint triangle_slots;
   wt_uint blocker_mask;
   float wavelength_m;  // the longest wavelength; infinite: no wave is too faint (lib/wedge.clh)
+  double floors[2];    // wedge_solve: the bounds of paths over one edge and two below which they are left out
 } wt_solve_arguments;
 
 typedef struct {
@@ -180,6 +181,7 @@ typedef struct {
   wt_uint capacity;
   float end_detour_m;  // the detour over a free end of an edge up to which there are paths
   wt_uint pieces;      // heard_join: pieces of an edge in the masks of prefixes
+  float floor;         // wedge_pairs: the bound below which paths are left out
 } wt_wedge_join_arguments;
 
 // Things that may block a leg, for wedge_sight and wedge_pairs (lib/sight.clh).
