@@ -56,7 +56,7 @@ def vehicle_curves(groups):
 
 
 PLOTS = [
-    ("recall", "Reflected paths in streets, a roof and a canyon: what rays miss", "rays per transmitter", "share of paths lost (on the axis: 0)",
+    ("recall", "Reflected paths in streets, a roof and a canyon: what rays miss", "rays per transmitter", "share of paths lost",
      recall_curves),
     ("receivers", "One frame in Munich, 10^6 rays per transmitter, five reflections", "links", "seconds per frame", receiver_curves),
     ("vehicles", "A drive in Munich: all links among the vehicles, three reflections", "vehicles", "frames per second",
@@ -64,15 +64,21 @@ PLOTS = [
 ]
 
 
+NOTHING = 1e-4  # a share of 0 stands at the foot of the plot, where this is
+
+
 def draw(title, x, y, curves):
-    """The SVG of a plot with logarithmic axes, by gnuplot. A share of 0 stands at the foot of the plot, where 1e-4 is."""
-    lines = [f"set title '{title}'", f"set xlabel '{x}'", f"set ylabel '{y}'", "set logscale xy", "set key below",
-             "set format x '10^{%T}'" if x.startswith("rays") else "set format x '%g'"]
-    drawn = {name: points for name, points in curves.items() if points}
-    for i, points in enumerate(drawn.values()):
-        lines += [f"$c{i} << END"] + [f"{px:g} {max(py, 1e-4):.6g}" for px, py in points] + ["END"]
+    """The SVG of a plot with logarithmic axes, by gnuplot."""
+    drawn = {name: [(px, max(py, NOTHING)) for px, py in points] for name, points in curves.items() if points}
+    points = [point for curve in drawn.values() for point in curve]
+    lines = [f"set title '{title}'", f"set xlabel '{x}'", f"set ylabel '{y}'", "set key outside right top Left reverse"]
+    lines += gnuplot_svg.log_axis("x", [px for px, _ in points]) + gnuplot_svg.log_axis("y", [py for _, py in points])
+    if y.startswith("share"):
+        lines.append(f"set ytics add ('0' {NOTHING:g})")
+    for i, curve in enumerate(drawn.values()):
+        lines += [f"$c{i} << END"] + [f"{px:g} {py:.6g}" for px, py in curve] + ["END"]
     lines.append("plot " + ", ".join(f"$c{i} with linespoints lw 2 pt {i + 4} title '{name}'" for i, name in enumerate(drawn)))
-    return gnuplot_svg.svg(lines, "760,520")
+    return gnuplot_svg.svg(lines, "860,440")
 
 
 def drawn(groups):

@@ -22,7 +22,7 @@ def draw_edges(result, folder):
     """Over one edge our losses and the exact ones; over two, how far ours are off."""
     near = [row for row in result["single"] if row["frequency_hz"] == 5.9e9 and row["d1_m"] == 100]
     pairs = [row for row in result["double"] if row["frequency_hz"] == 5.9e9 and row["nu_1"] == row["nu_2"]]
-    lines = ["set multiplot layout 1,2", "set key below", "set xlabel 'nu'", "set title 'one edge, 100 m and 100 m, 5.9 GHz'",
+    lines = ["set multiplot layout 1,2", "set key top left Left reverse font ',11'", "set xlabel 'nu'", "set title 'one edge, 100 m and 100 m, 5.9 GHz'",
              "set ylabel 'loss, dB'", "$one << END"]
     lines += [f"{row['nu']} {row['exact_db']} {row['v_db']} {row['h_db']}" for row in near] + ["END"]
     lines += ["plot $one using 1:2 with lines lw 2 title 'Fresnel integral', $one using 1:3 with points pt 7 title 'wavetracer, V', "
