@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include "accuracy/input_variation.hpp"
@@ -65,11 +66,14 @@ class ChanceMeasurement {
         config_(chance_config(request)),
         thresholds_(coverage::read_thresholds(request.thresholds, "--threshold")),
         grid_(checked_grid()),
+        starting_(host.guard()),
         setup_(make_setup(config_, request.inputs.device)),
         tx_(find_end(setup_.plan->asked.transmitters, request.tx, "--tx")),
         frames_(setup_),
         variation_(*setup_.plan, request.inputs.errors, request.inputs.samples, request.inputs.seed,
                    cells_of_grids(setup_.plan->asked)) {
+    starting_.reset();
+    setup_.frame_watch->set(host.watch);
     frames_.sum_links(true);
   }
 
@@ -114,6 +118,15 @@ class ChanceMeasurement {
 
   // Returns nothing if it was interrupted.
   std::optional<coverage::Map> measure_frame(uint32_t frame) {
+    try {
+      return measure_samples(frame);
+    } catch (const FrameStopped&) {
+      return std::nullopt;
+    }
+  }
+
+  // Returns nothing if it was interrupted between two samples.
+  std::optional<coverage::Map> measure_samples(uint32_t frame) {
     coverage::ChanceMap map = empty_map(frame);
     const FrameResult nominal = run(frame, std::nullopt);
     map.set_nominal(nominal.summed->links);
@@ -152,6 +165,7 @@ class ChanceMeasurement {
   const Config config_;
   const std::vector<coverage::Threshold> thresholds_;
   const ReceiverGridConfig& grid_;
+  std::shared_ptr<void> starting_;  // while the constructor compiles kernels
   Setup setup_;
   const std::optional<uint32_t> tx_;
   BatchedFrames frames_;

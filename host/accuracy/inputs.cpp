@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include "accuracy/input_variation.hpp"
 #include "accuracy/measure.hpp"
 #include "radio/links.hpp"
@@ -78,10 +79,14 @@ class InputMeasurement {
       : request_(request),
         host_(host),
         config_(study_config(request)),
+        starting_(host.guard()),
         setup_(make_setup(config_, request.device, true)),
         frames_(setup_),
         variation_(*setup_.plan, request.errors, request.samples, request.seed,
-                   std::vector<bool>(setup_.plan->world.receivers.ends.size(), false)) {}
+                   std::vector<bool>(setup_.plan->world.receivers.ends.size(), false)) {
+    starting_.reset();
+    setup_.frame_watch->set(host.watch);
+  }
 
   InputStudy operator()() {
     out_.samples = request_.samples;
@@ -105,15 +110,27 @@ class InputMeasurement {
   }
 
  private:
+  // Returns false if it was interrupted.
+  bool measure_frame(uint32_t frame) {
+    try {
+      return measure_samples(frame);
+    } catch (const FrameStopped&) {
+      return false;
+    }
+  }
+
   // Runs the nominal frame, then samples of all inputs together, then of each input alone. Returns false if it was
   // interrupted.
-  bool measure_frame(uint32_t frame) {
+  bool measure_samples(uint32_t frame) {
     observed_.assign(nominal_.links.size(), {});
     frames_.forget();
+    const auto varied = static_cast<uint64_t>(std::ranges::count(out_.varied, true));
+    const uint64_t all = request_.samples * (1 + varied);
+    uint64_t done = 0;
     run(frame, std::nullopt, {}, [](Observed& of, double value) { of.nominal = value; });
     for (size_t sample = 0; sample < request_.samples; ++sample) {
       if (host_.interrupted()) return false;
-      host_.tell("samples", sample, request_.samples, "samples");
+      host_.tell("samples", done++, all, "samples");
       run(frame, sample, out_.varied, [](Observed& of, double value) { of.together.push_back(value); });
     }
     for (size_t input = 0; input < input_count; ++input) {
@@ -122,6 +139,7 @@ class InputMeasurement {
       alone[input] = true;
       for (size_t sample = 0; sample < request_.samples; ++sample) {
         if (host_.interrupted()) return false;
+        host_.tell("samples", done++, all, "samples");
         run(frame, sample, alone, [&](Observed& of, double value) { of.alone[input].push_back(value); });
       }
     }
@@ -175,6 +193,7 @@ class InputMeasurement {
   const InputRequest& request_;
   const study::Host& host_;
   const Config config_;
+  std::shared_ptr<void> starting_;  // while the constructor compiles kernels
   Setup setup_;
   FrameLoop frames_;
   const InputVariation variation_;

@@ -4,6 +4,7 @@
 // (trace.refresh_rays by default).
 #include "accuracy/measure.hpp"
 #include <algorithm>
+#include <memory>
 #include "output/median.hpp"
 #include "output/totals.hpp"
 
@@ -38,7 +39,7 @@ bool measure_cold(Simulation& simulation, Meter& meter, const std::vector<uint32
   for (const uint32_t frame : frames) {
     FrameResult result;
     for (uint32_t timed = 0; timed < how.repeats;) {
-      if (how.interrupted()) return false;
+      if (how.host.interrupted()) return false;
       simulation.forget();
       simulation.give_back(result);
       result = simulation.run_frame(frame);
@@ -61,7 +62,7 @@ bool measure_reuse(Simulation& simulation, Meter& meter, const std::vector<uint3
     const bool goes_on = last && *last + 1 >= lead;
     if (!goes_on) simulation.forget();
     for (uint32_t next = goes_on ? *last + 1 : lead; next <= frame; ++next) {
-      if (how.interrupted()) return false;
+      if (how.host.interrupted()) return false;
       FrameResult result = simulation.run_frame(next);
       if (goes_on || next > lead || next == frame) meter.time(result);
       if (next == frame)
@@ -85,7 +86,11 @@ std::vector<uint32_t> spread_frames(uint64_t of, uint32_t count) {
 }
 
 std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how) {
-  Simulation simulation(config, how.device);
+  Simulation simulation = [&] {
+    const std::shared_ptr<void> guard = how.host.guard(how.keep);
+    return Simulation(config, how.device);
+  }();
+  simulation.observe(how.host.watch);
   Measured out;
   out.device = simulation.device();
   out.world_frames = simulation.frame_count();
@@ -96,9 +101,13 @@ std::optional<Measured> measure(const Config& config, const Setting& setting, co
   }
   Meter meter(out);
   const std::vector<uint32_t> frames = spread_frames(simulation.frame_count(), how.frames);
-  const bool whole =
-      setting.leads ? measure_reuse(simulation, meter, frames, how) : measure_cold(simulation, meter, frames, how);
-  if (!whole) return std::nullopt;
+  try {
+    const bool whole =
+        setting.leads ? measure_reuse(simulation, meter, frames, how) : measure_cold(simulation, meter, frames, how);
+    if (!whole) return std::nullopt;
+  } catch (const FrameStopped&) {
+    return std::nullopt;
+  }
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 #include "accuracy/axes.hpp"
+#include "study/run.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::accuracy {
@@ -29,7 +30,9 @@ std::vector<uint32_t> spread_frames(uint64_t of, uint32_t count);
 struct How {
   std::string device;  // in the form of Simulation's argument
   uint32_t frames = 5, repeats = 3;
-  std::function<bool()> interrupted;
+  const study::Host& host;
+  // Called on another thread before the program ends, if the user wants to stop while kernels are compiled.
+  std::function<void()> keep = {};
 };
 
 // Returns nothing if it was interrupted. A frame of more than two seconds is solved once.

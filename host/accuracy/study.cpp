@@ -27,8 +27,8 @@ study::PathError mean_error(const Measured& reference, const Measured& measured)
 
 class Measurement {
  public:
-  Measurement(const Request& request, const study::Host& host)
-      : request_(request), host_(host), own_(load_config(request.file, request.sets)) {
+  Measurement(const Request& request, const study::Host& host, const std::function<void(const Study&)>& keep)
+      : request_(request), host_(host), keep_(keep), own_(load_config(request.file, request.sets)) {
     if (!own_.live_vehicles.empty())
       throw ConfigError(request.file +
                         ": its [[live_vehicle]] tables need a client that sends poses, so no frame can be measured; "
@@ -59,10 +59,16 @@ class Measurement {
     return load_config(request_.file, sets);
   }
 
+  How how() const {
+    How out{request_.device, request_.frames, request_.repeats, host_};
+    if (keep_ && !out_.rows.empty()) out.keep = [this] { keep_(out_); };
+    return out;
+  }
+
   bool measure_own() {
     host_.say("measuring your own settings first");
-    std::optional<Measured> measured =
-        measure(own_, {}, {request_.device, request_.frames, request_.repeats, host_.interrupted});
+    host_.tell("your own settings", 0, 1, "settings");
+    std::optional<Measured> measured = measure(own_, {}, how());
     if (!measured) return false;
     measured_own_ = std::move(*measured);
     out_.device = measured_own_.device;
@@ -88,7 +94,7 @@ class Measurement {
       const Config config = config_of(setting);
       own = is_own(config, setting);
       if (own) return measured_own_;
-      return measure(config, setting, {request_.device, request_.frames, request_.repeats, host_.interrupted});
+      return measure(config, setting, how());
     } catch (const Error& e) {
       refused.refusal = one_line(e.what());
     } catch (const std::bad_alloc&) {
@@ -151,6 +157,7 @@ class Measurement {
 
   const Request& request_;
   const study::Host& host_;
+  const std::function<void(const Study&)>& keep_;
   const Config own_;
   Measured measured_own_;
   Study out_;
@@ -158,6 +165,8 @@ class Measurement {
 
 }  // namespace
 
-Study study(const Request& request, const study::Host& host) { return Measurement(request, host)(); }
+Study study(const Request& request, const study::Host& host, const std::function<void(const Study&)>& keep) {
+  return Measurement(request, host, keep)();
+}
 
 }  // namespace wavetracer::accuracy

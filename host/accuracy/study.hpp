@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the user's own scene at many settings: the time of a frame, and its error against the reference.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,8 +44,9 @@ struct Study {
   bool drive = false;  // frames are a part of a drive
 };
 
-// Returns complete rows, even if it was interrupted. Throws ConfigError if there is no link, or no path at any
-// reference, and the errors of Simulation for the user's own settings.
-Study study(const Request& request, const study::Host& host);
+// Returns complete rows, even if it was interrupted. keep: called on another thread with the rows so far, if the user
+// wants to stop while kernels are compiled, which ends the program. Throws ConfigError if there is no link, or no path
+// at any reference, and the errors of Simulation for the user's own settings.
+Study study(const Request& request, const study::Host& host, const std::function<void(const Study&)>& keep = {});
 
 }  // namespace wavetracer::accuracy

@@ -145,6 +145,22 @@ void add_input_options(CLI::App& command, AccuracyOptions& options) {
   add_chance_options(command, options, varies, discover_every);
 }
 
+// Writes the settings that were measured. stopped: these are not all, because the user wanted to stop.
+void write_study(const accuracy::Study& study, bool stopped, const std::string& command_line, const fs::path& folder,
+                 Progress& progress) {
+  if (stopped)
+    progress.line(study.rows.empty()
+                      ? "interrupted before the first setting; nothing was written"
+                      : fmt::format("interrupted after {} of {} settings; the written files are complete up to there",
+                                    study.rows.size(), study.planned));
+  if (study.rows.empty()) return;
+  const accuracy::Written written = accuracy::write_files(study, command_line, folder);
+  if (!written.problem.empty()) progress.line(written.problem);
+  std::cout << accuracy::encode_text(study.rows) << "\n";
+  for (const std::string& item : accuracy::recommendations(study)) std::cout << "- " << item << ".\n";
+  std::cout << "\n" << written_line(written.files) << std::flush;
+}
+
 void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   if (!options.chances.thresholds.empty()) return run_chances(options, invocation);
   if (options.varies) return run_inputs(options, invocation);
@@ -155,20 +171,11 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   const fs::path folder = begin_study(options.directory);
   Progress progress;
   const study::Host host = study_host(progress);
-  const accuracy::Study study = accuracy::study(request, host);
-  if (interrupted()) {
-    invocation.code = ExitCode::interrupted;
-    progress.line(study.rows.empty()
-                      ? "interrupted before the first setting; nothing was written"
-                      : fmt::format("interrupted after {} of {} settings; the written files are complete up to there",
-                                    study.rows.size(), study.planned));
-  }
-  if (study.rows.empty()) return;
-  const accuracy::Written written = accuracy::write_files(study, request.command_line, folder);
-  if (!written.problem.empty()) progress.line(written.problem);
-  std::cout << accuracy::encode_text(study.rows) << "\n";
-  for (const std::string& item : accuracy::recommendations(study)) std::cout << "- " << item << ".\n";
-  std::cout << "\n" << written_line(written.files) << std::flush;
+  const accuracy::Study study = accuracy::study(request, host, [&](const accuracy::Study& so_far) {
+    write_study(so_far, true, request.command_line, folder, progress);
+  });
+  if (interrupted()) invocation.code = ExitCode::interrupted;
+  write_study(study, interrupted(), request.command_line, folder, progress);
 }
 
 }  // namespace

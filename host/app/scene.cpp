@@ -108,6 +108,12 @@ void write_drive(const CityOptions& city, const TrafficOptions& options, const s
             << fmt::format("{}/drive.toml: written, a configuration to trace it\n", folder.string());
 }
 
+// Options of a city are separated by blanks. Returns a message for a value that is not one word.
+std::string one_word(const std::string& value) {
+  if (value.empty()) return "needs a value";
+  return value.find_first_of(" \t\r\n") == std::string::npos ? "" : fmt::format("'{}' must have no blanks", value);
+}
+
 void add_city(CLI::App& scene) {
   struct Option {
     const char *key, *doc;
@@ -132,7 +138,7 @@ void add_city(CLI::App& scene) {
       "city", "Generate a city and write it as Mitsuba XML with PLY meshes, with traffic if asked for");
   const auto options = std::make_shared<Options>();
   command->add_option("-o,--output", options->directory, "Folder to write to")->capture_default_str();
-  for (Option& option : options->given) command->add_option(option.key, option.value, option.doc);
+  for (Option& option : options->given) command->add_option(option.key, option.value, option.doc)->check(one_word);
   command->callback([options] {
     std::string text;
     bool drive = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include "base/stopwatch.hpp"
 #include "calibration/agreements_of.hpp"
@@ -53,7 +54,7 @@ class Calibrating {
     host_.tell("finding paths", 0, 1, "frames");
     Stopwatch watch;
     const Config config = config_of_places(request_.config, request_.sets);
-    world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns));
+    if (!find_paths(config)) return std::move(out_);
     out_.solve_s = watch.lap();
     out_.profile_bin_ns = request_.profile_bin_ns;
     world_->want_profiles(1e-9 * request_.profile_bin_ns, most_bins(out_.files, request_.profile_bin_ns));
@@ -70,8 +71,10 @@ class Calibrating {
       fit_all();
     } catch (const Interrupted&) {
       out_.stopped = true;
-      return std::move(out_);
+    } catch (const FrameStopped&) {
+      out_.stopped = true;
     }
+    if (out_.stopped) return std::move(out_);
     out_.fit_s = watch.lap();
     out_.agreements = agreements_of(out_, folds_ > 0);
     if (const std::string why = held_out_warning(out_.agreements.front()); folds_ > 0 && !why.empty())
@@ -83,6 +86,17 @@ class Calibrating {
   }
 
  private:
+  // Returns false if it was interrupted.
+  bool find_paths(const Config& config) {
+    try {
+      const std::shared_ptr<void> guard = host_.guard();
+      world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns), host_.watch);
+    } catch (const FrameStopped&) {
+      out_.stopped = true;
+    }
+    return !out_.stopped;
+  }
+
   void read_files() {
     for (const std::string& file : request_.measured) {
       out_.files.push_back(read_measured(file, {.level = request_.level, .crs = request_.crs}));

@@ -80,12 +80,12 @@ Config lasting(Config config, bool moves) {
 }  // namespace
 
 MeasuredWorld::MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
-                             bool moves)
+                             bool moves, FrameObserver watch)
     : places_(measured_places(config, files)),
       setup_(make_setup(lasting(places_.config, moves), device, moves)),
       frames_(setup_),
       ends_(end_places(setup_.plan->world.transmitters.ends)),
-      frame_(frame_at(ends_)),
+      frame_((setup_.frame_watch->set(std::move(watch)), frame_at(ends_))),
       materials_(named_records(*setup_.plan)),
       of_frame_{materials_.records, ends_} {
   for (const Link& link : places_.links)

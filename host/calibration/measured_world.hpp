@@ -26,9 +26,10 @@ struct Inputs {
 class MeasuredWorld {
  public:
   // Finds the paths from the transmitters of a configuration to measured places (measured_places()). Throws ConfigError
-  // or InputError for a world that does not fit the files. moves: inputs with ends in other places will come.
+  // or InputError for a world that does not fit the files. moves: inputs with ends in other places will come. watch:
+  // watches all frames, which throw FrameStopped if it cancels them.
   MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
-                bool moves = false);
+                bool moves = false, FrameObserver watch = {});
 
   // From now on, values have the profiles of delays in so many bins; 0: none.
   void want_profiles(double bin_s, size_t bins) {

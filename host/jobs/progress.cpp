@@ -62,6 +62,14 @@ void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const
   draw(what);
 }
 
+void Progress::step(const std::string& what) {
+  what_ = what;
+  unit_.clear();
+  total_ = 1;
+  begun_ = last_done_ = 0;
+  start_ = said_ = Clock::now();
+}
+
 void Progress::within(const std::string& words) {
   if (total_ > 0) draw(what_ + ", " + words);
 }
@@ -72,14 +80,16 @@ void Progress::draw(const std::string& what) {
   if (since(said_) < (terminal_ ? bar_interval_s : line_interval_s)) return;
   said_ = now;
   const std::string words = progress_words(since(start_), begun_, last_done_, total_, unit_);
+  if (unit_.empty() && !terminal_) return line(what + ", " + words);
   if (!terminal_)
     return line(fmt::format("{}: {} of {} {}, {}", what, grouped(last_done_), grouped(total_), unit_, words));
   end();
   constexpr double width = 30;
   const auto filled = static_cast<size_t>(width * static_cast<double>(last_done_) / static_cast<double>(total_));
   const std::string text =
-      fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'), std::string(size_t{30} - filled, '.'),
-                  grouped(last_done_), grouped(total_), words);
+      unit_.empty() ? what + ", " + words
+                    : fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'),
+                                  std::string(size_t{30} - filled, '.'), grouped(last_done_), grouped(total_), words);
   std::cerr << text << std::flush;
   bar_width_ = text.size();
 }

@@ -23,6 +23,8 @@ class Progress {
   // what: the current step ("frame 12", "rays"); unit: of the count. The clock starts again with another unit or total.
   // A terminal gets a bar at most ten times a second; other outputs get a line every ten seconds.
   void bar(const std::string& what, uint64_t done, uint64_t total, const std::string& unit);
+  // Begins a step without parts, which has no bar: only within() tells of it.
+  void step(const std::string& what);
   // Adds details of the current step, if it takes long: "frame 12, half of its rays".
   void within(const std::string& words);
   // Removes the bar, before something else is printed.

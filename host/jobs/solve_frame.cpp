@@ -10,6 +10,11 @@
 
 namespace wavetracer {
 
+std::string words_of(const FrameProgress& at) {
+  if (at.stage != "rays") return "solving its paths";
+  return fmt::format("{}% of its rays", 100 * at.done / std::max<uint64_t>(at.total, 1));
+}
+
 std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, bool alone, Progress& progress,
                                        std::optional<TransmitterRange> block) {
   simulation.observe([alone, &progress](const FrameProgress& at) {
@@ -20,8 +25,7 @@ std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, b
     } else if (alone)
       progress.bar(rays ? "tracing" : "solving paths", at.done, at.total, rays ? "rays" : "steps");
     else
-      progress.within(rays ? fmt::format("{}% of its rays", 100 * at.done / std::max<uint64_t>(at.total, 1))
-                           : "solving its paths");
+      progress.within(words_of(at));
     return !interrupted();
   });
   std::optional<FrameResult> out;

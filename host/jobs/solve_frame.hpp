@@ -13,6 +13,9 @@
 
 namespace wavetracer {
 
+// Says in a few words what a frame does: "40% of its rays".
+std::string words_of(const FrameProgress& at);
+
 // Solves one frame once; returns nothing if it was interrupted. block: only the links of these transmitters. alone: the
 // run has this one frame and no repeats, so progress is shown within the frame.
 std::optional<FrameResult> solve_frame(Simulation& simulation, uint32_t frame, bool alone, Progress& progress,

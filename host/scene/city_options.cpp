@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
 
 #include "scene/city.hpp"
 #include "scene/city_traffic.hpp"
@@ -25,13 +26,18 @@ struct Options {
 [[noreturn]] void fail(const std::string& what) { throw ConfigError(fmt::format("city: {}; {}", what, usage)); }
 
 template <class T>
-T whole(std::string_view key, std::string_view text, T least, T most) {
+std::optional<T> number(std::string_view text, T least, T most) {
   T value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
-    fail(fmt::format("{} '{}' must be an integer from {} to {}", key, text, least, most));
-  }
+  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) return std::nullopt;
   return value;
+}
+
+template <class T>
+T whole(std::string_view key, std::string_view text, T least, T most) {
+  const std::optional<T> value = number(text, least, most);
+  if (!value) fail(fmt::format("{} '{}' must be an integer from {} to {}", key, text, least, most));
+  return *value;
 }
 
 double seconds(std::string_view key, std::string_view text, double most) {
@@ -44,10 +50,16 @@ double seconds(std::string_view key, std::string_view text, double most) {
 }
 
 // Parses "6x4" or "3:9"; where that makes sense, a single number stands for both.
-std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, char separator, uint32_t most) {
+std::pair<uint32_t, uint32_t> two(std::string_view key, std::string_view text, char separator) {
+  constexpr uint32_t most = 100;
   const size_t at = text.find(separator);
-  const std::string_view second = at == std::string_view::npos ? text : text.substr(at + 1);
-  return {whole<uint32_t>(key, text.substr(0, at), 1, most), whole<uint32_t>(key, second, 1, most)};
+  const std::optional<uint32_t> first = number<uint32_t>(text.substr(0, at), 1, most),
+                                second = at == std::string_view::npos ? first
+                                                                      : number<uint32_t>(text.substr(at + 1), 1, most);
+  if (!first || !second)
+    fail(
+        fmt::format("{} '{}' must be one or two integers from 1 to {}, such as 3 or 3{}9", key, text, most, separator));
+  return {*first, *second};
 }
 
 void set(Options& all, std::string_view key, std::string_view value) {
@@ -55,13 +67,13 @@ void set(Options& all, std::string_view key, std::string_view value) {
   if (key == "--seed") {
     options.seed = whole<uint64_t>(key, value, 0, std::numeric_limits<uint64_t>::max());
   } else if (key == "--blocks") {
-    std::tie(options.blocks_x, options.blocks_y) = two(key, value, 'x', 100);
+    std::tie(options.blocks_x, options.blocks_y) = two(key, value, 'x');
   } else if (key == "--block-m") {
     options.block_m = whole<uint32_t>(key, value, 60, 200);  // below 60 m the lots would have no room
   } else if (key == "--street-m") {
     options.street_m = whole<uint32_t>(key, value, 4, 100);
   } else if (key == "--floors") {
-    std::tie(options.min_floors, options.max_floors) = two(key, value, ':', 100);
+    std::tie(options.min_floors, options.max_floors) = two(key, value, ':');
     if (options.min_floors > options.max_floors)
       fail(fmt::format("--floors '{}': the minimum is above the maximum", value));
   } else if (key == "--ground") {

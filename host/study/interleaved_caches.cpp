@@ -43,8 +43,8 @@ struct Round {
   bool cold, warm;
 };
 
-// Each round starts with another subject. Returns false if it was stopped.
-bool run_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWatch& watch) {
+// Each round starts with another subject. Returns false if it was stopped between two frames.
+bool run_whole_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWatch& watch) {
   std::vector<FrameResult> results(subjects.size());
   for (size_t i = 0; i < subjects.size(); ++i) {
     if (!watch.next()) return false;
@@ -61,6 +61,15 @@ bool run_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWat
     }
   }
   return true;
+}
+
+// Returns false if it was stopped.
+bool run_round(std::vector<CacheSubject>& subjects, const Round& round, StudyWatch& watch) {
+  try {
+    return run_whole_round(subjects, round, watch);
+  } catch (const FrameStopped&) {
+    return false;
+  }
 }
 
 // A setting may contradict the config that all of them share.
@@ -94,6 +103,7 @@ std::vector<CacheSubject> make_subjects(const std::vector<Setting>& settings, co
 
 bool run_frames(std::vector<CacheSubject>& subjects, uint64_t frames, bool empty_tables, const Request& request,
                 StudyWatch& watch) {
+  for (CacheSubject& subject : subjects) subject.simulation.observe(watch.host.watch);
   if (frames <= 1) {
     if (!run_round(subjects, {0, 0, true, false}, watch)) return false;  // warms the device up, and is not counted
     for (CacheSubject& subject : subjects) subject.cold.clear();

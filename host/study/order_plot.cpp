@@ -78,7 +78,9 @@ plots::Figure order_figure(const std::string& name, const std::string& title, co
   std::string text = fmt::format(
       "stats '{0}.csv' using {1} skip 1 name 'rays' nooutput\n"
       "stats '{0}.csv' using (1e9 * ${2} / ${4}) skip 1 name 'unpaid' nooutput\n"
-      "stats '{0}.csv' using (1e9 * ${3} / ${4}) skip 1 name 'paid' nooutput\n",
+      "stats '{0}.csv' using (1e9 * ${3} / ${4}) skip 1 name 'paid' nooutput\n"
+      "stats '{0}.csv' using {2} skip 1 name 'least_s' nooutput\n"
+      "stats '{0}.csv' using {3} skip 1 name 'most_s' nooutput\n",
       name, column_number("rays"), column_number("unpaid_s"), column_number("paid_s"), column_number("launched"));
   text += fmt::format(
       "set logscale xy\n"
@@ -91,19 +93,20 @@ plots::Figure order_figure(const std::string& name, const std::string& title, co
   std::vector<size_t> lines;
   for (const std::vector<Series>& block : blocks) lines.push_back(block.size());
   const PanelPage page(lines, 4, 2);
-  constexpr const char *ns_a_ray =
-                           "set ylabel 'device time a ray (ns)'\nset format y '%g'\n"
-                           "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
-                           "do for [k = -3:6] { do for [m in '1 2 5'] { set ytics add (sprintf('%g', m * 10.0**k) m * "
-                           "10.0**k) } }\n",
-                       *seconds =
-                           "set ylabel 'device time (s)'\nset ytics autofreq\nset format y '10^{%T}'\n"
-                           "set yrange [*:*]\n";
+  const std::string ns_a_ray =
+                        "set ylabel 'device time a ray (ns)'\nset format y '%g'\n"
+                        "set yrange [0.8 * unpaid_min : 1.25 * paid_max]\n"
+                        "do for [k = -3:6] { do for [m in '1 2 5'] { set ytics add (sprintf('%g', m * 10.0**k) m * "
+                        "10.0**k) } }\n",
+                    seconds =
+                        "set ylabel 'device time (s)'\nset ytics autofreq\nset format y '10^{%T}'\n"
+                        "set yrange [*:*]\n" +
+                        plots::log_tics("y", "least_s_min", "most_s_max");
   for (size_t block = 0; block < blocks.size(); ++block) {
     const auto add = [&](size_t at, const char* title_of, const char* column) {
       text += page.margins(block, at) + panel(name, blocks[block], title_of, column, at < 2);
     };
-    text += std::string("set key off\n") + ns_a_ray;
+    text += "set key off\n" + ns_a_ray;
     add(0, "sort not paid", "unpaid_s");
     add(1, "sort paid", "paid_s");
     text += seconds;

@@ -152,6 +152,7 @@ std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Ser
     Config applied = config;
     apply(applied, one, rays);
     subjects.push_back({.simulation = Simulation(applied, device)});
+    subjects.back().simulation.observe(of.watch);
     const FrameResult first = subjects.back().simulation.run_frame(of.frames == 0 ? of.still : 0);
     if (of.frames == 0) subjects.back().count(first);
   }

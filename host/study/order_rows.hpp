@@ -58,9 +58,11 @@ struct OrderFrames {
   uint64_t frames = 0;
   uint32_t still = 0;
   uint32_t repeats = 1;
+  FrameObserver watch = {};
 };
 
-// Measures `config` with each series applied to it, on the device.
+// Measures `config` with each series applied to it, on the device. Throws FrameStopped if the observer has cancelled a
+// frame.
 std::vector<OrderRow> measure_orders(const Config& config, const std::vector<Series>& series, uint64_t rays,
                                      const OrderFrames& of, const std::string& device);
 

@@ -139,10 +139,13 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
     done += rays;
     const OrderFrames of = {.frames = run.frames > 0 ? frames_at(rays, run.frames, run.request) : 0,
                             .still = run.still,
-                            .repeats = run.request.repeats};
+                            .repeats = run.request.repeats,
+                            .watch = run.host.watch};
     std::vector<OrderRow> point;
     try {
       point = measure_groups(run.config, run.figure.series, rays, of, run.request.device);
+    } catch (const FrameStopped&) {
+      return "";
     } catch (const DeviceError& error) {  // such as too little memory; earlier measurements are kept
       if (rows.empty()) throw;
       return fmt::format("left out: {} to {} rays, as the device failed: {}", grouped(rays), grouped(run.counts.back()),

@@ -4,13 +4,16 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 #include "plots/figure.hpp"
 #include "study/coherence_rays.hpp"
 #include "study/experiment.hpp"
 #include "study/ray_counts.hpp"
+#include "wavetracer/simulation.hpp"
 
 namespace wavetracer::study {
 
@@ -32,8 +35,16 @@ struct Host {
   std::function<bool()> interrupted;
   // what: the current measurement; done: of total; unit: of the count ("rays"). It may be empty.
   std::function<void(const std::string& what, uint64_t done, uint64_t total, const std::string& unit)> at = {};
+  // Watches every frame: it shows how far the frame is, and gives it up if the user wants to stop.
+  FrameObserver watch = {};
+  // Returns a guard for work that cannot stop midway, such as compiling kernels. If the user wants to stop while it
+  // exists, `end` is called on another thread, and the program ends.
+  std::function<std::shared_ptr<void>(std::function<void()> end)> at_once = {};
   void tell(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) const {
     if (at) at(what, done, total, unit);
+  }
+  std::shared_ptr<void> guard(std::function<void()> end = {}) const {
+    return at_once ? at_once(std::move(end)) : nullptr;
   }
 };
 

@@ -37,15 +37,27 @@ std::string line_text(const LinePlot& plot, const Names& names, const LinePanel&
 }
 
 // Computes ranges of the whole table, so that panels of one quantity agree; an axis without any value would be an
-// error.
+// error. Logarithms need values above 0.
 std::string statistics(const LinePlot& plot, const Names& names) {
   std::string text =
       fmt::format("stats '{}.csv' using {} skip 1 name 'x' nooutput\n", plot.name, column_of(names, plot.x));
-  for (size_t i = 0; i < plot.panels.size(); ++i)
-    if (plot.panels[i].least > 0)
-      text += fmt::format("stats '{}.csv' using {} skip 1 name 'y{}' nooutput\n", plot.name,
-                          column_of(names, plot.panels[i].y), i);
+  for (size_t i = 0; i < plot.panels.size(); ++i) {
+    const LinePanel& panel = plot.panels[i];
+    const size_t y = column_of(names, panel.y);
+    if (panel.least > 0)
+      text += fmt::format("stats '{}.csv' using {} skip 1 name 'y{}' nooutput\n", plot.name, y, i);
+    else if (panel.log_y)
+      text += fmt::format("stats '{}.csv' using (column({}) > 0 ? column({}) : NaN) skip 1 name 'y{}' nooutput\n",
+                          plot.name, y, y, i);
+  }
   return text;
+}
+
+// Labels of an axis of few decades are not at its powers of ten alone.
+std::string y_tics(const LinePanel& panel, size_t index) {
+  if (!panel.log_y) return "set ytics autofreq\n";
+  const std::string low = panel.least > 0 ? fmt::format("{:g}", panel.least / 2) : fmt::format("y{}_min", index);
+  return "set ytics autofreq\n" + plots::log_tics("y", low, fmt::format("y{}_max", index));
 }
 
 std::string y_range(const LinePanel& panel, size_t index) {
@@ -59,10 +71,10 @@ std::string panel_text(const LinePlot& plot, const Names& names, size_t index,
                        const std::vector<std::string>& settings) {
   const LinePanel& panel = plot.panels[index];
   std::string text = fmt::format(
-      "{}set logscale y\nset format y '{}'\nset yrange {}\nset title '{}' noenhanced\nset ylabel '{}' noenhanced\n"
+      "{}set logscale y\nset format y '{}'\nset yrange {}\n{}set title '{}' noenhanced\nset ylabel '{}' noenhanced\n"
       "plot ",
-      panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), quoted(panel.title),
-      quoted(panel.y_label));
+      panel.log_y ? "" : "un", panel.log_y ? "10^{%T}" : "%g", y_range(panel, index), y_tics(panel, index),
+      quoted(panel.title), quoted(panel.y_label));
   for (size_t i = 0; i < settings.size(); ++i)
     text += (i == 0 ? "" : ", \\\n  ") + line_text(plot, names, panel, settings[i], i);
   return text + "\n";

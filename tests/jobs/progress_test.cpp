@@ -66,6 +66,18 @@ TEST_CASE("a terminal has a bar, which tells of a long step from within and goes
   CHECK(text.ends_with(" \r"));
 }
 
+TEST_CASE("a step without parts has no bar, and tells of itself from within") {
+  const std::string text = on_terminal([] {
+    Progress progress;
+    progress.step("your own settings");
+    wait_for_next_bar();
+    progress.within("50% of its rays");
+    progress.end();
+  });
+  CHECK(text.find("your own settings, 50% of its rays, elapsed 0:00") != std::string::npos);
+  CHECK(text.find('[') == std::string::npos);
+}
+
 TEST_CASE("digits are grouped") {
   CHECK(grouped(0) == "0");
   CHECK(grouped(999) == "999");
