@@ -121,6 +121,15 @@ const std::vector<Mechanism>& mechanisms() {
   return all;
 }
 
+bool beams_are_cheap(const Config& config) {
+  constexpr uint32_t few_reflections = 6;
+  const TraceConfig& trace = config.trace;
+  const bool reflections_alone = !trace.diffraction && !trace.transmission && !trace.scattering;
+  const bool needs_rays =
+      config.cache.on() || trace.by_spheres() || config.output.waypoints > 0 || trace.discover_every_s > 0;
+  return reflections_alone && trace.max_depth <= few_reflections && !needs_rays;
+}
+
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
   if (certify || own.trace.by_beams()) certify_axis(all.front());

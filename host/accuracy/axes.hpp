@@ -30,6 +30,10 @@ constexpr study::RayRange default_rays{10000, 1000000};
 // with `certify`, or where the user's own settings ask for beams, it is found by beams, which miss nothing.
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify = false);
 
+// Do beams take less time than ten times the rays? They do where there are reflections alone, and not many in a path.
+// Then the list of beams is the reference that nothing is missing from.
+bool beams_are_cheap(const Config& config);
+
 // Features that keys switch on or off, and their names at the start of a sentence.
 struct Mechanism {
   std::string feature, words;

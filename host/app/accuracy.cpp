@@ -32,6 +32,7 @@ struct AccuracyOptions {
   accuracy::ChanceRequest chances;  // its inputs are those of intervals, too
   std::vector<std::string> formats = {"csv"};
   std::string directory = "out/accuracy", rays;
+  std::optional<bool> certify;
   bool varies = false;
 };
 
@@ -167,7 +168,9 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   accuracy::Request request = options.request;
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
-  check_inputs(load_config(request.file, request.sets));
+  const Config config = load_config(request.file, request.sets);
+  request.certify = options.certify.value_or(accuracy::beams_are_cheap(config));
+  check_inputs(config);
   const fs::path folder = begin_study(options.directory);
   Progress progress;
   const study::Host host = study_host(progress);
@@ -192,11 +195,10 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
       ->allow_extra_args(false);
   command->add_option("--device", request.device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
-  command->add_option(
-      "--rays", options->rays,
-      "Smallest and largest number of rays, A:B; default 1e4:1e6. The reference launches ten times the largest number");
-  command->add_flag("--certify", request.certify,
-                    "Compare rays with beams, which find all paths (trace.discovery), instead of with more rays");
+  command->add_option("--rays", options->rays, "Smallest and largest number of rays, A:B; default 1e4:1e6");
+  command->add_flag("--certify,!--no-certify", options->certify,
+                    "Compare rays with beams, which find all paths (trace.discovery), or with ten times the largest "
+                    "number of rays; if not given, with beams where only reflections are asked for, six at most");
   command->add_option("--frames", request.frames, "Number of frames of a drive to measure, spread evenly over it")
       ->check(number_range(1, 1000000))
       ->capture_default_str();

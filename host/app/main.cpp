@@ -61,7 +61,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_serve(program, invocation);
   wavetracer::app::add_help(program);
   wavetracer::app::add_documentation(program);
-  wavetracer::app::refuse_non_finite(program);
+  wavetracer::app::refuse_bad_values(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -13,6 +13,7 @@
 #include "jobs/merge_folders.hpp"
 #include "jobs/process_files.hpp"
 #include "jobs/progress.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer::app {
 namespace {
@@ -65,7 +66,17 @@ std::vector<std::unique_ptr<FolderHold>> hold_all(const std::vector<std::string>
   return held;
 }
 
+// The folder for the results may be made, and is perhaps one of these.
+void check_folders(const std::vector<std::string>& directories) {
+  std::error_code none;
+  for (const std::string& directory : directories)
+    if (!fs::exists(directory, none))
+      throw InputError(
+          fmt::format("{}: there is no such folder; name one that `wavetracer run --shard` has written to", directory));
+}
+
 void merge(const MergeOptions& options, Invocation& invocation) {
+  check_folders(options.directories);
   Progress progress;
   const fs::path target = target_of(options);
   check_output_folder(target);

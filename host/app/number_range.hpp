@@ -22,9 +22,23 @@ inline std::string range_end(std::integral auto number) {
 // Returns a check of an option whose number must be from `least` to `most`. Help has the range after the option's type.
 template <class Number>
 CLI::Validator number_range(Number least, Number most) {
-  CLI::Validator out = CLI::Range(least, most);
-  out.description(fmt::format("{} to {}", range_end(least), range_end(most)));
-  return out;
+  const std::string range = fmt::format("{} to {}", range_end(least), range_end(most));
+  const auto refused = [=](const std::string& text) {
+    Number number{};
+    if (CLI::detail::lexical_cast(text, number) && !(number < least) && !(number > most)) return std::string();
+    return fmt::format("{} is not a {} from {}", text, std::integral<Number> ? "whole number" : "number", range);
+  };
+  return CLI::Validator(refused, range);
+}
+
+// The same for a number above 0.
+inline CLI::Validator positive_number() {
+  const auto refused = [](const std::string& text) {
+    double number = 0;
+    if (CLI::detail::lexical_cast(text, number) && !(number <= 0)) return std::string();
+    return fmt::format("{} is not a number above 0", text);
+  };
+  return CLI::Validator(refused, "above 0");
 }
 
 }  // namespace wavetracer::app

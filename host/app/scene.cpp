@@ -30,7 +30,7 @@ void add_info(CLI::App& scene) {
   const auto options = std::make_shared<Options>();
   command->add_option("file", options->file, "Scene file (XML, OBJ, GLB, glTF, PLY)")->required();
   command->add_option("--scale", options->scale, "Metres per file unit, like the key scene.scale")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--up", options->up, "Axis of the file that points up, like the key scene.up")
       ->check(CLI::IsMember(std::vector<std::string>(UpAxis::words.begin(), UpAxis::words.end())));
   command->add_option("--default-material", options->default_material,
@@ -110,7 +110,6 @@ void write_drive(const CityOptions& city, const TrafficOptions& options, const s
 
 // Options of a city are separated by blanks. Returns a message for a value that is not one word.
 std::string one_word(const std::string& value) {
-  if (value.empty()) return "needs a value";
   return value.find_first_of(" \t\r\n") == std::string::npos ? "" : fmt::format("'{}' must have no blanks", value);
 }
 

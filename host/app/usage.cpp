@@ -81,16 +81,31 @@ std::string choice_hint(const std::string& message) {
   return spelling_hint(message.substr(colon + 2, list - colon - 2), choices);
 }
 
+// Handles CLI11's "Could not convert: --frame = x": says what the option takes. Returns an empty text for others.
+std::string conversion_problem(const CLI::App& command, const std::string& message) {
+  constexpr std::string_view begin = "Could not convert: ";
+  const size_t equals = message.find(" = ");
+  if (!message.starts_with(begin) || equals == std::string::npos) return "";
+  const std::string name = message.substr(begin.size(), equals - begin.size());
+  const CLI::Option* const option = command.get_option_no_throw(name);
+  const std::string type = option ? option->get_type_name() : "";
+  return fmt::format("{}: {} is not a {}", name, message.substr(equals + 3),
+                     type.starts_with("UINT")  ? "whole number of 0 or more"
+                     : type.starts_with("INT") ? "whole number"
+                                               : "number");
+}
+
 std::string problem(const CLI::App& command, const CLI::ParseError& error) {
   if (const std::vector<std::string> unplaced = command.remaining(); !unplaced.empty())
     return unknown_word(command, unplaced.front());
   const std::string what = error.what();
-  if (const std::vector<std::string> names = command_names(command);
-      error.get_name() == "RequiredError" && !names.empty())
+  const std::vector<std::string> names = command_names(command);
+  if (error.get_name() == "RequiredError" && !names.empty() && !names.front().empty())
     return fmt::format("name one of them: {}", fmt::join(names, " or "));
   // Handles CLI11's "--config: 1 required TEXT missing".
   if (const size_t missing = what.find(": 1 required "); missing != std::string::npos && what.ends_with(" missing"))
     return what.substr(0, missing) + " needs a value";
+  if (const std::string conversion = conversion_problem(command, what); !conversion.empty()) return conversion;
   return what + choice_hint(what);
 }
 
@@ -162,8 +177,10 @@ std::string usage_problem(const CLI::App& program, const CLI::ParseError& error)
                      what.ends_with('?') ? " See" : "; see", command.path.empty() ? "" : " " + command.path);
 }
 
-void refuse_non_finite(CLI::App& program) {
+void refuse_bad_values(CLI::App& program) {
   for (CLI::Option* const option : program.get_options()) {
+    if (option->get_items_expected_max() > 0)
+      option->check([](const std::string& text) { return text.empty() ? std::string("the value is empty") : ""; });
     if (!option->get_type_name().starts_with("FLOAT")) continue;
     option->check([](const std::string& text) {
       double value = 0;
@@ -171,7 +188,7 @@ void refuse_non_finite(CLI::App& program) {
       return !number || std::isfinite(value) ? std::string() : fmt::format("{} is not a finite number", text);
     });
   }
-  for (CLI::App* const command : program.get_subcommands({})) refuse_non_finite(*command);
+  for (CLI::App* const command : program.get_subcommands({})) refuse_bad_values(*command);
 }
 
 void add_help(CLI::App& program) {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/number_range.hpp"
 #include "app/standard_streams.hpp"
 #include "base/file.hpp"
 #include "jobs/frame_range.hpp"
@@ -31,7 +32,7 @@ void add_view(CLI::App& program) {
           fmt::format(
               "Largest number of paths on the page, the strongest of all frames (default: as many as fit into {} MB)",
               page_bytes / 1'000'000))
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--title", options->title, "Title of the page (default: the name of the folder)");
   command->callback([options] {
     const SavedRun run(options->run);

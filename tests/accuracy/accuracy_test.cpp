@@ -2,6 +2,7 @@
 // The varied settings, the recommended row, and the table, with rows made by hand and without a device.
 #include <doctest/doctest.h>
 #include <algorithm>
+#include <functional>
 #include "accuracy/advice.hpp"
 #include "accuracy/axes.hpp"
 #include "accuracy/files.hpp"
@@ -66,6 +67,24 @@ TEST_CASE("the fastest setting within a loss is recommended, never the reference
   study = made();
   study.rows[3] = row("rays", "1000000", 0.1, 2e-5);
   CHECK(has(recommendations(study), "10^-5 of the power lost: only the reference, trace.rays=10000000 (1 s"));
+}
+
+TEST_CASE("beams are cheaper than ten times the rays where there are a few reflections alone") {
+  Config reflections;
+  reflections.trace.diffraction = reflections.trace.transmission = reflections.trace.scattering = false;
+  reflections.trace.max_depth = 6;
+  CHECK(beams_are_cheap(reflections));
+  for (const auto& change : std::vector<std::function<void(Config&)>>{
+           [](Config& config) { config.trace.max_depth = 7; }, [](Config& config) { config.trace.diffraction = true; },
+           [](Config& config) { config.trace.transmission = true; },
+           [](Config& config) { config.trace.scattering = true; },
+           [](Config& config) { config.trace.discover_every_s = 0.1; },
+           [](Config& config) { config.output.waypoints = 5; },
+           [](Config& config) { config.cache.kind = "concurrent"; }}) {
+    Config other = reflections;
+    change(other);
+    CHECK_FALSE(beams_are_cheap(other));
+  }
 }
 
 TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one more, mechanisms on and off") {

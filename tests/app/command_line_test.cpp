@@ -35,7 +35,7 @@ TEST_CASE("help has ranges of numbers in words, and refusals name them") {
   CHECK(contains(run_program({"help", "run"}).out, "1 to 1,000,000"));
   const Outcome refused = run_program({"calibrate", "-c", "a.toml", "--measured", "b.csv", "--folds", "101"});
   CHECK(refused.code == 2);
-  CHECK(contains(refused.err, "--folds: Value 101 not in range 0 to 100"));
+  CHECK(contains(refused.err, "--folds: 101 is not a whole number from 0 to 100"));
 }
 
 TEST_CASE("help is about what was asked: a command on a page, the keys of configurations by themselves") {
@@ -114,6 +114,39 @@ TEST_CASE("misspelt commands, options and choices are answered with what was mea
   check(run_program({"plot"}), 2, "plot: RUN is required; see `wavetracer help plot`");
 }
 
+TEST_CASE("values that an option cannot take are answered with what it takes") {
+  const Folder folder;
+  const std::string file = folder.file("a.toml", city + ends);
+  check(run_program({"run", "-c", file, "--repeat", "x"}), 2,
+        "run: --repeat: x is not a whole number from 1 to 1,000,000; see");
+  check(run_program({"run", "-c", file, "--repeat", "-1"}), 2, "--repeat: -1 is not a whole number from 1 to");
+  check(run_program({"scene", "info", file, "--scale", "-1"}), 2, "--scale: -1 is not a number above 0; see");
+  check(run_program({"scene", "materials", "--frequency", "1"}), 2,
+        "--frequency: 1 is not a number from 1,000,000 to 1,000,000,000,000; see");
+  check(run_program({"view", file, "--max-paths", "0"}), 2, "--max-paths: 0 is not a number above 0; see");
+  check(run_program({"plot", file, "--frame", "x"}), 2, "plot: --frame: x is not a whole number of 0 or more; see");
+  check(run_program({"merge", folder.path("nowhere")}), 3, "nowhere: there is no such folder; name one that");
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"run", "-c", ""},
+                             {"run", "-c", file, "--devices", ""},
+                             {"run", "-c", file, "-o", ""},
+                             {"view", ""},
+                             {"merge", ""},
+                             {"convert", "", "-o", "y"},
+                             {"scene", "info", ""},
+                             {"scene", "city", "--blocks", ""},
+                             {"serve", "-c", file, "--listen", ""}}) {
+    CAPTURE(words.size());
+    check(run_program(words), 2, ": the value is empty; see `wavetracer help " + words.front());
+  }
+  for (const auto& [option, value] : {std::pair{"--blocks", "x"}, {"--blocks", "6xx"}, {"--floors", "3:"}})
+    check(run_program({"scene", "city", "-o", folder.path("city"), option, value}), 2,
+          fmt::format("city: {} '{}' must be one or two integers from 1 to 100, such as 3 or ", option, value));
+  check(run_program({"scene", "city", "-o", folder.path("city"), "--blocks", "6 x 6"}), 2,
+        "'6 x 6' must have no blanks");
+  CHECK(folder.entries() == 1);
+}
+
 TEST_CASE("usage errors exit 2") {
   const Folder folder;
   const std::string file = folder.file("a.toml", city + ends);
@@ -126,7 +159,7 @@ TEST_CASE("usage errors exit 2") {
   check(run_program({"accuracy", "-c", file, "--inputs", "--permittivity", "-nan"}), 2, "--permittivity");
   check(run_program({"thesis", "rays", "--minutes", "nan"}), 2, "nan is not a finite number");
   check(run_program({"scene", "materials", "--frequency", "nan"}), 2, "nan is not a finite number");
-  check(run_program({"scene", "info", file, "--scale", "inf"}), 2, "--scale: Value inf not in range");
+  check(run_program({"scene", "info", file, "--scale", "inf"}), 2, "--scale: inf is not a finite number");
   check(run_program({"convert", file, "-o", folder.path("map"), "--level-height", "nan"}), 2, "nan is not a finite");
   check(run_program({"run", "-c", file, "--set", "trace.tile_m=nan"}), 2, "trace.tile_m = nan is out of range");
   check(run_program({"run", "-c", file, "--frames", "0:5"}), 2, "--frames 0:5: this run has frame 0 only");

@@ -4,9 +4,12 @@
     run_document.py DOCUMENT --program WAVETRACER --configs FOLDER --examples FOLDER --package FOLDER --shared-object FILE
                     --work FOLDER
 
-The folder of work is made anew and holds what the reader has: the configurations, the examples, and the maps of his own
-that the text speaks of (tests/documents/files). A command that cannot run in a test is in not_run.txt with a reason;
-one that fails and is not there fails the test, and so does a line of not_run.txt that no document needs any more.
+The folder of work is made anew and holds what the reader has: the program where `./dev run` builds it, the
+configurations, the examples, and the maps of his own that the text speaks of (tests/documents/files). Commands run as
+they are typed, with an empty home, the PATH of a fresh Debian and no variables of the caller but those of OpenCL and of
+the package, which an installation would need none of. Kernels come from the caller's cache, because compiling them for
+each document would take minutes. A command that cannot run in a test is in not_run.txt with a reason; one that fails
+and is not there fails the test, and so does a line of not_run.txt that no document needs any more.
 Commands inside of sentences (`wavetracer plot DIR`) must name commands and options that exist.
 """
 import argparse
@@ -57,11 +60,25 @@ def commands(source):
     return out
 
 
+def clean_environment(work):
+    """The variables of a login on a fresh Debian, with those of the caller that say where OpenCL's drivers are."""
+    environment = {name: value for name, value in os.environ.items()
+                   if name in ("OCL_ICD_VENDORS", "LD_LIBRARY_PATH") or name.startswith("POCL_")}
+    home = work / "home"
+    home.mkdir()
+    cache = os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")
+    return environment | {"HOME": str(home), "LANG": "C.UTF-8", "TERM": "dumb", "XDG_CACHE_HOME": str(cache),
+                          "PATH": f"{work / 'bin'}:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"}
+
+
 def prepare(options):
     work = pathlib.Path(options.work)
     shutil.rmtree(work, ignore_errors=True)
     (work / "bin").mkdir(parents=True)
-    (work / "bin/wavetracer").symlink_to(options.program)
+    built = work / "build/release/host/app"
+    built.mkdir(parents=True)
+    for program in (work / "bin/wavetracer", built / "wavetracer"):
+        program.symlink_to(options.program)
     # `python3` must be the one that has the packages, even if another one comes first in the PATH.
     (work / "bin/python3").write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
     (work / "bin/python3").chmod(0o755)
@@ -71,13 +88,11 @@ def prepare(options):
     shutil.copytree(options.examples, work / "docs/examples")
     for file in (here / "files").iterdir():
         shutil.copy(file, work)
-    environment = dict(os.environ)
-    environment["PATH"] = f"{work / 'bin'}:{environment['PATH']}"
+    environment = clean_environment(work)
     environment["PYTHONPATH"] = options.package
     environment["PYTHONDONTWRITEBYTECODE"] = "1"
     environment["WAVETRACER_PROGRAM"] = options.program
     environment["WAVETRACER_LIBRARY"] = options.shared_object
-    environment["SUMO_HOME"] = environment.get("SUMO_HOME", "/usr/share/sumo")
     # This is the drive that a reader has.
     subprocess.run(["wavetracer", "scene", "city", "-o", ".", "--blocks", "2x2", "--vehicles", "4", "--seconds", "0.3"],
                    cwd=work, env=environment, check=True, stdout=subprocess.DEVNULL)
@@ -91,7 +106,6 @@ class Session:
         self.work, self.environment, self.servers, self.exports = work, environment, [], ""
 
     def shell(self, command):
-        command = command.replace("build/release/host/app/wavetracer", "wavetracer")
         if command.startswith("export "):
             self.exports += command.split("#")[0] + "\n"
         if re.match(r"wavetracer serve ", command):
