@@ -125,7 +125,7 @@ void add_mechanisms(const Study& study, std::vector<std::string>& out) {
 std::string share_text(double share) {
   if (std::isnan(share)) return "?";
   if (share == 0) return "none";
-  return share < 9.95e-4 ? fmt::format("{:.2g}", share) : fmt::format("{:.2g}%", 100 * share);
+  return share < 9.95e-6 ? fmt::format("{:.2g}", share) : fmt::format("{:.2g}%", 100 * share);
 }
 
 const Row* cheapest(const Study& study, const std::vector<std::string>& axes, double lost_power) {

@@ -10,6 +10,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/label_places.hpp"
 #include "accuracy/table.hpp"
+#include "base/digits.hpp"
 #include "base/html_page.hpp"
 #include "base/pending_file.hpp"
 #include "base/xml_text.hpp"
@@ -40,9 +41,9 @@ std::string frames_text(const Study& study) {
       "the time of a frame is the median of warm frames, each solved {} times, "
       "once where it takes more than two seconds",
       study.repeats);
-  if (!study.drive) return fmt::format("one frame with {} links; {}", study.links, times);
+  if (!study.drive) return fmt::format("one frame with {} links; {}", grouped(study.links), times);
   return fmt::format("{} frames spread over the drive, {} links in all, each frame cold but for the rows of reuse; {}",
-                     study.frames, study.links, times);
+                     study.frames, grouped(study.links), times);
 }
 
 constexpr double none = 1e-8;  // share at which 0 and smaller values are drawn

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/named_files.hpp"
 #include "app/written_files.hpp"
+#include "base/digits.hpp"
 #include "jobs/earlier_run.hpp"
 #include "jobs/merge_folders.hpp"
 #include "jobs/process_files.hpp"
@@ -94,8 +95,8 @@ void merge(const MergeOptions& options, Invocation& invocation) {
   }
   const auto files = merge_found(found, target, invocation.command_line);
   const Totals totals = totals_of(found.shards);
-  std::cout << fmt::format("merged     {} parts: {} frames, {} links, {} paths\n", found.shards.size(), totals.frames,
-                           totals.links, totals.counts.paths);
+  std::cout << fmt::format("merged     {} parts: {} frames, {} links, {} paths\n", found.shards.size(),
+                           grouped(totals.frames), grouped(totals.links), grouped(totals.counts.paths));
   std::cout << written_line(files) << std::flush;
 }
 

@@ -34,8 +34,8 @@ study::Host study_host(Progress& progress) {
       if (isatty(STDERR_FILENO) == 1) std::cerr << "\n";  // below the bar
       if (end) end();
     };
-    return std::make_shared<EndOnInterrupt>(clean_up,
-                                            keeps ? "" : "interrupted before the first result; nothing was written");
+    return std::make_shared<EndOnInterrupt>(
+        clean_up, keeps ? "" : "interrupted before the first result; nothing new was written");
   };
   return {say, interrupted, at, watch, at_once};
 }

@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/number_range.hpp"
 #include "app/standard_streams.hpp"
+#include "base/digits.hpp"
 #include "base/file.hpp"
 #include "jobs/frame_range.hpp"
 
@@ -45,7 +46,7 @@ void add_view(CLI::App& program) {
     for (const std::string& warning : page.warnings) std::cerr << "warning: " << warning << "\n";
     word_about(output) << fmt::format(
         "{}: written, {:.1f} MB, {} {} in {} {}\n", output.string(), static_cast<double>(page.html.size()) / 1e6,
-        page.paths, page.paths == 1 ? "path" : "paths", page.frames, page.frames == 1 ? "frame" : "frames");
+        grouped(page.paths), page.paths == 1 ? "path" : "paths", page.frames, page.frames == 1 ? "frame" : "frames");
   });
 }
 

@@ -13,7 +13,7 @@ constexpr const char* style_of_pages =
     "td,th{border-bottom:1px solid #ddd;padding:2px 8px;text-align:right}"
     "td:nth-child(-n+3),th:nth-child(-n+3){text-align:left}"
     "svg{max-width:100%;height:auto}"
-    ".wide{overflow-x:auto}code{overflow-wrap:anywhere}"
+    ".wide{overflow-x:auto}h1,h2,code{overflow-wrap:anywhere}"
     ".about{font-size:13px;color:#555}"
     ":root{color-scheme:light dark}"
     "@media(prefers-color-scheme:dark){body{background:#161b24;color:#e8ecf2}td,th{border-color:#333d4c}"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include "base/aligned_text.hpp"
+#include "base/digits.hpp"
 #include "base/html_page.hpp"
 #include "base/pending_file.hpp"
 #include "base/xml_text.hpp"
@@ -26,14 +27,14 @@ std::string table_text(const study::NumberTable& table) {
 }
 
 std::string how(const Calibration& result) {
-  const std::string head =
-      fmt::format("{} points, {} paths found in {:.2f} s", result.points.size(), result.paths, result.solve_s);
+  const std::string head = fmt::format("{} points, {} paths found in {:.2f} s", grouped(result.points.size()),
+                                       grouped(result.paths), result.solve_s);
   if (result.frames_solved > 0)
     return fmt::format("{}; {} evaluations in {:.2f} s, for which {} frames were solved with ends in other places",
                        head, result.evaluations, result.fit_s, result.frames_solved);
   return fmt::format(
       "{}, {} of which make all but 1e-4 of the power of each link; {} evaluations of their fields in {:.2f} s", head,
-      result.paths_that_matter, result.evaluations, result.fit_s);
+      grouped(result.paths_that_matter), result.evaluations, result.fit_s);
 }
 
 std::string fitted_toml(const Calibration& result) {

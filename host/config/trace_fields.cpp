@@ -55,12 +55,13 @@ Table trace_table() {
            .slot = t(&TraceConfig::discover_every_s),
            .unit = "s",
            .range = {0, 3600},
-           .doc = "Frames that reuse sequences launch rays only this long after the frame that did so before; "
-                  "the frames between compute the paths of the known sequences, exactly, at their own poses. "
-                  "For steps of a millisecond, 0.1 is a good value. A vehicle that appears and a transmitter "
-                  "that begins to send launch at once. 0: every frame launches rays. "
-                  "Each launch of rays measures which paths the frames before it may have missed: "
-                  "late in summary.json."},
+           .doc =
+               "A frame that reuses sequences launches rays only if the last frame that did so is at least this old; "
+               "the frames between compute the paths of the known sequences, exactly, at their own poses. "
+               "For steps of a millisecond, 0.1 is a good value. Rays are launched at once where a vehicle appears "
+               "or a transmitter begins to send. 0: every frame launches rays. "
+               "Each launch of rays measures which paths the frames before it may have missed: "
+               "the entry late of summary.json."},
           {.name = "forget_frames",
            .slot = t(&TraceConfig::forget_frames),
            .unit = "frames",
@@ -94,8 +95,8 @@ Table trace_table() {
            .range = {1, 8},
            .doc = "2 adds paths over two edges, with a straight line from one edge to the other: "
                   "the field behind a whole building. Pairs of edges that buildings hide from each other "
-                  "are passed over; the others are candidates, which cost time: in a city of 36 blocks some ten times "
-                  "as much as one diffraction. With 2 and more each link also gets a few paths over up to "
+                  "are left out; trying the others takes time: in a city of 36 blocks some ten times "
+                  "as long as one diffraction. With 2 and more each link also gets a few paths over up to "
                   "so many edges: those that a string between its ends touches when it is pulled tight over "
                   "the roofs or around corners, and those a little under it. They take little time, "
                   "and reach receivers far behind the houses. Such a path has no other interactions, and max_depth, "
@@ -116,9 +117,11 @@ Table trace_table() {
                   "because the real ground continues where the map ends."},
           {.name = "edge_ends",
            .slot = t(&TraceConfig::edge_ends),
-           .doc = "Only with diffraction, for paths over one edge of the scene: where an edge ends in the open, "
-                  "at the corner of a roof or of a screen, the wave that it diffracts is that of an edge with an end, "
-                  "and does not stop there. Paths over ends are added, a few percent in a city."},
+           .doc =
+               "Only with diffraction, for paths over one edge of the scene. Where an edge ends in the open, as at the "
+               "corner of a roof or of a screen, false: its wave stops at the end, and the field has a step there; "
+               "true: its wave is that of an edge with an end, and fades beyond it. This adds paths by way of ends, "
+               "a few percent in a city."},
           {.name = "diffraction_rays",
            .slot = t(&TraceConfig::diffraction_rays),
            .unit = "rays per receiver",
@@ -174,9 +177,10 @@ Table trace_table() {
            .range = {-400, 0},
            .doc =
                "Only with scattering_reflections: the path gain between isotropic antennas, without their own gains, "
-               "below which a path that scatters and is reflected may be left out. A bound decides, which takes "
-               "every reflection for perfect and every tile for turned the best way; so no stronger path is "
-               "lost, and weaker ones may be kept. The number of paths that are left out is weak in summary.json. "
+               "below which a path that scatters and is reflected may be left out. The program compares an upper "
+               "bound of the gain with this value. The bound assumes perfect reflections and the best orientation of "
+               "the tile, so no stronger path is lost, and weaker ones may be kept. The entry weak of summary.json is "
+               "the number of paths that are left out. "
                "Not given: none is left out."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),

@@ -233,7 +233,8 @@ void warn(const SavedRun& run, const std::vector<Ns3Node>& nodes, bool reversed,
       }
   }
   if (!run.instances().empty())
-    say("nodes stand still to it; their movement, and Doppler, are in the channels of the steps alone");
+    say("QdChannelModel takes all nodes to stand still: their movement and their Doppler shifts show only in the channels, "
+        "which change from step to step");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/digits.hpp"
 #include "base/file.hpp"
 #include "imports/city_model.hpp"
 #include "imports/map.hpp"
@@ -232,8 +233,8 @@ std::string describe(const ImportSummary& s) {
       "scene      {}\nbuildings  {}, parts {}, courtyards {}; {} triangles\n"
       "extent     {:.0f} x {:.0f} m, from ({:.1f}, "
       "{:.1f}) to ({:.1f}, {:.1f})\n",
-      s.scene.string(), s.buildings, s.parts, s.courtyards, s.triangles, s.upper_m.x - s.lower_m.x,
-      s.upper_m.y - s.lower_m.y, s.lower_m.x, s.lower_m.y, s.upper_m.x, s.upper_m.y);
+      s.scene.string(), grouped(s.buildings), grouped(s.parts), grouped(s.courtyards), grouped(s.triangles),
+      s.upper_m.x - s.lower_m.x, s.upper_m.y - s.lower_m.y, s.lower_m.x, s.lower_m.y, s.upper_m.x, s.upper_m.y);
   if (!s.ground.empty())
     out += fmt::format("ground     {:.0f} x {:.0f} m, from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})\n",
                        s.ground.upper_m.x - s.ground.lower_m.x, s.ground.upper_m.y - s.ground.lower_m.y,
@@ -243,20 +244,20 @@ std::string describe(const ImportSummary& s) {
     out += fmt::format(
         "terrain    {} triangles for {} posts, from {:.1f} to {:.1f} m; misses the posts by {:.3f} m at most, "
         "{:.3f} m rms\n",
-        s.terrain->triangles, s.terrain->posts, s.terrain->lowest_m, s.terrain->highest_m, s.terrain->largest_error_m,
-        s.terrain->rms_error_m);
+        grouped(s.terrain->triangles), grouped(s.terrain->posts), s.terrain->lowest_m, s.terrain->highest_m,
+        s.terrain->largest_error_m, s.terrain->rms_error_m);
   if (s.trees + s.trees_of_rows + s.woods > 0)
     out += fmt::format(
         "vegetation single trees {}, trees in rows {}, woods {}; they attenuate waves (docs/outdoors.md), and "
         "--no-vegetation leaves them out\n",
-        s.trees, s.trees_of_rows, s.woods);
+        grouped(s.trees), grouped(s.trees_of_rows), grouped(s.woods));
   if (!s.tree_columns.empty()) out += fmt::format("trees      {}\n", s.tree_columns);
   for (const auto& [name, count] : s.walls) out += fmt::format("walls      {} {}\n", name, count);
   if (s.straightened > 0)
     out += fmt::format(
         "straight   {} corners were moved onto the straight walls that they are in, by {:.2g} mm at most: "
         "the map's coordinates are rounded to {:.2g} mm\n",
-        s.straightened, s.straightened_by_m * 1000, 2000 * s.rounding_m);
+        grouped(s.straightened), s.straightened_by_m * 1000, 2000 * s.rounding_m);
   if (!s.guessed.empty()) out += "assumed\n" + total(s.guessed);
   if (!s.left_out.empty()) out += "left out\n" + total(s.left_out);
   if (!s.attribution.empty()) out += fmt::format("map data   {}\n", s.attribution);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+#include "base/digits.hpp"
 
 namespace wavetracer {
 namespace {
@@ -87,7 +88,7 @@ UnitWriter::News UnitWriter::take_news(Mail& mail) { return {std::exchange(mail.
 void UnitWriter::collect(const News& news) {
   for (const Shard& shard : news.written) {
     shards_.finish(shard);
-    progress_.line(fmt::format("{}: {} paths", unit_words(shard.unit), shard.totals.counts.paths));
+    progress_.line(fmt::format("{}: {} paths", unit_words(shard.unit), grouped(shard.totals.counts.paths)));
   }
   if (news.failure) std::rethrow_exception(news.failure);
 }

@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "base/digits.hpp"
 #include "scene/scene_warnings.hpp"
 #include "scene/volume_overlaps.hpp"
 
@@ -84,25 +85,28 @@ std::string describe_scene(const Scene& scene) {
       high.x, low.y, high.y, low.z, high.z, size.x, size.y, size.z);
   out += fmt::format("origin     {:.0f}, {:.0f}, {:.0f} (coordinates are held relative to it)\n", scene.origin_m.x,
                      scene.origin_m.y, scene.origin_m.z);
-  out += fmt::format("objects    {}\n", scene.objects.size());
-  out += fmt::format("triangles  {} with {} vertices\n", scene.triangles.size(), scene.vertices.size());
+  out += fmt::format("objects    {}\n", grouped(scene.objects.size()));
+  out +=
+      fmt::format("triangles  {} with {} vertices\n", grouped(scene.triangles.size()), grouped(scene.vertices.size()));
   uint32_t largest = 0;
   for (const Surface& s : scene.surfaces) largest = std::max(largest, s.triangle_count);
-  out += fmt::format("surfaces   {}, the largest of {} triangles\n", scene.surfaces.size(), largest);
+  out += fmt::format("surfaces   {}, the largest of {} triangles\n", grouped(scene.surfaces.size()), grouped(largest));
   const LoadReport& report = scene.report;
   const auto flat = std::count_if(scene.edges.begin(), scene.edges.end(), [](const Edge& e) { return e.flat; });
-  out += fmt::format("edges      {}: {} with two faces, {} free, {} with more than two; {} flat\n", scene.edges.size(),
-                     scene.edges.size() - report.free_edges - report.nonmanifold_edges, report.free_edges,
-                     report.nonmanifold_edges, flat);
+  out += fmt::format(
+      "edges      {}: {} with two faces, {} free, {} with more than two; {} flat\n", grouped(scene.edges.size()),
+      grouped(scene.edges.size() - report.free_edges - report.nonmanifold_edges), grouped(report.free_edges),
+      grouped(report.nonmanifold_edges), grouped(static_cast<uint64_t>(flat)));
   const auto free = std::count_if(scene.wedges.begin(), scene.wedges.end(), is_free);
   const auto corners = std::ranges::count_if(scene.wedges, is_corner);
-  out += fmt::format("diffract   {} edges: {} wedges, {} free{}\n", scene.wedges.size(),
-                     scene.wedges.size() - static_cast<size_t>(free + corners), free,
-                     corners > 0 ? fmt::format(", {} corners", corners) : "");
+  out += fmt::format("diffract   {} edges: {} wedges, {} free{}\n", grouped(scene.wedges.size()),
+                     grouped(scene.wedges.size() - static_cast<size_t>(free + corners)),
+                     grouped(static_cast<uint64_t>(free)),
+                     corners > 0 ? fmt::format(", {} corners", grouped(static_cast<uint64_t>(corners))) : "");
   out += fmt::format(
       "           left out: {} pieces flat with another mesh, {} in corners of right angles (feet of walls), {} "
       "edges at the rim of the ground\n",
-      report.flat_pieces, report.corner_pieces, report.ground_rims);
+      grouped(report.flat_pieces), grouped(report.corner_pieces), grouped(report.ground_rims));
   out += fmt::format("materials  {}\n", scene.materials.size());
   const std::vector<MaterialUse> use = material_use(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -114,8 +118,8 @@ std::string describe_scene(const Scene& scene) {
     }
     const std::string law = m.layers.empty() ? fmt::format("{}, {}, {}", thickness(m), electrical(m), range(m))
                                              : fmt::format("{} layers", m.layers.size());
-    out += fmt::format("  {:<20} {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, law, use[i].triangles,
-                       use[i].surfaces, use[i].area_m2);
+    out += fmt::format("  {:<20} {}; {} triangles, {} surfaces, {:.0f} m2\n", m.name, law, grouped(use[i].triangles),
+                       grouped(use[i].surfaces), use[i].area_m2);
     for (const Material& layer : m.layers)
       out += fmt::format("    {:<18} {}, {}, {}\n", layer.name, thickness(layer), electrical(layer), range(layer));
   }

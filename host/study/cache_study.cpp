@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include "output/median.hpp"
 #include "simulation/name_pattern.hpp"
 #include "study/interleaved_caches.hpp"
@@ -188,6 +189,7 @@ uint64_t study_frames(const CacheStudy& study, const Request& request, bool gpu)
 
 CacheMeasurement measure_study(const CacheStudy& study, const Request& request, const Host& host) {
   CacheMeasurement out;
+  std::shared_ptr<void> guard = host.guard();  // until there is a point to keep
   Config first = request.config;
   first.trace.rays = study.rays.front();
   uncached(first);
@@ -217,6 +219,7 @@ CacheMeasurement measure_study(const CacheStudy& study, const Request& request, 
       if (!point.empty() && study.first_depth && !add_first_depth(at, point)) point.clear();
       if (!point.empty() && study.by_transmitter && !add_regions(at, transmitters, point)) point.clear();
       if (point.empty()) return out;  // it was stopped
+      guard.reset();
       host.say(point_line(study, point));
       out.rows.insert(out.rows.end(), point.begin(), point.end());
       ++out.points;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numeric>
 #include <random>
 #include "study/hit_recorder.hpp"
@@ -193,6 +194,7 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   trace.directions = "hilbert";
   const uint32_t wanted = wanted_frames(figure, request);
   const Config config = frame_world(figure, request.config, wanted);
+  std::shared_ptr<void> guard = host.guard();  // half of a drive is no result
   TracedWorld traced(config, request.device);
   const std::string where = config.file.empty() ? "" : config.file + ": ";
   if (traced.world.clock.frame_count() == 1)
@@ -210,13 +212,14 @@ Findings measure(const FrameFigure& figure, const Experiment& experiment, const 
   const FrameHits first = record(drive.transmitter, drive.first);
   FrameHits previous = first;
   for (uint32_t frame = 1; frame < drive.frames(); ++frame) {
-    if (host.interrupted()) return found;  // half of a drive is no result
+    if (host.interrupted()) return found;
     host.tell(experiment.name, frame, drive.frames(), "frames");
     FrameHits now = record(drive.transmitter, drive.first + frame);
     for (const auto& pairs : {compare_pair(first, now, "first", frame), compare_pair(previous, now, "previous", frame)})
       rows.insert(rows.end(), pairs.begin(), pairs.end());
     previous = std::move(now);
   }
+  guard.reset();
   found.points = 1;
   found.figure = depth_figure(
       {.name = experiment.name,

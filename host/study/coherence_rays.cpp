@@ -3,6 +3,7 @@
 // and packets. A ray that ended leaves a gap, so a lag counts launched rays at every depth.
 #include "study/coherence_rays.hpp"
 #include <fmt/format.h>
+#include <memory>
 #include <numeric>
 #include "study/hit_recorder.hpp"
 #include "study/run.hpp"
@@ -32,6 +33,7 @@ const Columns<LagRow>& lag_columns() {
 }
 
 Findings measure(const LagFigure&, const Experiment& experiment, const Request& request, const Host& host) {
+  std::shared_ptr<void> guard = host.guard();  // a map of directions alone is no result
   TracedWorld traced(request.config, request.device);
   const Drive drive =
       plan_drive(traced, 1, 1, request.config.file.empty() ? "" : request.config.file + ": " + experiment.name + ": ");
@@ -51,6 +53,7 @@ Findings measure(const LagFigure&, const Experiment& experiment, const Request& 
       for (const LagCoherence& at : coherence_along(hits[i], lags))
         rows.push_back({.directions = directions, .depth = i + 1, .found = at});
   }
+  guard.reset();
   found.points = 1;
   DepthPlot plot{.name = experiment.name,
                  .title = experiment.title + ", " + traced.device.name,

@@ -3,6 +3,7 @@
 // A frame without a cache, reuse or diffraction launches the rays of its transmitters and no others.
 #include <fmt/format.h>
 #include <algorithm>
+#include <memory>
 #include "base/stopwatch.hpp"
 #include "study/order_claims.hpp"
 #include "study/run.hpp"
@@ -142,6 +143,7 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
                             .repeats = run.request.repeats,
                             .watch = run.host.watch};
     std::vector<OrderRow> point;
+    const std::shared_ptr<void> guard = rows.empty() ? run.host.guard() : nullptr;  // there is nothing to keep
     try {
       point = measure_groups(run.config, run.figure.series, rays, of, run.request.device);
     } catch (const FrameStopped&) {
@@ -170,7 +172,9 @@ Words order_words(const Experiment& experiment, const std::vector<OrderRow>& row
 
 Findings measure(const OrderFigure& figure, const Experiment& experiment, const Request& request, const Host& host) {
   OrderRun run{.figure = figure, .experiment = experiment, .request = request, .host = host};
+  std::shared_ptr<void> guard = host.guard();  // while the kernels of the probe are compiled
   Findings found{.device = prepare(run)};
+  guard.reset();
   found.planned = run.counts.size();
   std::vector<OrderRow> rows;
   const std::string left_out = measure_points(run, rows, found);

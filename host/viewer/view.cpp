@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <initializer_list>
+#include "base/digits.hpp"
 #include "radio/link_budget.hpp"
 #include "results/link_table.hpp"
 #include "results/saved_world.hpp"
@@ -143,10 +144,10 @@ void warn_of_losses(const FrameBlocks& blocks, ViewPage& page) {
     page.warnings.push_back(
         fmt::format("the page holds the {} strongest of {} paths; fewer frames (--frames) "
                     "or another limit (--max-paths) show the others",
-                    blocks.shown_paths, blocks.paths));
+                    grouped(blocks.shown_paths), grouped(blocks.paths)));
   if (blocks.shown_links < blocks.links)
     page.warnings.push_back(fmt::format("gains over time are there for the {} strongest of {} links of all frames",
-                                        blocks.shown_links, blocks.links));
+                                        grouped(blocks.shown_links), grouped(blocks.links)));
   if (!blocks.area_warning.empty()) page.warnings.push_back(blocks.area_warning);
 }
 

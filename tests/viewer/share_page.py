@@ -72,5 +72,16 @@ for width in (1440, 1000, 800, 761, 390):
     page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", dict(width=width, height=900, deviceScaleFactor=1, mobile=False))
     page.wait(f"{width} pixels", lambda: page.js("return document.documentElement.clientWidth") == width)
     assert page.js(CUT) == [0, []], (width, page.js(CUT))
+# In the narrowest window the legend is below the view, and the picture has it there.
+BELOW = """const view = canvas.getBoundingClientRect(), legend = document.getElementById("legend").getBoundingClientRect(), made = picture();
+const ratio = made.width / view.width, bar = document.querySelector("#legend canvas").getBoundingClientRect();
+const at = [bar.left - view.left + 20, bar.top - view.top + bar.height / 2].map((x) => Math.round(x * ratio));
+return [view.height, legend.top - view.bottom, made.height / ratio - view.height - legend.height,
+        Array.from(made.getContext("2d").getImageData(...at, 1, 1).data),
+        Array.from(document.querySelector("#legend canvas").getContext("2d").getImageData(20, 0, 1, 1).data)];"""
+page.wait("the view", lambda: page.js("return canvas.width === Math.round(canvas.clientWidth * devicePixelRatio)"))
+high, gap, more, pixel, bar = page.js(BELOW)
+assert high > 300 and abs(gap) < 1 and abs(more) < 2, (high, gap, more)
+assert np.abs(np.array(pixel) - np.array(bar)).max() <= 3, (pixel, bar)
 page.check_clean()
 print("share: the address, the file of a link, the picture and narrow windows are right")

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include "base/digits.hpp"
 #include "base/file.hpp"
 #include "output/sample_run.hpp"
 #include "radio/links.hpp"
@@ -251,5 +252,6 @@ TEST_CASE("a hundred vehicles, a hundred thousand paths per frame") {
   CHECK(small.html.size() > 11'500'000);
   CHECK(small.paths < 200000);
   REQUIRE(small.warnings.size() == 1);
-  CHECK(small.warnings[0].find(fmt::format("{} strongest of 200000 paths", small.paths)) != std::string::npos);
+  CHECK(small.warnings[0].find(fmt::format("{} strongest of 200,000 paths", grouped(small.paths))) !=
+        std::string::npos);
 }

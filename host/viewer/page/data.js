@@ -13,6 +13,9 @@ const shown_kinds = [...path_kinds.keys()].filter((kind) => path_kinds[kind].sho
 const code_of = (interaction) => path_kinds.find((kind) => kind.interaction === interaction).code;
 const words_of_kind = (kind) => path_kinds[kind].word.replace(/_/g, " ");
 
+// Writes 12345 as 12,345, as the program does.
+const grouped = (number) => number.toLocaleString("en-US");
+
 // Empty places of a live world have no names.
 const is_taken = ([name]) => name !== "" || !meta.reload_s;
 

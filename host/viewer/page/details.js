@@ -38,8 +38,8 @@ function missed_text() {
   const unknown = meta.missed_unknown ? `It is not known what rays have missed${meta.missed ? " in some frames" : ""}: ${meta.missed_unknown}.` : "";
   if (!meta.missed) return unknown;
   const {paths: [paths, low, high], power_share: [share, least, most]} = meta.missed;
-  const about = paths < 0.5 ? "probably missed none" : `missed about ${Math.round(paths)}`;
-  return `Rays have ${about} of ${meta.paths[1]} paths (${Math.round(low)} to ${Math.ceil(high)}), `
+  const about = paths < 0.5 ? "probably missed none" : `missed about ${grouped(Math.round(paths))}`;
+  return `Rays have ${about} of ${grouped(meta.paths[1])} paths (${grouped(Math.round(low))} to ${grouped(Math.ceil(high))}), `
     + `${share_text(share)} of the power (${share_text(least)} to ${share_text(most)}). ${unknown}`.trim();
 }
 

@@ -55,10 +55,10 @@ function refilter() {
   lines.rebuild(state.frame, (frame, i) => filters.wanted(frame, i), control("colour").value, path_scale());
   timing.rebuild_ms = performance.now() - start;
   const {paths, total} = state.frame;
-  const of = total === paths ? `of ${paths}` : `of ${paths}, the strongest of ${total}`;
-  const faded = lines.faded ? `; ${lines.faded} of them faded` : "";
+  const of = total === paths ? `of ${grouped(paths)}` : `of ${grouped(paths)}, the strongest of ${grouped(total)}`;
+  const faded = lines.faded ? `; ${grouped(lines.faded)} of them faded` : "";
   const maps = grids.length && grid_of[filters.rx] === undefined ? "; click the map for those of a cell" : "";
-  control("count").textContent = `${lines.visible.length} ${of} in this frame${faded}${maps}`;
+  control("count").textContent = `${grouped(lines.visible.length)} ${of} in this frame${faded}${maps}`;
   if (state.selected >= 0 && !filters.wanted(state.frame, state.selected)) select(-1);
   draw_legends();
   refresh_link();
@@ -263,11 +263,11 @@ function fill_follow() {
 function write_facts() {
   document.title = `${meta.title} \u2013 wavetracer`;
   control("title").textContent = meta.title;
-  const count = (n, one, many) => `${n} ${n === 1 ? one : many}`;
+  const count = (n, one, many) => `${grouped(n)} ${n === 1 ? one : many}`;
   const [shown, all] = meta.paths;
   control("summary").textContent = [
     `${+(meta.frequency_hz / 1e9).toPrecision(6)} GHz`,
-    shown === all ? count(all, "path", "paths") : `the ${shown} strongest of ${all} paths`,
+    shown === all ? count(all, "path", "paths") : `the ${grouped(shown)} strongest of ${grouped(all)} paths`,
     count(meta.frames.length, "frame", "frames"), count(antenna_count(), "antenna", "antennas"),
     ...grids.map(({name, columns, rows}) => `map ${name} of ${columns} \u00d7 ${rows} receivers`),
     ...(meta.instances.length ? [count(meta.instances.filter(is_taken).length, "vehicle", "vehicles")] : []), `wavetracer ${meta.version}`].join(", ");

@@ -113,18 +113,19 @@ function draw_page_legend(pen, legend, origin) {
   }
 }
 
-// Returns a canvas with the picture, its marks and its legend.
+// Returns a canvas with the picture, its marks and its legend, which narrow windows have below the view.
 function picture() {
   draw();
   const out = document.createElement("canvas"), over = control("overlay"), ratio = over.width / canvas.clientWidth;
-  [out.width, out.height] = [over.width, over.height];
+  const view = canvas.getBoundingClientRect(), below = Math.max(0, control("legend").getBoundingClientRect().bottom - view.bottom);
+  [out.width, out.height] = [over.width, over.height + Math.round(below * ratio)];
   const pen = out.getContext("2d");
   pen.fillStyle = theme().sky;
   pen.fillRect(0, 0, out.width, out.height);
-  if (renderer) pen.drawImage(canvas, 0, 0, out.width, out.height);
+  if (renderer) pen.drawImage(canvas, 0, 0, over.width, over.height);
   pen.drawImage(over, 0, 0);
   pen.scale(ratio, ratio);
-  draw_page_legend(pen, control("legend"), canvas.getBoundingClientRect());
+  draw_page_legend(pen, control("legend"), view);
   return out;
 }
 
