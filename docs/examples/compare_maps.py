@@ -24,7 +24,7 @@ def gains(folder):
 
 def main():
     if len(sys.argv) < 3:
-        sys.exit(__doc__.split("\n\n")[1])
+        sys.exit((__doc__ or "").split("\n\n")[1])
     reference = gains(sys.argv[1])
     print(f"{'run':<24} {'path gain, dB':>16} {'links':>7} {'lost':>6} {'median, dB':>11} {'9 of 10, dB':>12}")
     for folder in sys.argv[2:]:

@@ -64,8 +64,8 @@ def main():
         raise SystemExit("the slopes differ")
     angles = start
     for _ in range(12):
-        value, slope = value_and_slope(angles)
-        angles = angles + 0.01 * slope
+        angles = angles + 0.01 * value_and_slope(angles)[1]
+    value = power_db(angles)
     print(f"yaw {np.degrees(angles[0]):.1f} degrees, pitch {np.degrees(angles[1]):.1f} degrees: {value:.2f} dB instead of "
           f"{power_db(start):.2f} dB")
     if value < power_db(start) + 3:

@@ -29,7 +29,7 @@ def print_links(channels, most=5):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     live.add_arguments(parser, detail="paths")
     parser.add_argument("--frames", type=int, default=20)
     options = parser.parse_args()

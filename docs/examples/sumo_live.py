@@ -88,7 +88,7 @@ def follow(traci, client, options, output):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     live.add_arguments(parser, encoding="json")
     parser.add_argument("--offset", type=float, nargs=3, default=[0, 0, 0], metavar=("X", "Y", "Z"))
     parser.add_argument("--default-type", default="passenger")

@@ -7,7 +7,6 @@
 
 #include "accuracy/advice.hpp"
 #include "accuracy/inputs.hpp"
-#include "accuracy/latin_hypercube.hpp"
 #include "accuracy/study.hpp"
 #include "app/gate.hpp"
 #include "app/program.hpp"
@@ -193,21 +192,6 @@ TEST_CASE("an interrupt leaves the settings that are complete") {
   CHECK(cut.rows[0].reference);
   for (const accuracy::Row& done : cut.rows) CHECK(done.error.reference_paths > 0);
   CHECK_FALSE(accuracy::recommendations(cut).empty());
-}
-
-TEST_CASE("a Latin hypercube draws once from every interval of every dimension, and is normal") {
-  const size_t samples = 100;
-  const auto rows = accuracy::normal_hypercube(samples, 3, 11);
-  REQUIRE(rows.size() == samples);
-  for (size_t dimension = 0; dimension < 3; ++dimension) {
-    std::vector<int> drawn(samples);
-    for (const std::vector<double>& row : rows)
-      ++drawn[static_cast<size_t>(0.5 * std::erfc(-row[dimension] / std::sqrt(2.0)) * samples)];
-    CHECK(std::ranges::count(drawn, 1) == samples);
-  }
-  CHECK(rows == accuracy::normal_hypercube(samples, 3, 11));
-  CHECK(rows != accuracy::normal_hypercube(samples, 3, 12));
-  CHECK(accuracy::normal_quantile(0.95) == doctest::Approx(1.6448536269514722).epsilon(1e-12));
 }
 
 namespace {

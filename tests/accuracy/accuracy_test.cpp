@@ -2,11 +2,13 @@
 // The varied settings, the recommended row, and the table, with rows made by hand and without a device.
 #include <doctest/doctest.h>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include "accuracy/advice.hpp"
 #include "accuracy/axes.hpp"
 #include "accuracy/files.hpp"
 #include "accuracy/label_places.hpp"
+#include "accuracy/latin_hypercube.hpp"
 #include "accuracy/table.hpp"
 #include "wavetracer/config_file.hpp"
 
@@ -245,4 +247,19 @@ TEST_CASE("a mechanism is described by what is missing without it") {
             "path gains change by 1.2 dB at the median link, 31 dB at the worst; 3 links have no path without it; "
             "a frame takes 500 ms with it, 100 ms without. Yours is off"));
   CHECK(has(words, "Scattering off rough surfaces: not measured, because no material scatters"));
+}
+
+TEST_CASE("a Latin hypercube draws once from every interval of every dimension, and is normal") {
+  const size_t samples = 100;
+  const auto rows = normal_hypercube(samples, 3, 11);
+  REQUIRE(rows.size() == samples);
+  for (size_t dimension = 0; dimension < 3; ++dimension) {
+    std::vector<int> drawn(samples);
+    for (const std::vector<double>& row : rows)
+      ++drawn[static_cast<size_t>(0.5 * std::erfc(-row[dimension] / std::sqrt(2.0)) * samples)];
+    CHECK(std::ranges::count(drawn, 1) == samples);
+  }
+  CHECK(rows == normal_hypercube(samples, 3, 11));
+  CHECK(rows != normal_hypercube(samples, 3, 12));
+  CHECK(normal_quantile(0.95) == doctest::Approx(1.6448536269514722).epsilon(1e-12));
 }
