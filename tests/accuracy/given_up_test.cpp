@@ -26,7 +26,7 @@ TEST_CASE("a frame that is given up leaves the settings that are complete, and n
   };
   const accuracy::Request request{
       .file = file, .sets = {}, .rays = {1000, 10000}, .device = "", .repeats = 1, .command_line = ""};
-  // Where the program would end, it keeps the rows that there are.
+  // The program keeps the rows that there are where it would end.
   const accuracy::Study cut =
       accuracy::study(request, host, [&](const accuracy::Study& so_far) { kept = so_far.rows.size(); });
   CHECK(cut.rows.size() == 3);

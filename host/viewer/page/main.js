@@ -197,7 +197,7 @@ function show_all(with_city, elevation) {
 }
 
 function resize() {
-  const {clientWidth: width, clientHeight: height} = canvas.parentElement, ratio = Math.min(devicePixelRatio || 1, 2);
+  const {clientWidth: width, clientHeight: height} = canvas, ratio = Math.min(devicePixelRatio || 1, 2);
   if (!width || !height) return;
   if (renderer) {
     renderer.setPixelRatio(ratio);
@@ -300,7 +300,7 @@ const pointer_value = new PointerValue(control("pointer"), canvas, (x, y) => cov
 control("home").addEventListener("click", () => show_all(true));
 control("top").addEventListener("click", () => show_all(false, Math.PI / 2));
 dark_scheme.addEventListener("change", paint);
-new ResizeObserver(resize).observe(canvas.parentElement);
+new ResizeObserver(resize).observe(canvas);
 
 write_facts();
 fill_follow();
