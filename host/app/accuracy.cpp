@@ -32,7 +32,7 @@ struct AccuracyOptions {
   accuracy::ChanceRequest chances;  // its inputs are those of intervals, too
   std::vector<std::string> formats = {"csv"};
   std::string directory = "out/accuracy", rays;
-  std::optional<bool> certify;
+  const CLI::Option* certify = nullptr;  // of the command line; without it the configuration decides
   bool varies = false;
 };
 
@@ -169,7 +169,7 @@ void run_accuracy(const AccuracyOptions& options, Invocation& invocation) {
   request.command_line = invocation.command_line;
   if (!options.rays.empty()) request.rays = study::parse_ray_range(options.rays);
   const Config config = load_config(request.file, request.sets);
-  request.certify = options.certify.value_or(accuracy::beams_are_cheap(config));
+  if (options.certify->count() == 0) request.certify = accuracy::beams_are_cheap(config);
   check_inputs(config);
   const fs::path folder = begin_study(options.directory);
   Progress progress;
@@ -196,9 +196,10 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
   command->add_option("--device", request.device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
   command->add_option("--rays", options->rays, "Smallest and largest number of rays, A:B; default 1e4:1e6");
-  command->add_flag("--certify,!--no-certify", options->certify,
-                    "Compare rays with beams, which find all paths (trace.discovery), or with ten times the largest "
-                    "number of rays; if not given, with beams where only reflections are asked for, six at most");
+  options->certify = command->add_flag(
+      "--certify,!--no-certify", request.certify,
+      "Compare rays with beams, which find all paths (trace.discovery), or with ten times the largest "
+      "number of rays; if not given, with beams where only reflections are asked for, six at most");
   command->add_option("--frames", request.frames, "Number of frames of a drive to measure, spread evenly over it")
       ->check(number_range(1, 1000000))
       ->capture_default_str();
