@@ -32,7 +32,7 @@ struct AccuracyOptions {
   accuracy::ChanceRequest chances;  // its inputs are those of intervals, too
   std::vector<std::string> formats = {"csv"};
   std::string directory = "out/accuracy", rays;
-  const CLI::Option* certify = nullptr;  // of the command line; without it the configuration decides
+  const CLI::Option* certify = nullptr;  // the flag; where it is not given, the configuration decides
   bool varies = false;
 };
 

@@ -98,8 +98,6 @@ std::optional<data_view> inner_ground_truth(const data_view& message) {
 struct OsiObject {
   std::optional<uint64_t> number;
   std::string id, type;
-  std::string
-      of_class;  // SUMO's type for the class of the object; `type` is the same, unless this program has named one
   std::optional<data_view> base;
 };
 
@@ -130,10 +128,10 @@ OsiObject read_object(const data_view& message) {
     return true;
   });
   if (out.id.empty()) out.id = fmt::format("{}", out.number.value_or(0));
-  out.of_class = object == osi::vehicle_object      ? osi::class_of_number(vehicle)
-                 : object == osi::pedestrian_object ? "pedestrian"
-                                                    : "other";
-  if (out.type.empty()) out.type = out.of_class;
+  if (out.type.empty())
+    out.type = object == osi::vehicle_object      ? osi::class_of_number(vehicle)
+               : object == osi::pedestrian_object ? "pedestrian"
+                                                  : "other";
   return out;
 }
 
@@ -256,11 +254,9 @@ class OsiReader {
         sample.speed_m_s = glm::dot(*velocity, heading(sample.yaw_rad, sample.pitch_rad));
       up = turned_arm({0, 0, 1}, sample.yaw_rad, sample.pitch_rad);
     }
-    // A run may have had types of its own, which this configuration need not know.
-    const std::string& type = tracks_.knows_type(object.type) ? object.type : object.of_class;
-    const auto known = sumo_type(type);
+    const auto known = sumo_type(object.type);
     sample.position_m -= 0.5 * (size_m ? size_m->z : known ? known->height_m : 0) * up;
-    tracks_.add(object.id, type, sample, messages_, what, size_m);
+    tracks_.add(object.id, object.type, sample, messages_, what, size_m);
   }
 
   ByteStream& stream_;

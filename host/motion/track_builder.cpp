@@ -83,10 +83,6 @@ void TrackBuilder::add(std::string_view id, std::string_view type, const Sample&
   last_line = line;
 }
 
-bool TrackBuilder::knows_type(std::string_view name) const {
-  return options_.default_type || sumo_type(name) || std::ranges::count(options_.types, name, &VehicleType::name) > 0;
-}
-
 uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const std::optional<glm::dvec3>& size_m) {
   // Vehicles of one type may differ in size.
   const std::string key =

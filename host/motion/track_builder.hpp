@@ -30,8 +30,6 @@ class TrackBuilder {
   // (those of TrajectoryOptions::types take precedence). Throws if the vehicle has a sample at this time or later.
   void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what,
            const std::optional<glm::dvec3>& size_m = {});
-  // Does this type have a size: one of TrajectoryOptions, or that of a class of SUMO?
-  bool knows_type(std::string_view name) const;
   // Tells whether the vehicle is off the network, by its file coordinates, and counts it. Such a sample must not be
   // added: the vehicle is absent then.
   bool off_network(double x, double y) {

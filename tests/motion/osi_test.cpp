@@ -113,26 +113,6 @@ TEST_CASE("a type of the configuration goes before the size of the object; gzip 
   CHECK(packed.tracks.size() == 3);
 }
 
-TEST_CASE("a type that a run had and this configuration lacks is that of the object's class") {
-  std::string object = object_at(3, 1);
-  {
-    protozero::pbf_writer writer(object);
-    protozero::pbf_writer source(writer, osi::moving_object::source_reference);
-    source.add_string(osi::external_reference::type, std::string(osi::reference_type));
-    source.add_string(osi::external_reference::identifier, "ego");
-    source.add_string(osi::external_reference::identifier, "sedan");
-  }
-  const std::string trace = trace_of({timed(0, object)});
-  const auto type_with = [&](const TrajectoryOptions& options) {
-    const Trajectories t = read_text(trace, options, "a.osi");
-    return t.types[track_of(t, "ego").type];
-  };
-  CHECK(type_with({.default_type = std::nullopt}).name == "other");
-  CHECK(type_with({.types = {{"sedan", 4.5, 1.8, 1.4}}, .default_type = std::nullopt}) ==
-        VehicleType{"sedan", 4.5, 1.8, 1.4});
-  CHECK(type_with({.default_type = VehicleType{"any", 4, 2, 1}}).length_m == 4);
-}
-
 TEST_CASE("classes there and here lead to each other") {
   for (const char* word :
        {"passenger", "delivery", "truck", "trailer", "bus", "motorcycle", "bicycle", "tram", "rail"}) {
