@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and numbers of the closing report.
-// Counts are sums over the frames.
+// Words and numbers of the closing report. Counts are sums over the frames.
 #include "app/report.hpp"
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,7 +19,6 @@
 
 namespace wavetracer::app {
 namespace {
-
 constexpr size_t shown_pairs = 3;  // number of the strongest pairs, and of the weakest
 
 // For one frame it says how it was timed; for many, how their times are distributed.
@@ -92,6 +90,8 @@ std::string feature_line(const Run& run) {
     else if (asked)
       off += fmt::format("; no {}: {}", spaced(key), found->second.reason);
   }
+  if (const auto floor_db = trace.diffraction_floor_db; trace.diffraction && floor_db)
+    off += fmt::format("; paths over edges that are surely below {} dB are left out", *floor_db);
   return fmt::format("features   {}{}\n", on.empty() ? "line of sight alone" : on, off);
 }
 
@@ -105,16 +105,10 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
-// Says which paths floors have left out; empty if there are none.
+// Says how many paths trace.scattering_floor_db has left out; empty if there are none.
 std::string weak_line(const Run& run, const FrameCounts& n) {
-  std::string out;
-  const auto edges = run.summary.features.find("diffraction");
-  if (edges != run.summary.features.end() && edges->second.on && run.config.trace.diffraction_floor_db)
-    out = fmt::format("left out   paths over edges that are surely below trace.diffraction_floor_db = {}\n",
-                      *run.config.trace.diffraction_floor_db);
-  if (n.weak == 0) return out;
-  return out +
-         fmt::format("left out   {} paths that scatter and are reflected, each below trace.scattering_floor_db = {}\n",
+  if (n.weak == 0) return "";
+  return fmt::format("left out   {} paths that scatter and are reflected, each below trace.scattering_floor_db = {}\n",
                      grouped(n.weak), *run.config.trace.scattering_floor_db);
 }
 

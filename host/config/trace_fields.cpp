@@ -105,11 +105,12 @@ Table trace_table() {
            .slot = t(&TraceConfig::diffraction_floor_db),
            .unit = "dB",
            .range = {-400, 0},
-           .doc = "Only with diffraction: the path gain between isotropic antennas, without their own gains, below "
-                  "which a path over one edge or two may be left out. A bound decides, which takes every reflection "
-                  "for perfect and adds the waves of all boundaries of an edge; so no stronger path is lost, and "
-                  "weaker ones may be kept. Most paths over two edges are far too weak to matter, and a floor of -160 "
-                  "saves most of their time. Not given: none is left out."},
+           .doc = "Only with diffraction: the path gain between isotropic antennas of one polarization each, without "
+                  "their own gains, below which a path over one edge or two may be left out. The program compares an "
+                  "upper bound of the gain with this value. The bound assumes perfect reflections, so no stronger path "
+                  "is lost, and weaker ones may be kept. Paths over three edges and more, along a roof or a wall, and "
+                  "over ends of edges are always kept. Many weak paths together have power, too: choose a floor 20 dB "
+                  "below the weakest link that matters. Not given: none is left out."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, "

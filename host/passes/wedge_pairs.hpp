@@ -21,7 +21,7 @@ class WedgePairs {
   // scene: that of device_scene; transmission: do waves pass surfaces of it that are not opaque? Pairs whose paths are
   // surely below the floor are left out.
   WedgePairs(gpu::Context& context, const DeviceScene& device_scene, const Scene& scene, bool transmission,
-             BendFloors floors);
+             BendFloors floors = {});
   // Finds the runs of prefixes that see one wedge. The prefixes must be sorted; call this before asking for their
   // pairs.
   void list_runs(const WedgeList& wedges, const WedgePrefixList& prefixes);

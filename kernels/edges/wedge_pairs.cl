@@ -2,10 +2,9 @@
 // wedge_pairs: candidates of paths over two wedges, straight from one to the other: every prefix of a transmitter with
 // every one of the other end that sees another wedge, both convex, if pieces that they see may see each other. Results
 // about two static wedges are kept as long as the scene is.
-#include "lib/bend_bound.clh"
-#include "lib/crossing.clh"
 #include "lib/join.clh"
 #include "lib/memory_order.clh"
+#include "lib/prefix_group.clh"
 #include "lib/sight.clh"
 #include "wavetracer/device/arguments.h"
 
@@ -51,73 +50,6 @@ inline uint look(const wt_sight* sight, const global wt_wedge* low, const global
   return known;
 }
 
-// The number of prefixes of one wedge that are taken together: a result about it and another wedge serves them all.
-#define TOGETHER 16u
-
-typedef struct {
-  uint count, most;                          // most: reflections that the other side may have
-  uint numbers[TOGETHER], pieces[TOGETHER];  // pieces: those that remain for the other wedge
-  float powers[TOGETHER];                    // wt_prefix_power, with a floor
-} prefix_group;
-
-// Is this prefix the first of a group, among those of its wedge in the block? If so, its group goes to *group.
-inline int begins_group(const global uint* keys, const global wt_wedge_prefix* prefixes, wt_wedge_join_arguments args,
-                        uint i, prefix_group* group) {
-  const uint wedge = wt_wedge_of(keys[i]);
-  const uint begin = max(args.first, wt_lower_bound_before(keys, i, wt_wedge_key(wedge, 0)));
-  if ((i - begin) % TOGETHER != 0) return 0;
-  group->count = group->most = 0;
-  for (uint k = i; k < min(i + TOGETHER, args.end) && wt_wedge_of(keys[k]) == wedge; ++k) {
-    const global wt_wedge_prefix* a = prefixes + k;
-    if (a->end >= args.transmitter_count || a->depth + 2 > args.max_depth) continue;
-    group->numbers[group->count++] = k;
-    group->most = max(group->most, args.max_depth - 2 - a->depth);
-  }
-  return group->count > 0;
-}
-
-// Leaves each prefix of the group the pieces of the edge v that it may cross on its way to the edge w. Returns 0 if
-// none has any.
-inline uint leave_pieces(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
-                         prefix_group* group) {
-  const wt_edge_view to = wt_edge_seen_from(v, w);
-  uint any = 0;
-  for (uint k = 0; k < group->count; ++k) {
-    group->pieces[k] = prefixes[group->numbers[k]].pieces & wt_crossed_pieces(v, prefixes + group->numbers[k], &to);
-    any |= group->pieces[k];
-  }
-  return any;
-}
-
-// What a floor needs to know of two wedges, once it is asked: the azimuths at which each sees the other, the least
-// power of paths whose legs are 1 m long, and which prefixes of the group have their powers.
-typedef struct {
-  int known;
-  uint weighed;
-  float least, apart_m;
-  float2 ahead, back;
-} pair_floor;
-
-// Is every path from prefix k of the group to b weaker than the floor? power_b: wt_prefix_power of b, NAN until it is
-// needed.
-inline int is_weak(const global wt_wedge_prefix* prefixes, const global wt_wedge* v, const global wt_wedge* w,
-                   const global wt_wedge_prefix* b, uint k, float floor, const wt_edge_view* back, pair_floor* pair,
-                   prefix_group* group, float* power_b) {
-  const global wt_wedge_prefix* a = prefixes + group->numbers[k];
-  if (!pair->known) {
-    const float most = WT_PAIR_BOUND * (wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0)) ? WT_PLANE_BOUND : 1.0);
-    pair->known = 1;
-    pair->least = floor / (most * most);
-    pair->apart_m = 0.9999f * (float)back->nearest;
-    pair->ahead = wt_azimuths_of_edge(v, w);
-    pair->back = wt_azimuths_of_edge(w, v);
-  }
-  if (isnan(*power_b)) *power_b = wt_prefix_power(w, b, pair->back);
-  if (!(pair->weighed >> k & 1u)) group->powers[k] = wt_prefix_power(v, a, pair->ahead);
-  pair->weighed |= 1u << k;
-  return group->powers[k] * *power_b < pair->least * pair->apart_m * (pair->apart_m + a->away + b->away);
-}
-
 // One sorted key per work-item. A run is the prefixes that see one wedge: heads[i] becomes i where one begins, else
 // WT_NONE. Runs of corners are left out; prefixes that see nothing have the last keys and are in no run.
 kernel void mark_runs(const global uint* keys, const global wt_wedge* wedges, global uint* heads, uint count) {
@@ -149,8 +81,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
   if (i >= args.end || keys[i] == WT_NONE) return;
   const uint wedge_a = wt_wedge_of(keys[i]);
   const global wt_wedge* v = wedges + wedge_a;
-  prefix_group group;
-  if (is_corner(v) || !begins_group(keys, prefixes, args, i, &group)) return;
+  wt_prefix_group group;
+  if (is_corner(v) || !wt_begins_group(keys, prefixes, args, i, &group)) return;
   const wt_sight sight = {nodes,       triangles, sight_args.triangle_slots,  sight_args.extent_m,   surfaces,
                           first_sides, sides,     sight_args.static_surfaces, sight_args.only_opaque};
   wt_found_candidates batch;
@@ -161,16 +93,19 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
     const uint wedge_b = wt_wedge_of(keys[runs[r]]), last = wt_wedge_key(wedge_b, group.most);
     const uint was_known = known_of(kept, sight_args.kept_wedges, wedge_a, wedge_b);
     const global wt_wedge* w = wedges + wedge_b;
-    if (was_known == ALL_PAIRS || !leave_pieces(prefixes, v, w, &group)) continue;
+    if (was_known == ALL_PAIRS) continue;
+    const wt_edge_view ahead = wt_edge_seen_from(v, w);
+    if (!wt_leave_pieces(v, &ahead, &group)) continue;
     const int a_is_low = wedge_a < wedge_b;
     const global wt_wedge *low = a_is_low ? v : w, *high = a_is_low ? w : v;
     uint known = was_known || in_sight(low, high) ? was_known : ALL_PAIRS;
     const uint end = known == ALL_PAIRS ? 0 : args.count;
     const wt_edge_view back = wt_edge_seen_from(w, v);
-    pair_floor pair = {0, 0, 0.0f, 0.0f, (float2)(0.0f), (float2)(0.0f)};
+    const float length_b = (float)w->length;
+    wt_pair_floor pair = {0, 0, 0.0f, 0.0f, (float2)(0.0f), (float2)(0.0f)};
     for (uint j = runs[r]; j < end && keys[j] <= last; ++j) {
       const global wt_wedge_prefix* b = prefixes + j;
-      const uint pieces_b = b->pieces & wt_crossed_pieces(w, b, &back);
+      const uint pieces_b = b->pieces & wt_crossed_pieces(length_b, b->along, b->away, b->first, b->final, &back);
       float power_b = NAN;
       for (uint k = 0; pieces_b && k < group.count; ++k) {
         const global wt_wedge_prefix* a = prefixes + group.numbers[k];
@@ -179,7 +114,8 @@ kernel void wedge_pairs(const global WT_NODE* nodes, const global WT_LEAF* trian
         if (!pieces_a || receiver == WT_NONE) continue;
         const uint wanted = pairs_of(a_is_low ? pieces_a : pieces_b, a_is_low ? pieces_b : pieces_a);
         if (!(wanted & (known >> 16 | ~known))) continue;
-        if (args.floor > 0.0f && is_weak(prefixes, v, w, b, k, args.floor, &back, &pair, &group, &power_b)) continue;
+        if (args.floor > 0.0f && wt_is_weak_pair(prefixes, v, w, b, k, args.floor, &back, &pair, &group, &power_b))
+          continue;
         if (!wt_may_bend(v, w, a, b)) continue;
         known = look(&sight, low, high, wanted, known, &hiders);
         if (known >> 16 & wanted)

@@ -56,6 +56,8 @@ inline void list_view(uint wedge, double3 at, const wt_onlooker* from, uint seen
   prefixes[slot].along = (float)at.x;
   prefixes[slot].away = (float)wt_from_edge(at);
   prefixes[slot].length = (float)wedges[wedge].length;
+  prefixes[slot].azimuth = 0.0f;
+  prefixes[slot].nearness = INFINITY;
 }
 
 // Lists the views, except those that the prefix also has through the wedge's first face, by another node.

@@ -38,9 +38,10 @@ inline void prefetch_chains(const global ulong* table, const global wt_wedge_can
 }
 
 // Is a path from image a over the point p of an edge to image b surely weaker than the floor? floor: a power, divided
-// by those of all constant factors.
+// by those of all constant factors. Paths over free ends have no floor.
 inline int is_weak_over_one(const global wt_wedge* v, double3 a, double3 b, double3 p, double floor,
                             double wavelength) {
+  if (v->free_ends != 0u) return 0;
   const double3 at = wt_in_wedge(v, a);
   const double before_m = sqrt(wt_dot(p - a, p - a)), after_m = sqrt(wt_dot(b - p, b - p)), off_m = wt_from_edge(at);
   const double sine = off_m / before_m, spread_m = before_m * after_m * sine * sine / (before_m + after_m);
@@ -48,9 +49,10 @@ inline int is_weak_over_one(const global wt_wedge* v, double3 a, double3 b, doub
   return most * most < floor * (before_m * after_m * (before_m + after_m) * sine * sine);
 }
 
-// The same over the points p and q of two edges.
+// The same over the points p and q of two edges. Paths along a plane of both have no floor.
 inline int is_weak_over_two(const global wt_wedge* v, const global wt_wedge* w, double3 a, double3 b, double3 p,
                             double3 q, double floor, double wavelength) {
+  if (wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0))) return 0;
   const double3 from = wt_in_wedge(v, a), to = wt_in_wedge(w, b);
   const double before_m = sqrt(wt_dot(p - a, p - a)), between_m = sqrt(wt_dot(q - p, q - p)),
                after_m = sqrt(wt_dot(b - q, b - q));
@@ -60,9 +62,17 @@ inline int is_weak_over_two(const global wt_wedge* v, const global wt_wedge* w, 
   const wt_bend_bound first = wt_bend_between(v, from, wt_in_wedge(v, q), spread_v, wavelength, 0);
   const wt_bend_bound second = wt_bend_between(w, to, wt_in_wedge(w, p), spread_w, wavelength, 0);
   const double pair = first.argument * second.argument > WT_FAR_EDGES ? WT_FAR_PAIR_BOUND : WT_PAIR_BOUND;
-  const double most = first.amplitude * second.amplitude * pair * (wt_share_plane(v, w, q - p) ? WT_PLANE_BOUND : 1.0);
+  const double most = first.amplitude * second.amplitude * pair;
   const double sines = sine_v * sine_w;
   return most * most < floor * (before_m * between_m * after_m * (before_m + between_m + after_m) * sines * sines);
+}
+
+// The same for one edge or two; w: the second one, or null.
+inline int is_weak(const global wt_wedge* v, const global wt_wedge* w, double3 a, double3 b, double3 p, double3 q,
+                   const wt_solve_arguments* args) {
+  if (args->floors[w != 0] == 0.0) return 0;
+  return w ? is_weak_over_two(v, w, a, b, p, q, args->floors[1], (double)args->wavelength_m)
+           : is_weak_over_one(v, a, b, p, args->floors[0], (double)args->wavelength_m);
 }
 
 kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
@@ -98,10 +108,7 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return;
   if (two && !wt_share_plane(v, w, q - p) && (!wt_in_free_space(v, p, q, 0.0) || !wt_in_free_space(w, q, p, 0.0)))
     return;
-  if (args.floors[two] > 0.0 && (two || v->free_ends == 0u) &&
-      (two ? is_weak_over_two(v, w, a, b, p, q, args.floors[1], wavelength)
-           : is_weak_over_one(v, a, b, p, args.floors[0], wavelength)))
-    return;
+  if (is_weak(v, two ? w : 0, a, b, p, q, &args)) return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, q, back_points)) return;
 

@@ -130,25 +130,26 @@ inline wt_slab wt_face_slab_of(const wt_wedge_face* face, double lit, wt_double2
   return slab;
 }
 
+// The coefficient, or one of its direction whose size is 1: a face reflects no more than it gets.
+inline wt_double2 wt_no_gain(wt_double2 coefficient) { return coefficient / fmax(wt_size(coefficient), 1.0); }
+
 // The reflection at a cosine of incidence, where the waves that count on one side of a boundary of reflection are not
 // those of the ray at the edge: on the mean, they meet the face at a cosine that is larger by `shift`, a complex
 // number. On the other side, where the face reflects a ray with the cosine `lit`, what the edge hides of that ray's
 // surroundings counts, mirrored about the ray: as much as `mirrored` says, which is 1 on the boundary and 0 far from
-// it, or where the face reflects no ray. On the boundary both sides leave just the ray. No cosine is negative, since a
-// face would reflect more than it gets.
+// it, or where the face reflects no ray. On the boundary both sides leave just the ray. No cosine is negative.
 inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, double lit, wt_double2 shift,
                                    double mirrored, double wavelength_m) {
   if (shift.x == 0.0 && shift.y == 0.0) return wt_face_slab(face, cosine, wavelength_m);
-  wt_double2 there = wt_real(cosine) + shift;
-  if (mirrored == 0.0) {
-    there.x = fmax(there.x, 0.0);
-    return wt_face_slab_of(face, lit, there, 0, wavelength_m);
-  }
-  there.x = fmin(there.x, 2.0 * lit);
-  const wt_slab hidden = wt_face_slab_of(face, lit, there, 1, wavelength_m);
-  wt_slab slab = wt_face_slab(face, cosine, wavelength_m);
-  slab.reflection_te = hidden.reflection_te * mirrored + slab.reflection_te * (1.0 - mirrored);
-  slab.reflection_tm = hidden.reflection_tm * mirrored + slab.reflection_tm * (1.0 - mirrored);
+  wt_double2 there = mirrored > 0.0 ? wt_real(2.0 * lit - cosine) - shift : wt_real(cosine) + shift;
+  there.x = fmax(there.x, 0.0);
+  wt_slab slab = wt_face_slab_at(face, there, wavelength_m);
+  slab.reflection_te = wt_no_gain(slab.reflection_te);
+  slab.reflection_tm = wt_no_gain(slab.reflection_tm);
+  if (mirrored == 0.0) return slab;
+  const wt_slab ray = wt_face_slab(face, lit, wavelength_m), far = wt_face_slab(face, cosine, wavelength_m);
+  slab.reflection_te = (ray.reflection_te * 2.0 - slab.reflection_te) * mirrored + far.reflection_te * (1.0 - mirrored);
+  slab.reflection_tm = (ray.reflection_tm * 2.0 - slab.reflection_tm) * mirrored + far.reflection_tm * (1.0 - mirrored);
   return slab;
 }
 

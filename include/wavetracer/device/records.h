@@ -160,8 +160,8 @@ typedef struct {
   wt_uint pieces;    // pieces of the edge that it may see
   float first;       // place on the edge before which it sees nothing
   float final;       // place on the edge behind which it sees nothing
-  float azimuth;     // of the image about the edge, from face 0
-  float nearness;    // the longest way to the edge over the square of away, 1/m
+  float azimuth;     // set by wedge_sight: the image's azimuth about the edge, from face 0
+  float nearness;    // set by wedge_sight: the longest way to the edge over the square of away, 1/m
 } wt_wedge_prefix;
 
 // The key that sorts such prefixes: the wedge, then the depth, so that those that are short enough stand together.
