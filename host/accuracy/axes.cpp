@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include "config/contradictions.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
@@ -125,8 +126,11 @@ bool beams_are_cheap(const Config& config) {
   constexpr uint32_t few_reflections = 6;
   const TraceConfig& trace = config.trace;
   const bool reflections_alone = !trace.diffraction && !trace.transmission && !trace.scattering;
-  const bool needs_rays =
-      config.cache.on() || trace.by_spheres() || config.output.waypoints > 0 || trace.discover_every_s > 0;
+  Config by_beams = config;
+  by_beams.trace.discovery = "beams";
+  const bool needs_rays = std::ranges::any_of(config::contradictions(by_beams), [](const config::Contradiction& found) {
+    return std::ranges::find(found.keys, "trace.discovery") != found.keys.end();
+  });
   return reflections_alone && trace.max_depth <= few_reflections && !needs_rays;
 }
 

@@ -99,7 +99,7 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
       // This is the same as in wt_obstructed.
       const int aside = tries < WT_RIM_TRIES &&
                         wt_step_aside(triangles, args.triangle_slots, corners, walk.place, surfaces + surface, &l);
-      if (aside || (!turned && wt_turn(&l))) {
+      if (aside || (!turned && wt_take_other_side(&l))) {
         tries += aside;
         turned |= !aside;
         count = first;

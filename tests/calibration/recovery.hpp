@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levels of a world that is known are measured values of another one: helpers of the tests that find it again.
 #pragma once
+#include <random>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,15 @@
 #include "wavetracer/config_file.hpp"
 
 namespace wavetracer::test {
+
+// Places 1.5 m above the ground, on both sides of the line y = 0.
+inline std::vector<glm::dvec3> places_along_street(size_t count, uint32_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> along(-45, 45), across(-9, 9);
+  std::vector<glm::dvec3> out;
+  for (size_t i = 0; i < count; ++i) out.push_back({along(random), across(random), 1.5});
+  return out;
+}
 
 // The path gains of the links of a configuration's first frame, dB, in the order of links.
 inline std::vector<double> path_gains(const Config& config) {

@@ -25,14 +25,6 @@ std::string street_text(const SceneFile& scene, const std::string& materials) {
          "[[transmitter]]\nname = \"a\"\nposition_m = [-20, 3, 6]\n";
 }
 
-std::vector<glm::dvec3> places(size_t count) {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> along(-45, 45), across(-9, 9);
-  std::vector<glm::dvec3> out;
-  for (size_t i = 0; i < count; ++i) out.push_back({along(random), across(random), 1.5});
-  return out;
-}
-
 const std::string true_materials =
     "[[material]]\nname = \"material-0\"\npermittivity = 6.5\nconductivity_s_m = 0.3\n"
     "[[material]]\nname = \"material-1\"\npermittivity = 3.0\nconductivity_s_m = 0.05\n";
@@ -46,7 +38,7 @@ TEST_CASE("materials are found again from levels without noise, with an offset a
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = street();
-  const std::vector<glm::dvec3> at = places(60);
+  const std::vector<glm::dvec3> at = places_along_street(60, 4);
   std::vector<double> levels = gains(folder, street_text(scene, true_materials), at);
   const std::string config = folder.file("start.toml", street_text(scene, ""));
   for (const double offset : {0.0, -17.5}) {
@@ -75,7 +67,7 @@ TEST_CASE("levels with noise: errors are as large as the standard errors say") {
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = street();
-  const std::vector<glm::dvec3> at = places(150);
+  const std::vector<glm::dvec3> at = places_along_street(150, 4);
   std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
   std::mt19937_64 random(9);
   std::normal_distribution<double> noise(0, 0.5);
@@ -98,7 +90,7 @@ TEST_CASE("a law over frequency of which one property is fitted becomes constant
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = street();
-  const std::vector<glm::dvec3> at = places(60);
+  const std::vector<glm::dvec3> at = places_along_street(60, 4);
   const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
   const std::string law = "[[material]]\nname = \"material-0\"\na = 5.0\nb = 0.02\nc = 0.03\nd = 0.8\n";
   const auto found = calibrated(folder.file("start.toml", street_text(scene, law)),
@@ -118,7 +110,7 @@ TEST_CASE("levels have several minima over the permittivity of a floor, and a fi
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = street();
-  const std::vector<glm::dvec3> at = places(60);
+  const std::vector<glm::dvec3> at = places_along_street(60, 4);
   const std::vector<double> levels = gains(folder, street_text(scene, true_permittivities), at);
   const std::string start = folder.file("start.toml", street_text(scene, true_permittivities)),
                     measured = folder.file("m.csv", table(at, levels));

@@ -3,7 +3,6 @@
 // of the misfit is a wrong one. Cases that need a device are skipped with a message if there is none.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "calibration/measured_world.hpp"
 #include "calibration/prior_samples.hpp"
@@ -23,14 +22,6 @@ std::string wall_text(const SceneFile& scene, double thickness_m, const std::str
       "[[material]]\nname = \"material-0\"\nthickness_m = {}\n{}"
       "[[transmitter]]\nname = \"a\"\nposition_m = [-20, 3, 6]\n",
       scene.path().string(), thickness_m, permittivity);
-}
-
-std::vector<glm::dvec3> places_before_wall(size_t count) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> along(-45, 45), across(-9, 9);
-  std::vector<glm::dvec3> out;
-  for (size_t i = 0; i < count; ++i) out.push_back({along(random), across(random), 1.5});
-  return out;
 }
 
 }  // namespace
@@ -95,7 +86,7 @@ TEST_CASE("the permittivity and the conductivity of a slab are found together") 
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = wall();
-  const std::vector<glm::dvec3> at = places_before_wall(40);
+  const std::vector<glm::dvec3> at = places_along_street(40, 7);
   for (const double truth : {2.4, 3.0, 5.5}) {
     const std::vector<double> levels =
         gains(folder, wall_text(scene, 0.2, fmt::format("permittivity = {}\nconductivity_s_m = 0.02\n", truth)), at);
@@ -114,7 +105,7 @@ TEST_CASE("the permittivity of a slab is found from that of brick, whatever mini
   if (!device_present()) return;
   const Folder folder;
   const SceneFile scene = wall();
-  const std::vector<glm::dvec3> at = places_before_wall(40);
+  const std::vector<glm::dvec3> at = places_along_street(40, 7);
   for (const double thickness_m : {0.2, 0.3})
     for (const double truth : {2.4, 3.0, 5.5, 7.0}) {
       const std::vector<double> levels =
