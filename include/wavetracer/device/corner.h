@@ -118,20 +118,22 @@ inline wt_slab wt_face_slab_at(const wt_wedge_face* face, wt_double2 cosine, dou
   return slab;
 }
 
-// Coefficients of waves at `there`; with `mirrored` those of hidden waves beside a ray of the cosine `lit`, which
-// differ from those of the ray by as much as the waves on its other side do, with the other sign.
+// The coefficient, or one of its direction whose size is 1: a face reflects no more than it gets.
+inline wt_double2 wt_no_gain(wt_double2 coefficient) { return coefficient / fmax(wt_size(coefficient), 1.0); }
+
+// Coefficients of waves at the complex cosine `there`; with `mirrored` those of hidden waves beside a ray of the cosine
+// `lit`, which differ from those of the ray by as much as the waves on its other side do, with the other sign.
 inline wt_slab wt_face_slab_of(const wt_wedge_face* face, double lit, wt_double2 there, int mirrored,
                                double wavelength_m) {
   wt_slab slab = wt_face_slab_at(face, mirrored ? wt_real(2.0 * lit) - there : there, wavelength_m);
+  slab.reflection_te = wt_no_gain(slab.reflection_te);
+  slab.reflection_tm = wt_no_gain(slab.reflection_tm);
   if (!mirrored) return slab;
   const wt_slab ray = wt_face_slab(face, lit, wavelength_m);
   slab.reflection_te = ray.reflection_te * 2.0 - slab.reflection_te;
   slab.reflection_tm = ray.reflection_tm * 2.0 - slab.reflection_tm;
   return slab;
 }
-
-// The coefficient, or one of its direction whose size is 1: a face reflects no more than it gets.
-inline wt_double2 wt_no_gain(wt_double2 coefficient) { return coefficient / fmax(wt_size(coefficient), 1.0); }
 
 // The reflection at a cosine of incidence, where the waves that count on one side of a boundary of reflection are not
 // those of the ray at the edge: on the mean, they meet the face at a cosine that is larger by `shift`, a complex
@@ -141,15 +143,13 @@ inline wt_double2 wt_no_gain(wt_double2 coefficient) { return coefficient / fmax
 inline wt_slab wt_face_slab_beside(const wt_wedge_face* face, double cosine, double lit, wt_double2 shift,
                                    double mirrored, double wavelength_m) {
   if (shift.x == 0.0 && shift.y == 0.0) return wt_face_slab(face, cosine, wavelength_m);
-  wt_double2 there = mirrored > 0.0 ? wt_real(2.0 * lit - cosine) - shift : wt_real(cosine) + shift;
-  there.x = fmax(there.x, 0.0);
-  wt_slab slab = wt_face_slab_at(face, there, wavelength_m);
-  slab.reflection_te = wt_no_gain(slab.reflection_te);
-  slab.reflection_tm = wt_no_gain(slab.reflection_tm);
+  wt_double2 there = wt_real(cosine) + shift;
+  there.x = mirrored > 0.0 ? fmin(there.x, 2.0 * lit) : fmax(there.x, 0.0);
+  wt_slab slab = wt_face_slab_of(face, lit, there, mirrored > 0.0, wavelength_m);
   if (mirrored == 0.0) return slab;
-  const wt_slab ray = wt_face_slab(face, lit, wavelength_m), far = wt_face_slab(face, cosine, wavelength_m);
-  slab.reflection_te = (ray.reflection_te * 2.0 - slab.reflection_te) * mirrored + far.reflection_te * (1.0 - mirrored);
-  slab.reflection_tm = (ray.reflection_tm * 2.0 - slab.reflection_tm) * mirrored + far.reflection_tm * (1.0 - mirrored);
+  const wt_slab far = wt_face_slab(face, cosine, wavelength_m);
+  slab.reflection_te = slab.reflection_te * mirrored + far.reflection_te * (1.0 - mirrored);
+  slab.reflection_tm = slab.reflection_tm * mirrored + far.reflection_tm * (1.0 - mirrored);
   return slab;
 }
 
