@@ -58,7 +58,11 @@ double tries_of(N n) {
 // Nodes, each of which several work-items take.
 double onlooking_nodes(N n) { return n.items("point_prefixes/onlookers") / n.tuning.onlooker_lanes; }
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
-double met_nodes(N n) { return std::min(n.items("sequences/commute"), nodes(n)); }
+// The sequences that rays have met, where a work-item or several take one.
+template <Name kernel>
+double met_by(N n) {
+  return std::min(n.items(kernel.text), nodes(n));
+}
 
 double scene_operations(N n) { return tree_operations(n.triangles); }
 double trace_bytes(N) { return ray_m + hit; }
@@ -124,7 +128,7 @@ constexpr KernelCost costs[] = {
     {"interact/interact", "reflections", "segments", segments, interact_bytes, always<20>},
     {"sequences/clear", "reflections", "slots", slots_of<"sequences/clear">, always<12>, nothing},
     {"sequences/collect", "reflections", "slots", slots_of<"sequences/collect">, always<8>, nothing},
-    {"sequences/commute", "reflections", "sequences", met_nodes, always<12>, nothing},
+    {"sequences/commute", "reflections", "sequences", met_by<"sequences/commute">, always<12>, nothing},
     {"sequences/regrow", "", "slots", items_of<"sequences/regrow">, always<8>, nothing},
     {"sequences/follow", "", "sequences", items_of<"sequences/follow">, always<8>, nothing},
     {"candidates/candidates", "reflections", "pairs of a sequence and a receiver", candidate_pairs, nothing,
@@ -180,6 +184,8 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_solved) + sizeof(wt_point_prefix) + 3 * sizeof(double)>, always<9>, true},
     {"point_join/point_join", "scattering by mirrors", "paths", path_rows, solved_bytes, nothing},
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
+    {"grazed_faces/grazed_faces", "diffraction", "sequences", met_by<"grazed_faces/grazed_faces">, always<12>,
+     mirror_operations, true},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
     {"wedge_prefixes/place_prefixes", "diffraction", "prefixes", items_of<"wedge_prefixes/place_prefixes">,

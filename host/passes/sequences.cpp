@@ -97,27 +97,31 @@ void Sequences::keep(const SolvedList& solved) {
                                .now = now()});
 }
 
-uint32_t Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth) {
+void Sequences::commute(const gpu::Buffer<wt_surface>& surfaces, const Found& found) {
+  const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(found.node_count);
+  commute_(work_.range(size_t{found.node_count} * lanes), Stage::sequences,
+           calls::sequences::commute{.table = found.trie.table,
+                                     .mask = static_cast<uint32_t>(found.trie.table.size() - 1),
+                                     .nodes = found.nodes,
+                                     .node_count = found.node_count,
+                                     .capacity = static_cast<uint32_t>(found.nodes.size()),
+                                     .surfaces = surfaces,
+                                     .quarters = found.trie.quarters,
+                                     .counters = found.trie.counters.buffer(),
+                                     .ages = found.trie.ages,
+                                     .now = found.trie.now,
+                                     .lanes = lanes});
+}
+
+uint32_t Sequences::extend(uint32_t node_count, uint32_t max_depth, const std::function<void(const Found&)>& enter) {
   const size_t room = nodes_.size() - node_count;
-  const uint32_t lanes = tuning_of(context_.info()).exchange_lanes(node_count);
   for (bool grew = false;; grew = true) {
-    commute_(work_.range(size_t{node_count} * lanes), Stage::sequences,
-             calls::sequences::commute{.table = table_,
-                                       .mask = static_cast<uint32_t>(table_.size() - 1),
-                                       .nodes = nodes_,
-                                       .node_count = node_count,
-                                       .capacity = static_cast<uint32_t>(nodes_.size()),
-                                       .surfaces = surfaces,
-                                       .quarters = quarters_,
-                                       .counters = counters_.buffer(),
-                                       .ages = ages(),
-                                       .now = now(),
-                                       .lanes = lanes});
+    enter({trie(), nodes_, node_count});
     const uint32_t added = counters_.length(&wt_counters::exchanged, room, Stage::sequences);
     if (counters_.foresees()) return node_count + added;
     if (!overflowed()) return grew || added > room ? collect(roots_) : node_count + added;
-    // This runs again with the same nodes: exchanges of sequences that were just entered would make the set depend on
-    // when its table was full.
+    // This runs again with the same nodes: sequences that were entered for others that were just entered would make the
+    // set depend on when its table was full.
     regrow(max_depth, node_count);
     counters_.restart_nodes(node_count, Stage::sequences);
   }

@@ -2,6 +2,8 @@
 // sequences: the set of distinct sequences of all transmitters, as a trie on the device; it grows when it is full.
 // A node's id is its slot, so ids change when the table grows: only nodes() may hold one across regrow().
 #pragma once
+#include <functional>
+
 #include "gpu/gpu.hpp"
 #include "kernel_calls/sequences.hpp"
 #include "passes/counters.hpp"
@@ -42,10 +44,18 @@ class Sequences {
   // Moves every node of at most max_depth surfaces to a table four times as large. The first listed_count entries of
   // nodes() still name the same nodes.
   void regrow(uint32_t max_depth, uint32_t listed_count = 0);
-  // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged; grows when it
-  // must. Where ages are kept, known means met by a ray in this frame. Call collect() before; it gives node_count.
-  // Returns the length of nodes(), new ones included, or a bound of it.
-  uint32_t commute(const gpu::Buffer<wt_surface>& surfaces, uint32_t node_count, uint32_t max_depth);
+  // The set for kernels that enter sequences beside those that rays have found, the first node_count of `nodes`.
+  struct Found {
+    Trie trie;
+    gpu::Buffer<uint32_t>& nodes;
+    uint32_t node_count;
+  };
+  // Runs enter(found), which launches such kernels, and grows when it must; then that runs once more. Call collect()
+  // before; it gives node_count. Returns the length of nodes(), new ones included, or a bound of it.
+  uint32_t extend(uint32_t node_count, uint32_t max_depth, const std::function<void(const Found&)>& enter);
+  // Enters every sequence in which two neighbouring perpendicular surfaces of a known one are exchanged. Where ages are
+  // kept, known means met by a ray in this frame.
+  void commute(const gpu::Buffer<wt_surface>& surfaces, const Found& found);
   // Lists the roots of the transmitters, then every node. Returns the length of nodes(), or a bound of it.
   uint32_t collect(uint32_t transmitter_count);
   const gpu::Buffer<uint32_t>& nodes() const { return nodes_; }

@@ -104,6 +104,11 @@ struct Tuning {
   uint64_t batch_rays;       // rays in flight, where configuration and memory allow it
 };
 
+// The work-items that a node of the trie takes, which share the ends of its root, at most most_ends.
+inline uint32_t lanes_of_ends(const gpu::DeviceInfo& device, uint32_t most_ends) {
+  return device.cpu ? 1 : std::min(most_ends, 16u);
+}
+
 inline Tuning tuning_of(const gpu::DeviceInfo& device) {
   const bool cpu = device.cpu;
   const uint32_t small = device.simple_local_size();  // DeviceInfo has its figure

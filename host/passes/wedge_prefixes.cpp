@@ -3,19 +3,11 @@
 // One work-item or several take a node of the trie; then each takes one prefix.
 #include "passes/wedge_prefixes.hpp"
 
-#include <algorithm>
-
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
-namespace {
-
-constexpr uint32_t most_lanes = 16;  // work-items of a node, on GPUs
-
-}  // namespace
-
 WedgePrefixes::WedgePrefixes(gpu::Context& context)
     : context_(context), work_(tuning_of(context.info()).prefixes), kernel_(context), place_(context) {
   reserve(1 << 14);
@@ -33,7 +25,7 @@ WedgePrefixList& WedgePrefixes::operator()(const DeviceScene& scene, const Wedge
                                            const gpu::Buffer<uint32_t>& nodes, uint32_t node_count,
                                            Counters& counters) {
   const Counters::Count count = &wt_counters::wedge_prefixes;
-  const uint32_t lanes = context_.info().cpu ? 1 : std::min(ends.most_ends, most_lanes);
+  const uint32_t lanes = lanes_of_ends(context_.info(), ends.most_ends);
   list_.count = grow_until_filled(  // read in each frame, since the sort needs it
       [&] {
         kernel_(work_.range(size_t{node_count} * lanes), Stage::wedge_prefixes,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/environment.hpp"
+#include "passes/grazed_faces.hpp"
 #include "passes/growing_list.hpp"
 #include "passes/heard_join.hpp"
 #include "passes/sequences.hpp"
@@ -40,10 +41,11 @@ struct HeardEdges {
 
 struct DiffractedPaths {
   // wavelength_m: see WedgeSolve. two: for paths over two wedges. row_depth: interactions that a solved path has room
-  // for, at least max_depth.
+  // for, at least max_depth. ages: see GrazedFaces.
   DiffractedPaths(gpu::Context& context, Wedges world, uint32_t max_depth, uint32_t row_depth, double wavelength_m,
-                  BendFloors floors, std::optional<WedgePairs> two)
+                  BendFloors floors, std::optional<WedgePairs> two, bool ages)
       : wedges(std::move(world)),
+        grazed_faces(context, ages),
         prefixes(context),
         join(context, max_depth, wavelength_m),
         candidates(context, row_depth),
@@ -66,6 +68,7 @@ struct DiffractedPaths {
   }
 
   Wedges wedges;
+  GrazedFaces grazed_faces;
   WedgePrefixes prefixes;
   WedgeJoin join;
   WedgeCandidates candidates;

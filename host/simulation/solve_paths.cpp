@@ -10,6 +10,17 @@ namespace {
 
 constexpr uint32_t few_edges = 16;
 
+// Enters sequences beside those that rays have found; wedges must have run. Returns the number of nodes, which was
+// `nodes` before.
+uint32_t enter_neighbours(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                          uint32_t nodes) {
+  return set.extend(nodes, exact.max_depth, [&](const Sequences::Found& found) {
+    set.commute(scene.surfaces, found);  // sequences
+    if (!exact.diffraction) return;
+    exact.diffraction->grazed_faces(scene, exact.diffraction->wedges.list(), ends, found);  // grazed_faces
+  });
+}
+
 // Lists the prefixes of transmitters that see something of their edges. nodes: those of transmitters.
 void list_heard_edges(DiffractedPaths& edges, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                       uint32_t nodes) {
@@ -89,9 +100,9 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
   };
   watch.tell("paths", 0, steps * exact.kinds());
 
-  uint32_t nodes = set.collect(ends.transmitter_count);  // sequences
-  if (search != Search::none) nodes = set.commute(scene.surfaces, nodes, exact.max_depth);
+  uint32_t nodes = set.collect(ends.transmitter_count);     // sequences
   if (exact.diffraction) exact.diffraction->wedges(scene);  // wedges
+  if (search != Search::none) nodes = enter_neighbours(exact, scene, ends, set, nodes);
   DiscoveryCounts heard;
   if (exact.from_edges && search != Search::none) heard = hear_edges(exact, scene, ends, set, nodes, search);
   const uint32_t candidates = exact.candidates(scene, ends, set.table(), set.nodes(), nodes, counters);  // candidates

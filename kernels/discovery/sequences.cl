@@ -6,7 +6,7 @@
 // path, plus one if by a ray; a node is never older than its children. `now` is the age of rays in this frame.
 // quarters: see lib/trie.clh. A sequence that is entered for another one gets the quarters of that one.
 #include "lib/count.clh"
-#include "lib/trie.clh"
+#include "lib/enter.clh"
 
 // Empties the set of sequences and sets all counters to zero. A work-item takes WT_SLOTS_PER_ITEM slots.
 kernel void clear(global ulong* table, global uint* quarters, uint slots, global wt_counters* counters) {
@@ -39,22 +39,6 @@ kernel void collect(const global ulong* table, uint slots, global uint* nodes, u
     ++i;
   }
 #endif
-}
-
-// Lists new sequences after the nodes that collect has listed.
-inline uint enter(global ulong* table, uint mask, uint parent, uint surface, global uint* nodes, uint capacity,
-                  global wt_counters* counters, global uint* quarters, uint found, global uint* ages, uint now) {
-  int is_new;
-  const uint node = wt_trie_enter(table, mask, parent, surface, &is_new);
-  if (is_new) {
-    const uint at = counters->nodes + atomic_inc(&counters->exchanged);
-    if (at < capacity) nodes[at] = node;
-  }
-  wt_note_quarters(quarters, node, found << WT_EXCHANGED_SHIFT);
-#ifdef WT_AGES
-  if (node != WT_NONE) atomic_max(ages + node, now - 1);
-#endif
-  return node;
 }
 
 // Surfaces count as perpendicular below this cosine: a vain attempt only costs a candidate.
@@ -92,10 +76,10 @@ kernel void commute(global ulong* table, uint mask, global uint* nodes, uint nod
     // A surface never follows itself: the image of its image is the point itself, and rounding would see a path through
     // it.
     if ((k + 2 < depth && chain[k + 2] == chain[k]) || (k > 0 && chain[k - 1] == chain[k + 1])) continue;
-    uint node = enter(table, mask, parents[k + 1], chain[k], nodes, capacity, counters, quarters, found, ages, now);
-    node = enter(table, mask, node, chain[k + 1], nodes, capacity, counters, quarters, found, ages, now);
+    uint node = wt_enter(table, mask, parents[k + 1], chain[k], nodes, capacity, counters, quarters, found, ages, now);
+    node = wt_enter(table, mask, node, chain[k + 1], nodes, capacity, counters, quarters, found, ages, now);
     for (uint j = k; j-- > 0;)
-      node = enter(table, mask, node, chain[j], nodes, capacity, counters, quarters, found, ages, now);
+      node = wt_enter(table, mask, node, chain[j], nodes, capacity, counters, quarters, found, ages, now);
     if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
   }
 }

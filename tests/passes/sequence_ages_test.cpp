@@ -166,7 +166,8 @@ TEST_CASE("commute with ages: the exchanges of what this frame's rays have met, 
         const std::vector<Sequence> more = exchanges(s, perpendicular);
         entered.insert(entered.end(), more.begin(), more.end());
       }
-      set.commute(scene.surfaces, set.collect(made_transmitters), made_depth);
+      set.extend(set.collect(made_transmitters), made_depth,
+                 [&](const Sequences::Found& found) { set.commute(scene.surfaces, found); });
       renew(known, entered, 2 * set.frame());
       const Aged got = aged_contents(set);
       CHECK(got.size() == known.size());

@@ -144,7 +144,8 @@ TEST_CASE("commute enters the exchanges of neighbouring perpendicular surfaces, 
     Sequences set(context(), slots);
     enter(set, scene, sequences, 4);
     REQUIRE(contents(set, 2) == with_prefixes(sequences));
-    const uint32_t count = set.commute(scene.surfaces, set.collect(2), 4);
+    const uint32_t count =
+        set.extend(set.collect(2), 4, [&](const Sequences::Found& found) { set.commute(scene.surfaces, found); });
     const auto listed = [&](uint32_t length) {
       std::vector<uint32_t> nodes = set.nodes().read(0, length);
       std::ranges::sort(nodes);
@@ -183,7 +184,7 @@ TEST_CASE(
       for (uint32_t q = 0; q < 3; ++q)
         if (std::equal(surfaces.begin(), surfaces.end(), sequences[q].surfaces.begin())) bits[slot] |= 1u << q;
     set.quarters().write(bits);
-    set.commute(scene.surfaces, set.collect(1), 3);
+    set.extend(set.collect(1), 3, [&](const Sequences::Found& found) { set.commute(scene.surfaces, found); });
     const std::vector<uint32_t> quarters = set.quarters().read();
     const auto all = nodes();
     const auto found_by = [&](const std::vector<uint32_t>& surfaces) {

@@ -46,6 +46,24 @@ inline bool in_sector(const Wedge& w, const glm::dvec3& p, double margin_rad = 0
   return (azimuth >= margin_rad && azimuth <= w.exterior_rad - margin_rad) || azimuth >= turn + margin_rad;
 }
 
+// Tells whether a mirror shows a point of a wedge, or may do so by rounding: lines from the image to many points of it.
+inline bool shows(const wt_exact_surface& mirror, const wt_surface& box, const glm::dvec3& image, const Wedge& wedge,
+                  double tolerance_m) {
+  const glm::dvec3 normal = vector_of(mirror.normal);
+  const double above = glm::dot(normal, image) - mirror.offset;
+  for (int i = 0; i <= 1000; ++i) {
+    const glm::dvec3 p = wedge.start + 0.001 * i * wedge.length_m * wedge.along;
+    const double beyond = glm::dot(normal, p) - mirror.offset;
+    if (above * beyond > tolerance_m) continue;
+    const glm::dvec3 crossing = image + std::abs(above) / (std::abs(above) + std::abs(beyond)) * (p - image);
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis)
+      inside &= crossing[axis] >= box.lower[axis] - tolerance_m && crossing[axis] <= box.upper[axis] + tolerance_m;
+    if (inside) return true;
+  }
+  return false;
+}
+
 inline glm::dvec3 mirrored_by(const Surface& s, const glm::dvec3& p) {
   return p - 2 * (glm::dot(s.normal, p) - s.offset_m) * s.normal;
 }
