@@ -17,6 +17,26 @@ Field paths_field() {
               "responses and other carriers (radio.frequencies_hz) need paths."};
 }
 
+Field lifetimes_field() {
+  return {
+      .name = "lifetimes",
+      .slot = at(&Config::output, &OutputConfig::lifetimes),
+      .doc =
+          "Compute for each path how far its ends and all vehicles may still move before it can end, the column "
+          "lifetime_m of paths.h5: a lower bound in metres, and 0 where none is known. "
+          "The host computes it, which takes time in each frame. Paths must be exact, and must be written: "
+          "trace.reception = \"sphere\", trace.floor_db, trace.diffraction_floor_db and output.paths = false are refused."};
+}
+
+Field keep_shards_field() {
+  return {.name = "keep_shards",
+          .slot = at(&Config::output, &OutputConfig::keep_shards),
+          .doc =
+              "Keep the shards (part files) of a drive that is complete. "
+              "false: they are removed once the merged files were compared with them, byte by byte. "
+              "`merge` and interrupted runs always keep them."};
+}
+
 }  // namespace
 
 Table output_table() {
@@ -50,6 +70,7 @@ Table output_table() {
                   "how often it answered, its age, and the cycles of its last answer and write. "
                   "For study: the whole table is read from the device. Needs cache.statistics = true."},
           paths_field(),
+          lifetimes_field(),
           {.name = "min_gain_db",
            .slot = o(&OutputConfig::min_gain_db),
            .unit = "dB",
@@ -73,11 +94,7 @@ Table output_table() {
            .slot = o(&OutputConfig::compression),
            .range = {0, 9},
            .doc = "Compression (deflate) of the columns of HDF5 files, 1 (fast) to 9; 0: none. Shards have none."},
-          {.name = "keep_shards",
-           .slot = o(&OutputConfig::keep_shards),
-           .doc = "Keep the shards (part files) of a drive that is complete. "
-                  "false: they are removed once the merged files were compared with them, byte by byte. "
-                  "`merge` and interrupted runs always keep them."}}};
+          keep_shards_field()}};
 }
 
 }  // namespace wavetracer::config

@@ -81,6 +81,23 @@ void check_times(const std::string& key, const std::vector<std::array<double, 4>
                                  key, k, waypoints[k][0], waypoints[k - 1][0])});
 }
 
+// A path that a frame leaves out because it is weak ends before its geometry does.
+void check_lifetimes(const Config& config, std::vector<Contradiction>& out) {
+  if (!config.output.lifetimes) return;
+  const auto refuse = [&](const char* key, const char* why) {
+    out.push_back({{"output.lifetimes", key},
+                   fmt::format("output.lifetimes = true says how far ends may move before a path ends, but {}: "
+                               "remove output.lifetimes, or {}",
+                               why, key)});
+  };
+  if (!config.output.paths) refuse("output.paths", "output.paths = false keeps no paths");
+  if (config.trace.by_spheres())
+    refuse("trace.reception", "with trace.reception = \"sphere\" rays decide which paths there are");
+  if (config.trace.floor_db) refuse("trace.floor_db", "trace.floor_db leaves out weak paths");
+  if (config.trace.diffraction_floor_db)
+    refuse("trace.diffraction_floor_db", "trace.diffraction_floor_db leaves out weak paths");
+}
+
 // The device only sums what links.csv has.
 void check_sums(const Config& config, std::vector<Contradiction>& out) {
   if (config.output.paths) return;
@@ -110,6 +127,7 @@ void check_arrays(const Config& config, std::vector<Contradiction>& out) {
   check_carriers(config.radio, out);
   check_bands(config, out);
   check_sums(config, out);
+  check_lifetimes(config, out);
 }
 
 void check_trajectories(const Config& config, std::vector<Contradiction>& out) {

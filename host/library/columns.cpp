@@ -68,6 +68,7 @@ constexpr Row rows[] = {
     {"quarters", of_paths<&Paths::quarters>},
     {"group", of_paths<&Paths::group>},
     {"group_weight", of_paths<&Paths::group_weight>},
+    {"lifetime_m", of_paths<&Paths::lifetime_m>},
     {"vertex_offset", of_paths<&Paths::vertex_offset>},
     {"vertex_position_m", of_paths<&Paths::vertex_position_m>},
     {"vertex_interaction", of_paths<&Paths::vertex_interaction>},

@@ -85,6 +85,7 @@ Paths select_rows(const Paths& paths, std::span<const uint8_t> written) {
   out.quarters = selected(paths.quarters, written);
   out.group = selected(paths.group, written);
   out.group_weight = selected(paths.group_weight, written);
+  out.lifetime_m = selected(paths.lifetime_m, written);
   number_groups(out);
   for (size_t row = 0; row < paths.size(); ++row)
     if (written[row]) append_vertices(paths, row, out);

@@ -27,6 +27,7 @@ bool is_rectangular(const Paths& paths) {
   for (const auto* column : {&paths.gain_db, &paths.aod_theta_rad, &paths.aod_phi_rad, &paths.aoa_theta_rad,
                              &paths.aoa_phi_rad, &paths.doppler_hz})
     whole &= column->size() == rows;
+  whole &= paths.lifetime_m.empty() || paths.lifetime_m.size() == rows;
   whole &= paths.group.size() == paths.group_weight.size() && (paths.group.empty() || paths.group.size() == rows);
   return whole && paths.vertex_interaction.size() == vertices && paths.vertex_surface.size() == vertices &&
          paths.vertex_instance.size() == vertices;
@@ -95,7 +96,7 @@ void append_groups(const Paths& paths, FrameTables& tables) {
                         flat(paths.group.empty() ? whole : paths.group_weight), {most_groups});
 }
 
-void append_paths(const Paths& paths, FrameTables& tables) {
+void append_paths(const Paths& paths, bool lifetimes, FrameTables& tables) {
   tables.group("/paths", "one row per path, sorted by frame, tx, rx, delay");
   const auto column = [&](const char* name, const char* units, const char* description, const auto& values) {
     tables.append(name, {units, description}, std::span(values));
@@ -119,6 +120,11 @@ void append_paths(const Paths& paths, FrameTables& tables) {
          "direction from which the path arrives, seen from the receiver, angle from +x towards +y", paths.aoa_phi_rad);
   column("doppler_hz", "Hz", "shift of the received frequency, positive when the path gets shorter", paths.doppler_hz);
   append_groups(paths, tables);
+  if (lifetimes)
+    column("lifetime_m", "m",
+           "the path is there as long as both of its ends and all points of all vehicles are no farther than this from "
+           "their places; a lower bound, 0 where none is known",
+           paths.lifetime_m);
   column("vertex_offset", "1",
          "the vertices of path i are rows vertex_offset[i] to vertex_offset[i + 1] - 1 of /vertices",
          paths.vertex_offset);
@@ -173,7 +179,7 @@ void append_frame_h5(const Run& run, const FrameResult& frame, FrameTables& tabl
   check(run, frame);
   append_frame(run, frame, tables);
   append_links(frame, tables);
-  append_paths(frame.paths, tables);
+  append_paths(frame.paths, run.config.output.lifetimes, tables);
   append_poses(run, frame, tables);
   append_vertices(frame.paths, tables);
 }

@@ -75,6 +75,7 @@ Paths sized_columns(RowCounts counts, Ports ports, Paths room) {
   paths.rx_ports = ports.rx;
   paths.group.clear();
   paths.group_weight.clear();
+  paths.lifetime_m.clear();
   size_columns(paths, counts);
   return paths;
 }

@@ -164,6 +164,7 @@ struct SavedRun::State {
   void read_columns(size_t row, Paths& paths) const;
   void read_coefficients(size_t row, Paths& paths) const;
   void read_groups(size_t row, Paths& paths) const;
+  void read_lifetimes(size_t row, Paths& paths) const;
   void read_vertices(size_t row, Paths& paths) const;
   void read_poses(size_t row, SavedFrame& frame) const;
   void read_motion(size_t row, SavedFrame& frame) const;
@@ -203,6 +204,12 @@ void SavedRun::State::read_coefficients(size_t row, Paths& paths) const {
   paths.a.resize(count);
   for (size_t i = 0; i < count; ++i)
     for (size_t k = 0; k < ports; ++k) paths.a[i][k] = {re[i * ports + k], im[i * ports + k]};
+}
+
+// Only files of output.lifetimes have them.
+void SavedRun::State::read_lifetimes(size_t row, Paths& paths) const {
+  if (file.has("/paths/lifetime_m"))
+    paths.lifetime_m = file.rows<double>("/paths/lifetime_m", first_path[row], first_path[row + 1] - first_path[row]);
 }
 
 // Files of versions without groups have none.
@@ -282,6 +289,7 @@ SavedFrame SavedRun::State::read_frame(size_t row) const {
   read_columns(row, out.paths);
   read_coefficients(row, out.paths);
   read_groups(row, out.paths);
+  read_lifetimes(row, out.paths);
   read_vertices(row, out.paths);
   read_poses(row, out);
   read_motion(row, out);

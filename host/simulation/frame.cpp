@@ -108,6 +108,10 @@ FrameResult FrameLoop::solve(FrameTask& task) {
   else if (!task.only_compiles())
     account.left_out(left_out, task.names().transmitter, task.names().receiver);
   account.end_stage(Stage::columns);
+  if (s_.lifetimes && !summed_ && !task.only_compiles()) {
+    out.paths.lifetime_m = (*s_.lifetimes)(out.paths, out.world);
+    account.end_stage(Stage::lifetimes);
+  }
   if (s_.elements.on() && !task.only_compiles() && !part.is_batch()) {
     s_.elements(out);
     account.end_stage(Stage::elements);

@@ -91,6 +91,11 @@ std::unique_ptr<BeamTracing> make_beams(gpu::Context& context, const RunPlan& pl
   return out;
 }
 
+std::unique_ptr<const PathLifetimes> make_lifetimes(const RunPlan& plan) {
+  if (!plan.asked.output.lifetimes) return nullptr;
+  return std::make_unique<const PathLifetimes>(plan.scene, plan.world.fleet.models, plan.world.fleet.instances);
+}
+
 // Is the ground many surfaces? A street of a few patches is not, the coarsest of terrains is.
 bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
 
@@ -129,6 +134,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
     exact.from_edges = std::make_unique<EdgeDiscovery>(context, device_scene, trace, origins, *watch);
   FinishedPaths finish(context, scene, plan->computed(), world);
   ElementOutputs elements(config, scene, world);
+  auto lifetimes = make_lifetimes(*plan);
   return {.stages = stages,
           .own_context = std::move(own),
           .context = context,
@@ -150,7 +156,8 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
           .beams = std::move(beams),
           .exact_paths = std::move(exact),
           .finish = std::move(finish),
-          .elements = std::move(elements)};
+          .elements = std::move(elements),
+          .lifetimes = std::move(lifetimes)};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stopwatch.hpp"
+#include "lifetime/path_lifetimes.hpp"
 #include "simulation/beam_tracing.hpp"
 #include "simulation/discovery.hpp"
 #include "simulation/element_outputs.hpp"
@@ -63,6 +64,7 @@ struct Setup {
   ExactPaths exact_paths;
   FinishedPaths finish;
   ElementOutputs elements;
+  std::unique_ptr<const PathLifetimes> lifetimes;  // with output.lifetimes, else null
 };
 
 // As Simulation::Simulation; the device has proved itself then (device_proof.hpp). frames_follow: see plan_run().

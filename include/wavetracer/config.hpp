@@ -260,6 +260,7 @@ struct OutputConfig {
   uint64_t waypoints = 0;       // samples per transmitter whose waypoints are written, spread evenly; 0: none
   bool cache_entries = false;   // the entries of the ray cache's table, a row each; needs cache.statistics
   bool paths = true;            // write paths; else the device sums those of each link, and none are read
+  bool lifetimes = false;       // compute Paths::lifetime_m
   // Paths that are not written to paths.h5, see output/path_limits.hpp; not given: all are.
   std::optional<double> min_gain_db, dynamic_range_db;
   std::optional<uint32_t> max_paths_per_link = {};

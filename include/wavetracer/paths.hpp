@@ -43,6 +43,10 @@ struct Paths {
   // The groups of each path and its weight in them, see above; empty: every path is a group of its own.
   std::vector<GroupNumbers> group;
   std::vector<GroupWeights> group_weight;
+  // With output.lifetimes, else empty: both ends of the path, and all points of all vehicles, may be anywhere within
+  // this distance of their places, and the path is still there. It is a lower bound, 100 m at most, and 0 where none is
+  // known.
+  std::vector<double> lifetime_m;
   std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
   // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates

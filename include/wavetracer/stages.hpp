@@ -76,6 +76,7 @@ enum class Stage : uint8_t {
   fields,
   link_sums,
   columns,
+  lifetimes,
   elements,
   transfer,
 };
@@ -137,6 +138,7 @@ inline constexpr auto frame_stages = std::to_array<FrameStage>({
     {Stage::fields, "fields", FramePart::fields},
     {Stage::link_sums, "link_sums", FramePart::fields},
     {Stage::columns, "columns", FramePart::fields},
+    {Stage::lifetimes, "lifetimes", FramePart::paths},
     {Stage::elements, "elements", FramePart::fields},
     {Stage::transfer, "transfer", FramePart::transfer},
 });

@@ -169,6 +169,8 @@ typedef struct wavetracer_column {
                                                              exp(-j 2 pi f delay_s)|^2. No rows without diffraction:
                                                              then every path is a group of its own
      group_weight                                            float64 x 4
+     lifetime_m                                              float64    with output.lifetimes, else no rows: how far the
+                                                             ends and all vehicles may move before the path can end
    Rows vertex_offset[i] to vertex_offset[i + 1] of these are the interactions of path i, from the transmitter on:
      vertex_offset                                           uint64     one row more than there are paths
      vertex_position_m                                       float64 x 3, file coordinates

@@ -28,8 +28,8 @@ Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
 _SPECIAL = tuple(KINDS.values())[:0:-1]
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
-            "doppler_hz", "group", "group_weight", "vertex_offset", "vertex_position_m", "vertex_interaction",
-            "vertex_surface", "vertex_instance")
+            "doppler_hz", "group", "group_weight", "lifetime_m", "vertex_offset", "vertex_position_m",
+            "vertex_interaction", "vertex_surface", "vertex_instance")
 _AT_CARRIERS = ("carrier_a", "carrier_gain_db", "carrier_doppler_hz")
 
 
@@ -140,6 +140,13 @@ class Paths:
         """The part of each path that is one wave with each of its groups, shape (paths, 4). The power of a link is the
         sum over groups and pairs of ports of |sum over paths of weight a exp(-j 2 pi f tau)|^2."""
         return self._column("group_weight")
+
+    @property
+    def lifetime_m(self) -> Array:
+        """Lifetimes of paths in metres, shape (paths,): a path is there while both of its ends and all points of all
+        vehicles are no farther than this from their places. A lower bound, 0 where none is known. No rows without
+        output.lifetimes."""
+        return self._column("lifetime_m")
 
     @property
     def vertex_offset(self) -> Array:

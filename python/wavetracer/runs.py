@@ -64,6 +64,8 @@ class SavedFrame:
             return np.asarray(self._run._group("vertices")[name.removeprefix("vertex_")][begin:end])
         if name in ("group", "group_weight") and name not in group:  # of a version that had none
             return np.zeros((0, 4), np.uint32 if name == "group" else np.float64)
+        if name == "lifetime_m" and name not in group:  # of a run without output.lifetimes
+            return np.zeros(0, np.float64)
         if name not in group:
             raise ConfigError(f'there is no column "{name}" in /paths of {self._run.folder}/paths.h5')
         return np.asarray(group[name][rows])

@@ -31,3 +31,20 @@ TEST_CASE("sums of links in place of paths are refused where paths are needed") 
   const std::string array = "[[array]]\nname = \"panel\"\nrows = 2\ncolumns = 2\ncodebook = \"dft\"\n";
   check_contains(error_of(scene + off + ends + array), "or remove array.0.codebook");
 }
+
+TEST_CASE("lifetimes of paths are refused where paths end for other reasons, or are not kept") {
+  const std::string on = "output.lifetimes = true\n";
+  CHECK(error_of(scene + on + ends) == "no error");
+  struct Case {
+    std::string lines, key;
+  };
+  for (const Case& one : std::vector<Case>{
+           {"output.paths = false", "output.paths"},
+           {"trace.reception = \"sphere\"", "trace.reception"},
+           {"trace.discovery = \"beams\"\ntrace.floor_db = -130", "trace.floor_db"},
+           {"trace.diffraction = true\ntrace.diffraction_floor_db = -130", "trace.diffraction_floor_db"}}) {
+    CAPTURE(one.key);
+    check_contains(error_of(scene + on + one.lines + "\n" + ends), "remove output.lifetimes, or " + one.key);
+    CHECK(error_of(scene + one.lines + "\n" + ends) == "no error");
+  }
+}

@@ -104,11 +104,13 @@ TEST_CASE("groups of selected rows are numbered by these rows, link by link") {
   all.group = {only_group(0), only_group(1), {2, 0, no_group, no_group}, only_group(3), only_group(0), only_group(1)};
   all.group_weight.assign(6, whole_weight);
   all.group_weight[2] = {0.8, 0.6, 0, 0};
+  all.lifetime_m = {0, 1, 2, 3, 4, 5};
   const std::vector<uint8_t> written{0, 1, 1, 1, 0, 1};
   const Paths some = select_rows(all, written);
   CHECK(some.group ==
         std::vector<GroupNumbers>{only_group(0), {1, 2, no_group, no_group}, only_group(3), only_group(0)});
   CHECK(some.group_weight[1] == GroupWeights{0.8, 0.6, 0, 0});
+  CHECK(some.lifetime_m[1] == 2);
 }
 
 TEST_CASE("a run with limits: fewer rows in paths.h5, the same figures in links.csv, and counts of what is missing") {
