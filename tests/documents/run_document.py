@@ -24,15 +24,15 @@ import time
 here = pathlib.Path(__file__).resolve().parent
 
 
-def not_run():
+def not_run(file=here / "not_run.txt"):
     """(document, pattern, reason) of every line of the list."""
     rows = []
-    for number, line in enumerate((here / "not_run.txt").read_text().splitlines(), 1):
+    for number, line in enumerate(file.read_text().splitlines(), 1):
         if not line.strip() or line.startswith("#"):
             continue
         cells = [cell.strip() for cell in line.split(" | ")]
         if len(cells) != 3 or not all(cells):
-            sys.exit(f"not_run.txt:{number}: write DOCUMENT | PATTERN | reason")
+            sys.exit(f"{file.name}:{number}: write DOCUMENT | PATTERN | reason")
         rows.append((cells[0], re.compile(cells[1]), cells[2]))
     return rows
 
