@@ -67,8 +67,8 @@ class ChanceMeasurement {
         thresholds_(coverage::read_thresholds(request.thresholds, "--threshold")),
         grid_(checked_grid()),
         starting_(host.guard()),
-        setup_(make_setup(config_, request.inputs.device)),
-        tx_(find_end(setup_.plan->asked.transmitters, request.tx, "--tx")),
+        setup_(make_setup(config_, request.inputs.device, false, [this](const RunPlan& plan) { tx_of(plan); })),
+        tx_(tx_of(*setup_.plan)),
         frames_(setup_),
         variation_(*setup_.plan, request.inputs.errors, request.inputs.samples, request.inputs.seed,
                    cells_of_grids(setup_.plan->asked)) {
@@ -102,6 +102,10 @@ class ChanceMeasurement {
     for (const coverage::Threshold& threshold : thresholds_)
       coverage::check_layer(*threshold.tested, config_.radio, {}, "--threshold");
     return grid;
+  }
+
+  std::optional<uint32_t> tx_of(const RunPlan& plan) const {
+    return find_end(plan.asked.transmitters, request_.tx, "--tx");
   }
 
   coverage::ChanceMap empty_map(uint32_t frame) const {

@@ -10,6 +10,7 @@
 #include "accuracy/inputs.hpp"
 #include "accuracy/table.hpp"
 #include "app/commands.hpp"
+#include "app/idle_options.hpp"
 #include "app/map_formats.hpp"
 #include "app/named_files.hpp"
 #include "app/number_range.hpp"
@@ -207,7 +208,12 @@ void add_accuracy(CLI::App& program, Invocation& invocation) {
       ->check(number_range(1, 1000000))
       ->capture_default_str();
   add_input_options(*command, *options);
-  command->callback([options, &invocation] { run_accuracy(*options, invocation); });
+  command->callback([options, command, &invocation] {
+    if (options->varies)
+      refuse_options(*command, {"--rays", "--certify", "--repeat"},
+                     "--inputs compares samples of the inputs, all with the rays of the configuration");
+    run_accuracy(*options, invocation);
+  });
 }
 
 }  // namespace wavetracer::app

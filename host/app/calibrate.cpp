@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include "app/commands.hpp"
+#include "app/idle_options.hpp"
 #include "app/number_range.hpp"
 #include "app/study_host.hpp"
 #include "app/written_files.hpp"
@@ -120,7 +121,11 @@ void add_calibrate(CLI::App& program, Invocation& invocation) {
       ->allow_extra_args(false);
   command->add_option("--device", request.device,
                       "OpenCL device: its index, or a part of its name or of its platform's name");
-  command->callback([options, &invocation] { run_calibrate(*options, invocation); });
+  command->callback([options, command, &invocation] {
+    if (patterns_of(options->fit).empty())
+      refuse_options(*command, {"--prior", "--error", "--spreads", "--profiles"}, "--fit none fits nothing");
+    run_calibrate(*options, invocation);
+  });
 }
 
 }  // namespace wavetracer::app

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "app/idle_options.hpp"
 #include "app/saved_frames.hpp"
 #include "app/standard_streams.hpp"
 #include "base/input_file.hpp"
@@ -23,6 +24,8 @@ namespace wavetracer::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* map_group = "Maps";  // heading of the options of maps in the help
 
 struct ConvertOptions {
   std::string input, format, output, frames, projection, traffic;
@@ -83,6 +86,11 @@ void check_output(const Exporter& exporter, const fs::path& output) {
 
 void export_run(const ConvertOptions& options) {
   const Exporter& exporter = chosen_exporter(options);
+  if (!options.projection.empty() && !is_on_earth(exporter.name))
+    throw ConfigError(
+        fmt::format("--projection: the format {} has the coordinates of the scene, and no places on the "
+                    "earth; leave it out",
+                    exporter.name));
   check_output(exporter, options.output);
   const SavedRun run(options.input);
   ExportOptions what;
@@ -149,11 +157,22 @@ void import_map(const ConvertOptions& options) {
   std::cout << describe(summary);
 }
 
+// Options that would change nothing of this input are refused.
+void check_map_or_run(const CLI::App& command, const ConvertOptions& options) {
+  const ImportOptions& map = options.map;
+  if (!is_import(options.input))
+    return refuse_group(command, map_group, fmt::format("this option is for maps, but {} is a run", options.input));
+  if (is_sumo_map(options.input))
+    refuse_options(command, {"--projection"}, "SUMO's polygons have the coordinates of their network");
+  if (map.terrain.empty()) refuse_options(command, {"--terrain-error"}, "there is no --terrain that it is about");
+  if (!map.ground)
+    refuse_options(command, {"--margin", "--ground-material", "--traffic"}, "--no-ground leaves out the ground");
+}
+
 void add_map_options(CLI::App& command, ConvertOptions& options) {
   ImportOptions& map = options.map;
-  const char* maps = "Maps";
   const auto add = [&](const char* name, auto& value, const char* help) {
-    return command.add_option(name, value, help)->group(maps);
+    return command.add_option(name, value, help)->group(map_group);
   };
   add("--net", map.net, "For OSM maps: the .net.xml that netconvert made from the map; the scene gets its coordinates");
   add("--traffic", options.traffic, "Trajectories (FCD, CSV) whose whole area the ground must cover too");
@@ -181,15 +200,15 @@ void add_map_options(CLI::App& command, ConvertOptions& options) {
           "--wall-classes", map.wall_classes,
           "Give walls classes by their tags, with a thickness and a roughness, and write their [[material]] tables "
           "to materials.toml")
-      ->group(maps);
+      ->group(map_group);
   add("--roof-material", map.roof_material, "ITU material if the map does not name one")->capture_default_str();
   add("--ground-material", map.ground_material, "ITU material of the ground")->capture_default_str();
   command
       .add_flag("--vegetation,!--no-vegetation", map.vegetation,
                 "Trees, rows of trees and woods of the map as volumes that attenuate (the default), or not: Sionna RT "
                 "does not know them")
-      ->group(maps);
-  command.add_flag("!--no-ground", map.ground, "Write buildings only, without ground")->group(maps);
+      ->group(map_group);
+  command.add_flag("!--no-ground", map.ground, "Write buildings only, without ground")->group(map_group);
 }
 
 }  // namespace
@@ -210,12 +229,13 @@ void add_convert(CLI::App& program) {
       "For a map: the coordinates that the scene shall have, instead of metres about its middle");
   command->add_flag("--list", options->list, "List the formats for --to");
   add_map_options(*command, *options);
-  command->callback([options] {
+  command->callback([options, command] {
     if (options->list) return print_list();
     if (options->input.empty()) throw ConfigError("convert: give what to convert: the folder of a run, or a map");
     if (!options->format.empty() && options->format != "mitsuba") named_exporter(options->format);
     check_input(options->input);
     if (options->output.empty()) throw ConfigError("convert: give the file or folder to write with -o");
+    check_map_or_run(*command, *options);
     if (is_import(options->input)) return import_map(*options);
     export_run(*options);
   });

@@ -80,6 +80,14 @@ std::string job_of(const ShardChoice& part, const RunIdentity& identity) {
 }
 
 void check_options(const RunOptions& options, const Ranks& ranks) {
+  check_frames(options.frames);
+  if (!options.devices.empty() && options.devices != "all" && !options.device.empty())
+    throw ConfigError("--devices and --device both name devices; leave one of them out");
+  if (options.processes > 0 && ranks.size > 1)
+    throw ConfigError(
+        fmt::format("--processes: this process is rank {} of {} already, which share the run by themselves; "
+                    "leave out --processes",
+                    ranks.rank, ranks.size));
   if (options.shard.empty()) return;
   parse_shard(options.shard);
   if (options.starts_processes())
@@ -109,14 +117,15 @@ void start_children(const RunOptions& options, const Config& config, Invocation&
         "--processes {}: there are {} devices, and each needs a process of its own; give at least that many",
         plan.processes, devices.size()));
   plan.command_line = invocation.command_line;
-  progress.line(devices.size() == 1 ? fmt::format("{} processes on device {}", plan.processes, devices[0])
-                                    : fmt::format("{} processes on {} devices", plan.processes, devices.size()));
+  progress.line(fmt::format(
+      "{} {} on {}", plan.processes, plan.processes == 1 ? "process" : "processes",
+      devices.size() == 1 ? fmt::format("device {}", devices[0]) : fmt::format("{} devices", devices.size())));
   invocation.code = start_processes(plan, progress);
 }
 
 // Returns the device of a rank: ranks of one host take devices in turn.
 std::string device_of(const RunOptions& options, const Ranks& ranks) {
-  if (ranks.size == 1) return options.device;
+  if (ranks.size == 1 && !ranks.started) return options.device;
   const std::vector<size_t> devices = choose_devices(gpu::list_devices(), options.devices, options.device);
   return std::to_string(devices[ranks.local_rank % devices.size()]);
 }
@@ -151,7 +160,7 @@ std::optional<Results> run_shared(const DriveTask& task, const RunOptions& optio
 
 Sharing sharing_of(const RunOptions& options, const Ranks& ranks) {
   if (!options.shard.empty()) return Sharing::shard;
-  if (ranks.size > 1) return Sharing::ranks;
+  if (ranks.size > 1 || ranks.started) return Sharing::ranks;  // a child starts no children, also if it is the only one
   return options.starts_processes() ? Sharing::starter : Sharing::alone;
 }
 
@@ -208,14 +217,15 @@ void run(const RunOptions& options, Invocation& invocation) {
     if (const std::string earlier = earlier_results(directory); !earlier.empty())
       progress.line("replaces " + earlier + old_plots(directory));
   if (ranks.rank == 0) progress.line(loading_words());
+  FrameRange range;
   Simulation simulation = [&] {
     const EndOnInterrupt at_once([&folder] { folder.reset(); },
                                  ranks.started ? "" : "interrupted before the first frame; nothing was written");
-    return Simulation(config, device_of(options, ranks));
+    return Simulation(config, device_of(options, ranks),
+                      [&](uint64_t frames) { range = parse_frames(options.frames, frames); });
   }();
   simulation.profile_every(profiled_frames);
   simulation.sum_links(!config.output.paths);
-  const FrameRange range = parse_frames(options.frames, simulation.frame_count());
   const char* const started_as = ranks.started ? std::getenv("WAVETRACER_COMMAND") : nullptr;
   Run run = make_run(simulation, range.count(), started_as ? started_as : invocation.command_line);
   run.summary.repeat_count = options.repeat;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "app/idle_options.hpp"
 #include "app/live_page.hpp"
 #include "app/named_files.hpp"
 #include "app/standard_streams.hpp"
@@ -45,13 +46,13 @@ void serve(const ServeOptions& options) {
   }
   std::optional<EndOnInterrupt> loading;
   loading.emplace([] {}, "interrupted before the server was ready");
-  live::serve(
-      config, serving, interrupted, [&](const std::string& text) { progress.line(text); },
-      [&loading](const std::string& name) {
-        loading.reset();
-        std::cout << "listening on " << name << std::endl;
-        if (const std::string problem = output_problem(); !problem.empty()) throw RuntimeError(problem);
-      });
+  const auto say = [&progress](const std::string& text) { progress.line(text); };
+  const auto ready = [&loading](const std::string& name) {
+    loading.reset();
+    std::cout << "listening on " << name << std::endl;
+    if (const std::string problem = output_problem(); !problem.empty()) throw RuntimeError(problem);
+  };
+  live::serve(config, serving, interrupted, say, ready);
   progress.line("ended");
 }
 
@@ -82,6 +83,13 @@ void add_van3twin(CLI::App& command, const std::shared_ptr<ServeOptions>& option
                      "loopback address");
 }
 
+// The other protocol has options of its own.
+void check_protocol(const CLI::App& command, const ServeOptions& options) {
+  if (options.protocol == "live")
+    refuse_options(command, {"--offset", "--position", "--gain", "--peer"},
+                   "this option is for --protocol van3twin, and --protocol is live");
+}
+
 }  // namespace
 
 void add_serve(CLI::App& program, Invocation&) {
@@ -103,7 +111,10 @@ void add_serve(CLI::App& program, Invocation&) {
                       "Page that shows the newest frame, written at most once per second; open it in a browser, "
                       "which loads it again by itself");
   add_van3twin(*command, options);
-  command->callback([options] { serve(*options); });
+  command->callback([options, command] {
+    check_protocol(*command, *options);
+    serve(*options);
+  });
 }
 
 }  // namespace wavetracer::app

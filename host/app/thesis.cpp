@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include "app/commands.hpp"
+#include "app/idle_options.hpp"
 #include "app/named_files.hpp"
 #include "app/number_range.hpp"
 #include "app/study_host.hpp"
@@ -64,6 +65,24 @@ std::vector<const study::Experiment*> wanted(const std::vector<std::string>& nam
     if (std::ranges::count(names, name) > 1) throw ConfigError(fmt::format("thesis: \"{}\" is given twice", name));
   }
   return out;
+}
+
+// Throws ConfigError for an option that changes none of the experiments.
+void check_kinds(const CLI::App& command, const std::vector<const study::Experiment*>& experiments) {
+  using study::Experiment;
+  if (experiments.empty())
+    return refuse_options(command,
+                          {"-c", "-o", "--set", "--device", "--rays", "--repeat", "--frames", "--minutes", "--quick"},
+                          "no experiment is named; `wavetracer thesis` lists them");
+  const auto none = [&](const auto& heeds) { return std::ranges::none_of(experiments, heeds); };
+  const auto orders = [](const Experiment* one) { return one->as<study::OrderFigure>() != nullptr; };
+  if (none(orders)) refuse_options(command, {"--minutes"}, "it is for figures of orders, such as figure-6.1");
+  if (none([](const Experiment* one) { return one->moves() || one->study(); }))
+    refuse_options(command, {"--frames"}, "it is for experiments with the frames of a drive, such as figure-6.13");
+  if (none([&](const Experiment* one) { return (orders(one) && !one->moves()) || one->study(); }))
+    refuse_options(command, {"--repeat"}, "this experiment compares hits, or averages over frames (--frames)");
+  if (none([](const Experiment* one) { return one->as<study::LagFigure>() == nullptr; }))
+    refuse_options(command, {"--quick"}, "this experiment has one launch alone");
 }
 
 void study_thesis(const ThesisOptions& options, Invocation& invocation) {
@@ -134,7 +153,10 @@ void add_thesis(CLI::App& program, Invocation& invocation) {
   command->add_flag("--quick", options->quick, "Use fewer rays and a fifth of the frames");
   command->footer("");  // removes the program's footer, which would be printed too
   command->footer([] { return "Experiments:\n" + listed(); });
-  command->callback([options, &invocation] { study_thesis(*options, invocation); });
+  command->callback([options, command, &invocation] {
+    check_kinds(*command, wanted(options->experiments));
+    study_thesis(*options, invocation);
+  });
 }
 
 }  // namespace wavetracer::app

@@ -61,10 +61,6 @@ class Calibrating {
     out_.paths = world_->paths();
     out_.device = world_->device();
     out_.warnings = world_->warnings();
-    out_.parameters = request_.patterns.empty()
-                          ? std::vector<Parameter>()
-                          : chosen_parameters(world_->materials(), world_->ends(), request_.patterns,
-                                              {request_.prior, request_.errors}, out_.notes);
     list_points();
     state_problem();
     try {
@@ -90,11 +86,19 @@ class Calibrating {
   bool find_paths(const Config& config) {
     try {
       const std::shared_ptr<void> guard = host_.guard();
-      world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns), host_.watch);
+      world_.emplace(config, out_.files, request_.device, move_paths(request_.patterns), host_.watch,
+                     [this](const NamedRecords& materials, const EndPlaces& ends) { choose(materials, ends); });
     } catch (const FrameStopped&) {
       out_.stopped = true;
     }
     return !out_.stopped;
+  }
+
+  // Chooses what is fitted.
+  void choose(const NamedRecords& materials, const EndPlaces& ends) {
+    if (request_.patterns.empty()) return;
+    out_.parameters =
+        chosen_parameters(materials, ends, request_.patterns, {request_.prior, request_.errors}, out_.notes);
   }
 
   void read_files() {

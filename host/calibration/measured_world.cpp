@@ -80,9 +80,12 @@ Config lasting(Config config, bool moves) {
 }  // namespace
 
 MeasuredWorld::MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
-                             bool moves, FrameObserver watch)
+                             bool moves, FrameObserver watch, const WorldCheck& check)
     : places_(measured_places(config, files)),
-      setup_(make_setup(lasting(places_.config, moves), device, moves)),
+      setup_(make_setup(lasting(places_.config, moves), device, moves,
+                        [&check](const RunPlan& plan) {
+                          if (check) check(named_records(plan), end_places(plan.world.transmitters.ends));
+                        })),
       frames_(setup_),
       ends_(end_places(setup_.plan->world.transmitters.ends)),
       frame_((setup_.frame_watch->set(std::move(watch)), frame_at(ends_))),

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <complex>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,13 +24,17 @@ struct Inputs {
   EndPlaces ends;
 };
 
+// Refuses what can be fitted in a world by an exception.
+using WorldCheck = std::function<void(const NamedRecords& materials, const EndPlaces& ends)>;
+
 class MeasuredWorld {
  public:
   // Finds the paths from the transmitters of a configuration to measured places (measured_places()). Throws ConfigError
   // or InputError for a world that does not fit the files. moves: inputs with ends in other places will come. watch:
-  // watches all frames, which throw FrameStopped if it cancels them.
+  // watches all frames, which throw FrameStopped if it cancels them. check: may refuse the world before kernels are
+  // compiled for it.
   MeasuredWorld(const Config& config, const std::vector<MeasuredFile>& files, const std::string& device,
-                bool moves = false, FrameObserver watch = {});
+                bool moves = false, FrameObserver watch = {}, const WorldCheck& check = {});
 
   // From now on, values have the profiles of delays in so many bins; 0: none.
   void want_profiles(double bin_s, size_t bins) {

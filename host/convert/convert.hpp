@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 #include "results/saved_run.hpp"
 
@@ -25,6 +26,9 @@ struct ExportOptions {
     if (at) at(row - first_row, last_row - first_row + 1);
   }
 };
+
+// Has the format coordinates on the earth, for which --projection may be needed?
+inline bool is_on_earth(std::string_view format) { return format == "kml" || format == "osi"; }
 
 struct Exporter {
   const char* name;    // name that --to takes

@@ -215,6 +215,8 @@ bool is_import(const std::filesystem::path& file) {
                                   suffix == ".xml" || suffix == ".toml" || file.filename() == "run.json");
 }
 
+bool is_sumo_map(const std::filesystem::path& file) { return imports::is_sumo_polygons(first_bytes_of(file)); }
+
 ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options) {
   if (is_read_here(first_bytes_of(file))) return import_city(read_file(file), file.string(), options);
   check(options);

@@ -92,6 +92,9 @@ struct ImportSummary {
 // the first bytes, or any other file that is not HDF5 or JSON of a run. Returns false for folders and missing files.
 bool is_import(const std::filesystem::path& file);
 
+// Tells whether the map has polygons of SUMO, whose coordinates are those of their network.
+bool is_sumo_map(const std::filesystem::path& file);
+
 // Writes OUTPUT/city.xml, OUTPUT/meshes/*.ply and OUTPUT/georeference.json, the scene file last.
 // Throws InputError for the map, ConfigError for options, RuntimeError if a file cannot be written.
 ImportSummary import_city(const std::filesystem::path& file, const ImportOptions& options);

@@ -114,7 +114,7 @@ Ranks ranks_of(const Environment& variable) {
                         text_of(variable, "SLURM_RESTART_COUNT"));
     }
   }
-  if (!ranks || ranks->size == 1) return {};
+  if (!ranks || (ranks->size == 1 && !ranks->started)) return {};
   const std::string named = text_of(variable, "WAVETRACER_JOB");
   ranks->job = named.empty() ? job : named;
   return *ranks;

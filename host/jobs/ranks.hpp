@@ -11,7 +11,8 @@ namespace wavetracer {
 struct Ranks {
   uint32_t rank = 0, size = 1;
   uint32_t local_rank = 0, local_size = 1;  // rank and number among those on this host
-  std::string job;       // a name that all ranks of this start have, and no other start has; empty if size is 1
+  std::string
+      job;  // a name that all ranks of this start have, and no other start has; empty where there is no launcher
   bool started = false;  // started by `run --devices`: only this program divides the cores of this host
 };
 

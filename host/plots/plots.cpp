@@ -64,12 +64,35 @@ class Plotter {
       if (std::ranges::find(known, name) == known.end())
         throw ConfigError(fmt::format("--what \"{}\" is no plot, there are {}{}", name, fmt::join(known, ", "),
                                       spelling_hint(name, known)));
+    check_heeded();
     if (!choice_.grid.empty()) find_grid(world_.config.receiver_grids, choice_.grid);
+    if (!choice_.layer.empty()) coverage::layer_kind(choice_.layer);  // throws for an unknown name
     if (run_.path_count() == 0 && choice_.what != std::vector<std::string>{"rays"})
       throw InputError(
           fmt::format("{}: the run found no path at all, so there is nothing to plot; "
                       "look at the places of its antennas, and at trace.max_depth",
                       run_.file().string()));
+  }
+
+  // Throws ConfigError for a choice that changes none of the figures that were asked for.
+  void check_heeded() const {
+    const auto any = [this](std::initializer_list<std::string_view> names) {
+      return std::ranges::any_of(names, [this](std::string_view name) { return asked(name); });
+    };
+    const auto refuse = [](bool given, const char* option, const char* reason) {
+      if (given) throw ConfigError(fmt::format("{}: {}; leave it out", option, reason));
+    };
+    const bool links = any({"gain", "pdp", "delay-time", "doppler", "angles"});
+    const char* const no_map = grids_.empty() ? "the run has no [[receiver_grid]], so no map is drawn"
+                                              : "it is about the figure coverage, which --what does not name";
+    if (grids_.empty() || !asked("coverage")) {
+      refuse(!choice_.layer.empty(), "--layer", no_map);
+      refuse(!choice_.grid.empty(), "--grid", no_map);
+      refuse(!links && !choice_.link.tx.empty(), "--tx", "none of the figures of --what is about a transmitter");
+    }
+    refuse(!links && !choice_.link.rx.empty(), "--rx", "none of the figures of --what is about a link");
+    refuse(choice_.link.frame.has_value() && !any({"pdp", "doppler", "angles", "coverage", "rays"}), "--frame",
+           "the figures of --what show all frames");
   }
 
   void add(const Figure& figure) {

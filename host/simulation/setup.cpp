@@ -101,12 +101,13 @@ bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
 
 // own: null where the caller lends the context.
 Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Config& asked,
-             const std::function<Scene()>& load, bool frames_follow) {
+             const std::function<Scene()>& load, bool frames_follow, const PlanCheck& check) {
   StageClock stages;
   stages.end("device");
   Scene loaded = load();
   stages.end("load");
   auto plan = std::make_unique<const RunPlan>(plan_run(asked, std::move(loaded), frames_follow));
+  if (check) check(*plan);
   const auto& [scene, world, config, features, trace, origins, reuse] = *plan;
   auto around = std::make_unique<const Surroundings>(scene);
   std::vector<std::string> warnings = place_warnings(asked, *around, world);
@@ -162,11 +163,11 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
 
 }  // namespace
 
-Setup make_setup(const Config& asked, const std::string& device_text, bool frames_follow) {
+Setup make_setup(const Config& asked, const std::string& device_text, bool frames_follow, const PlanCheck& check) {
   auto context = std::make_unique<gpu::Context>(device_text);
   gpu::Context& device = *context;
   Setup out = set_up(
-      std::move(context), device, asked, [&] { return load_scene(asked); }, frames_follow);
+      std::move(context), device, asked, [&] { return load_scene(asked); }, frames_follow, check);
   out.stages.end("compile");
   prove_device(device, features_to_check(out));
   out.stages.end("device check");
@@ -174,8 +175,7 @@ Setup make_setup(const Config& asked, const std::string& device_text, bool frame
 }
 
 Setup make_setup(gpu::Context& context, const Config& asked, const Scene& scene, bool frames_follow) {
-  return set_up(
-      nullptr, context, asked, [&] { return scene; }, frames_follow);
+  return set_up(nullptr, context, asked, [&] { return scene; }, frames_follow, {});
 }
 
 }  // namespace wavetracer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of a simulation: the plan of the run, and the objects that compute it on a device.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,8 +68,12 @@ struct Setup {
   std::unique_ptr<const PathLifetimes> lifetimes;  // with output.lifetimes, else null
 };
 
+// Refuses a plan by an exception, before kernels are compiled for it. It may be empty.
+using PlanCheck = std::function<void(const RunPlan&)>;
+
 // As Simulation::Simulation; the device has proved itself then (device_proof.hpp). frames_follow: see plan_run().
-Setup make_setup(const Config& asked, const std::string& device_text, bool frames_follow = false);
+Setup make_setup(const Config& asked, const std::string& device_text, bool frames_follow = false,
+                 const PlanCheck& check = {});
 // A scene of the caller's own on a device that need not have proved itself: it is what the proof is made with. The
 // context outlives what is returned.
 Setup make_setup(gpu::Context& context, const Config& asked, const Scene& scene, bool frames_follow);

@@ -18,7 +18,13 @@
 namespace wavetracer {
 
 struct Simulation::State {
-  State(const Config& asked, const std::string& device_text) : setup(make_setup(asked, device_text)), frames(setup) {}
+  State(const Config& asked, const std::string& device_text, const FramesPlanned& planned)
+      : setup(make_setup(asked, device_text, false, check_of(planned))), frames(setup) {}
+
+  static PlanCheck check_of(const FramesPlanned& planned) {
+    if (!planned) return {};
+    return [&planned](const RunPlan& plan) { planned(plan.world.clock.frame_count()); };
+  }
 
   const RunPlan& plan() const { return *setup.plan; }
 
@@ -61,8 +67,8 @@ struct Simulation::State {
   uint64_t runs = 0;
 };
 
-Simulation::Simulation(const Config& config, const std::string& device)
-    : state_(std::make_unique<State>(config, device)) {}
+Simulation::Simulation(const Config& config, const std::string& device, const FramesPlanned& planned)
+    : state_(std::make_unique<State>(config, device, planned)) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

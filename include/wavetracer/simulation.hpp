@@ -26,6 +26,9 @@ struct FrameProgress {
 // Called between batches of rays and between these steps; if it returns false, the frame is cancelled.
 using FrameObserver = std::function<bool(const FrameProgress&)>;
 
+// Called with the number of frames of a world that was loaded.
+using FramesPlanned = std::function<void(uint64_t frame_count)>;
+
 // Thrown by run_frame() if the observer has cancelled the frame. The simulation can continue with any frame.
 class FrameStopped : public std::runtime_error {
  public:
@@ -53,9 +56,10 @@ inline constexpr uint32_t profiled_frames = 16;
 class Simulation {
  public:
   // Loads the scene, builds surfaces and acceleration structures, compiles the kernels.
-  // device: text that matches a platform or device name, an index, or empty for the default choice.
+  // device: text that matches a platform or device name, an index, or empty for the default choice. planned: called
+  // with the number of frames when the world is known and before kernels are compiled; it may throw.
   // Throws ConfigError, InputError or DeviceError.
-  Simulation(const Config& config, const std::string& device = "");
+  Simulation(const Config& config, const std::string& device = "", const FramesPlanned& planned = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

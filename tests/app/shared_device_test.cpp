@@ -154,6 +154,19 @@ TEST_CASE("two processes, or parts in two folders, write what one process writes
   CHECK(contains(other.err, "trace.rays was 2000 and is 2001"));
 }
 
+TEST_CASE("--devices with one device starts one process, which starts no other and writes what a run alone writes") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", room);
+  REQUIRE(run(file, folder.path("alone"), {"--device", "0"}).code == 0);
+  const Outcome one = run(file, folder.path("one"), {"--devices", "0"});
+  CAPTURE(one.err);
+  REQUIRE(one.code == 0);
+  CHECK(contains(one.err, "1 process on device 0"));
+  check_same(folder.path("one"), folder.path("alone"), true);
+  check_tidy(folder.path("one"));
+}
+
 TEST_CASE("blocks of transmitters of one frame: every link as in the whole frame, whatever is computed") {
   if (!device_present()) return;
   const Folder folder;

@@ -6,7 +6,7 @@
 FOLDER becomes the root folder of that system (debootstrap makes it where it is missing, and it is kept); /root/wavetracer
 in it is a clone of the last commit. Without names the documents are README.md, docs/tutorial.md and docs/python.md. Each
 is typed line by line into one shell, as a reader types it, and blocks of Python run with the `python3` of that shell.
-What a fresh container cannot do is in bare_not_run.txt with a reason. Maps of the reader's own come from
+The list bare_not_run.txt names the commands that a fresh container cannot run, with reasons. Maps of the reader's own come from
 tests/documents/files. --ccache gives a folder of compiled files, which makes the build faster and changes nothing else.
 This takes root, debootstrap, a network, some 5 GB, and 20 minutes on two cores: `./dev bare FOLDER` calls it by hand.
 """

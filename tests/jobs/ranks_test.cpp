@@ -28,6 +28,14 @@ TEST_CASE("without a launcher, or with one rank, there is one process") {
   CHECK(ranks({{"SLURM_PROCID", "0"}, {"SLURM_STEP_NUM_TASKS", "8"}, {"SLURM_STEP_ID", "4294967291"}}).size == 1);
 }
 
+TEST_CASE("the only child of a starter knows that it is a child") {
+  const Ranks only = ranks({{"WAVETRACER_RANK", "0"}, {"WAVETRACER_RANKS", "1"}, {"WAVETRACER_JOB", "7 ab"}});
+  CHECK(only.started);
+  CHECK(only.size == 1);
+  CHECK(only.job == "7 ab");
+  CHECK_FALSE(ranks({{"PMI_RANK", "0"}, {"PMI_SIZE", "1"}}).started);
+}
+
 TEST_CASE("ranks of Open MPI, PMI and Slurm") {
   const Ranks mpi = ranks({{"OMPI_COMM_WORLD_RANK", "5"},
                            {"OMPI_COMM_WORLD_SIZE", "8"},

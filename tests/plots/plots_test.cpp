@@ -196,9 +196,9 @@ TEST_CASE("what the run does not have is an error that names what it has") {
   check_contains(refused(drive, choice), "--frame 99: the run has frames 0 to 11");
   choice.link = {};
   choice.grid = "map";
-  check_contains(refused(drive, choice),
-                 "--grid \"map\" is not the name of a [[receiver_grid]] of the run, which has none");
-  check_contains(refused(grid, choice), "which has g");
+  check_contains(refused(drive, choice), "--grid: the run has no [[receiver_grid]], so no map is drawn; leave it out");
+  check_contains(refused(grid, choice),
+                 "--grid \"map\" is not the name of a [[receiver_grid]] of the run, which has g");
   choice.grid.clear();
   choice.what = {"gian"};
   check_contains(refused(drive, choice),
