@@ -95,6 +95,8 @@ uint32_t TrackBuilder::type_index(std::string_view name, uint64_t line, const st
                                   [&](const VehicleType& t) { return t.name == name || t.name == base; });
   std::optional<VehicleType> type = given != options_.types.end() ? *given : sumo_type(base);
   if (type && given == options_.types.end() && size_m) *type = {type->name, size_m->x, size_m->y, size_m->z};
+  // The file has the size of a vehicle whose type is nobody's, as a run with types of its own writes it.
+  if (!type && !options_.default_type && size_m) type = {std::string(name), size_m->x, size_m->y, size_m->z};
   if (!type) {
     if (!options_.default_type) {
       fail_at(file_, line,

@@ -27,7 +27,8 @@ class TrackBuilder {
 
   const std::string& file() const { return file_; }
   // what: the sample's name in messages, such as "vehicle 'a'"; size_m: length, width and height if the file gives them
-  // (those of TrajectoryOptions::types take precedence). Throws if the vehicle has a sample at this time or later.
+  // (those of TrajectoryOptions::types take precedence, and for names that are no class of SUMO the default type).
+  // Throws if the vehicle has a sample at this time or later.
   void add(std::string_view id, std::string_view type, const Sample& sample, uint64_t line, std::string_view what,
            const std::optional<glm::dvec3>& size_m = {});
   // Tells whether the vehicle is off the network, by its file coordinates, and counts it. Such a sample must not be

@@ -113,6 +113,41 @@ TEST_CASE("a type of the configuration goes before the size of the object; gzip 
   CHECK(packed.tracks.size() == 3);
 }
 
+TEST_CASE("a type that only the run knew which wrote the trace has the size that is in the trace") {
+  const auto object = [](bool sized) {
+    std::string out;
+    protozero::pbf_writer writer(out);
+    writer.add_message(osi::moving_object::id, std::string("\x08\x03", 2));
+    {
+      protozero::pbf_writer base(writer, osi::moving_object::base);
+      const auto triple = [&base](uint32_t field, double x, double y, double z) {
+        protozero::pbf_writer of(base, field);
+        of.add_double(osi::triple::first, x);
+        of.add_double(osi::triple::second, y);
+        of.add_double(osi::triple::third, z);
+      };
+      if (sized) triple(osi::base_moving::dimension, 4.5, 1.8, 1.4);
+      triple(osi::base_moving::position, 1, 2, 0.7);
+    }
+    protozero::pbf_writer source(writer, osi::moving_object::source_reference);
+    source.add_string(osi::external_reference::type, std::string(osi::reference_type));
+    source.add_string(osi::external_reference::identifier, "ego");
+    source.add_string(osi::external_reference::identifier, "sedan");
+    return out;
+  };
+  const std::string trace = trace_of({timed(0, object(true))}), without = trace_of({timed(0, object(false))});
+  const auto type_with = [&](const TrajectoryOptions& options) {
+    const Trajectories t = read_text(trace, options, "a.osi");
+    check_near(track_of(t, "ego").samples[0].position_m, {1, 2, 0}, 1e-12);
+    return t.types[track_of(t, "ego").type];
+  };
+  CHECK(type_with({.default_type = std::nullopt}) == VehicleType{"sedan", 4.5, 1.8, 1.4});
+  CHECK(type_with({.types = {{"sedan", 5, 2, 1.5}}, .default_type = std::nullopt}) == VehicleType{"sedan", 5, 2, 1.5});
+  CHECK(type_with({.default_type = VehicleType{"any", 4, 2, 1}}) == VehicleType{"sedan", 4, 2, 1});
+  CHECK_THROWS_WITH_AS(read_text(without, {.default_type = std::nullopt}, "a.osi"),
+                       Contains("the vehicle type 'sedan' is unknown: add a [[vehicle_type]]"), InputError);
+}
+
 TEST_CASE("classes there and here lead to each other") {
   for (const char* word :
        {"passenger", "delivery", "truck", "trailer", "bus", "motorcycle", "bicycle", "tram", "rail"}) {
