@@ -33,17 +33,25 @@ def recall_curves(groups):
     return curves
 
 
+def newest_day(points):
+    """(day, points) of the newest day: times of different days were measured beside different loads."""
+    day = max(day for day, *_ in points)
+    return day, sorted(point[1:] for point in points if point[0] == day)
+
+
 def receiver_curves(groups):
-    """Seconds per frame against links, ours and the peer's as bench_paths names it."""
+    """Seconds per frame against links, ours and the peer's as bench_paths names it. Each curve is of one day."""
     curves = {}
     for name, device in (("H200", speed.H200), ("two cores", speed.CPU)):
         for match, result in matches(cases_of(groups, "paths", device),
                                      r"munich, (\d+)x(\d+) links, 1e\+06 rays per transmitter"):
-            links = int(match[1]) * int(match[2])
-            curves.setdefault(f"wavetracer, {name}", []).append((links, result["value"]))
+            links, day = int(match[1]) * int(match[2]), result["date"][:10]
+            curves.setdefault(f"wavetracer, {name}", []).append((day, links, result["value"]))
             if result["baseline_value"] and "1e+07 rays" not in result["baseline"]:  # as many rays as ours
-                curves.setdefault(f"Sionna RT, {name}", []).append((links, result["baseline_value"]))
-    return {name: sorted(points) for name, points in curves.items()}
+                measured = re.search(r"\d{4}-\d\d-\d\d", result["baseline"])
+                curves.setdefault(f"Sionna RT, {name}", []).append((measured[0] if measured else day, links, result["baseline_value"]))
+    days = {name: newest_day(points) for name, points in curves.items()}
+    return {f"{name}, {day}": points for name, (day, points) in days.items()}
 
 
 def vehicle_curves(groups):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Makes all tables of measurements of bench/results/*.jsonl: bench/RESULTS.md, a page for each benchmark beside its
-# results, docs/thesis_verdicts.md, three plots, and the blocks of README.md and docs/ that are marked as generated.
+# results, docs/thesis_verdicts.md, five plots, and the blocks of README.md and docs/ that are marked as generated.
 # Assumes the keys of json_line.hpp. The plots take gnuplot.
 """Usage: report.py [--check] [ROOT]; ROOT is the source tree, by default this one.
 
@@ -17,6 +17,7 @@ import plots
 import ray_studies
 import rows
 import speed
+import study_figures
 import verdicts
 
 # Benchmarks whose error counts wrong results: their numbers are worthless unless it is 0.
@@ -116,6 +117,7 @@ def generated(root):
         files[bench / "results" / f"{name}.md"] = bench_page(name, groups)
     files[bench / "RESULTS.md"] = results_page(groups)
     files.update({bench / "figures" / f"{name}.svg": text for name, text in plots.drawn(groups)})
+    files.update({root / "docs/figures" / f"{name}.svg": text for name, text in study_figures.drawn(bench / "results")})
     claims = verdicts.read(bench / "results" / "verdicts.csv")
     files[root / "docs" / "thesis_verdicts.md"] = verdicts.page(claims)
     tables = {name: make(groups) for name, make in (speed.TABLES | ray_studies.TABLES).items()} | {"verdict_counts": verdicts.counts(claims)}

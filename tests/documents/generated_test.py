@@ -24,7 +24,7 @@ def copied(folder):
     """The parts of the tree that report.py reads and writes."""
     root = pathlib.Path(folder) / "tree"
     shutil.copytree(source / "bench", root / "bench", ignore=shutil.ignore_patterns("*.cpp", "*.hpp", "validation", "peers"))
-    shutil.copytree(source / "docs", root / "docs", ignore=shutil.ignore_patterns("*.png", "*.svg", "examples"))
+    shutil.copytree(source / "docs", root / "docs", ignore=shutil.ignore_patterns("*.png", "examples"))
     shutil.copy(source / "README.md", root)
     return root
 
