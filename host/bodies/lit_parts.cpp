@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/lit_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wavetracer {
+namespace {
+
+Polygon above_all(Polygon polygon, const std::vector<Plane>& planes, double tolerance_m) {
+  for (const Plane& plane : planes) {
+    if (polygon.empty()) break;
+    polygon = part_above(polygon, plane, tolerance_m);
+  }
+  return polygon;
+}
+
+SeenFacet seen_facet(const Polygon& corners) {
+  SeenFacet seen{plane_of(corners), centroid(corners), 0};
+  for (const glm::dvec3 p : corners) seen.radius_m = std::max(seen.radius_m, glm::length(p - seen.centre));
+  return seen;
+}
+
+}  // namespace
+
+LitParts::LitParts(const Body& body) : body_(body), closed_(is_closed(body)) {
+  glm::dvec3 lower(INFINITY), upper(-INFINITY);
+  for (const Facet& facet : body.facets) {
+    facets_.push_back(seen_facet(facet.corners));
+    for (const glm::dvec3 p : facet.corners) {
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
+  }
+  size_m_ = glm::length(upper - lower);
+  tolerance_m_ = 1e-9 * size_m_;
+}
+
+Plane LitParts::towards(glm::dvec3 source, uint32_t facet) const {
+  const Plane& plane = facets_[facet].plane;
+  return height_over(plane, source) < 0 ? flipped(plane) : plane;
+}
+
+// A closed body is lit from outside alone; a source in the plane of a facet does not light it.
+bool LitParts::lit_side(const Beam& beam, uint32_t facet) const {
+  const double height = height_over(facets_[facet].plane, beam.source);
+  return closed_ ? height > tolerance_m_ : std::abs(height) > tolerance_m_;
+}
+
+// Cones about the spheres of both facets: false if they have no direction from the source in common, or the blocker is
+// behind. It may be true for nothing.
+bool LitParts::may_hide(const Beam& beam, uint32_t blocker, uint32_t facet) const {
+  const SeenFacet &near = facets_[blocker], &far = facets_[facet];
+  const glm::dvec3 to_near = near.centre - beam.source, to_far = far.centre - beam.source;
+  const double near_m = glm::length(to_near), far_m = glm::length(to_far);
+  if (near_m - near.radius_m > far_m + far.radius_m) return false;
+  if (near_m <= near.radius_m || far_m <= far.radius_m) return true;
+  // Angles are those of sines, and the distance between both lines of sight is at least that of the nearer sphere.
+  const double angle = std::asin(near.radius_m / near_m) + std::asin(far.radius_m / far_m);
+  const double between = std::atan2(glm::length(glm::cross(to_near, to_far)), glm::dot(to_near, to_far));
+  return between <= angle * (1 + 1e-9) + 1e-12;
+}
+
+std::vector<Polygon> LitParts::operator()(const Beam& beam, uint32_t facet) const {
+  if (!lit_side(beam, facet)) return {};
+  // After a mirror, light is on its upper side, away from the image, and inside of the aperture's pyramid.
+  std::vector<Plane> way;
+  if (!beam.mirrors.empty()) {
+    if (beam.mirrors.back() == facet) return {};
+    way = pyramid(beam.source, beam.aperture, tolerance_m_);
+    if (way.empty()) return {};
+    way.push_back(flipped(towards(beam.source, beam.mirrors.back())));
+  }
+  Polygon reached = above_all(body_.facets[facet].corners, way, tolerance_m_);
+  if (reached.empty()) return {};
+  std::vector<Polygon> lit{std::move(reached)};
+  const Plane lit_side_plane = towards(beam.source, facet);
+  for (uint32_t blocker = 0; blocker < facets_.size() && !lit.empty(); ++blocker) {
+    if (blocker == facet || (!beam.mirrors.empty() && blocker == beam.mirrors.back())) continue;
+    if (!lit_side(beam, blocker) || !may_hide(beam, blocker, facet)) continue;
+    Polygon between = part_above(body_.facets[blocker].corners, lit_side_plane, tolerance_m_);
+    if (!between.empty() && !way.empty()) between = part_above(between, way.back(), tolerance_m_);
+    if (!between.empty()) subtract(lit, pyramid(beam.source, between, tolerance_m_), tolerance_m_);
+  }
+  return lit;
+}
+
+Beam LitParts::reflected(const Beam& beam, uint32_t facet, const Polygon& part) const {
+  const Plane& plane = facets_[facet].plane;
+  Beam out{beam.source - plane.normal * (2 * height_over(plane, beam.source)), beam.mirrors, part};
+  out.mirrors.push_back(facet);
+  return out;
+}
+
+}  // namespace wavetracer

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies/physical_optics.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "bodies/lit_parts.hpp"
+#include "bodies/pieces.hpp"
+#include "radio/constants.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+using Sum = std::array<std::complex<double>, 4>;
+
+struct LitPart {
+  size_t beam;  // its place among those of this bounce
+  uint32_t facet;
+  Polygon part;
+};
+
+// All that the beams light, in the order of beams and facets.
+std::vector<LitPart> lit_parts(const Body& body, const LitParts& lit, const std::vector<Beam>& beams) {
+  const size_t facets = body.facets.size();
+  std::vector<std::vector<Polygon>> found(beams.size() * facets);
+  tbb::parallel_for(size_t{0}, found.size(),
+                    [&](size_t i) { found[i] = lit(beams[i / facets], static_cast<uint32_t>(i % facets)); });
+  std::vector<LitPart> parts;
+  for (size_t i = 0; i < found.size(); ++i)
+    for (Polygon& part : found[i]) parts.push_back({i / facets, static_cast<uint32_t>(i % facets), std::move(part)});
+  return parts;
+}
+
+void check_options(const PhysicalOptics& options, double frequency_hz) {
+  const auto above_zero = [](const char* name, double value) {
+    if (!(value > 0))
+      throw ConfigError(fmt::format("{} of physical optics is {}; give it a number above 0", name, value));
+  };
+  above_zero("the frequency", frequency_hz);
+  above_zero("phase_error_rad", options.phase_error_rad);
+  above_zero("amplitude_error", options.amplitude_error);
+  above_zero("echo_size_m", options.echo_size_m);
+  if (options.max_bounces == 0)
+    throw ConfigError("max_bounces of physical optics is 0, which leaves no echo; give it 1 or more");
+}
+
+void check_end(const Body& body, const char* name, glm::dvec3 end) {
+  if (!std::isfinite(end.x + end.y + end.z))
+    throw ConfigError(fmt::format("the {} of a body's echoes is not at a finite position; give it one", name));
+  for (size_t i = 0; i < body.facets.size(); ++i) {
+    const Plane plane = plane_of(body.facets[i].corners);
+    if (std::abs(height_over(plane, end)) > 1e-6) continue;
+    // The end lies in the plane: it is on the facet if it is on the inner side of all edges.
+    const Polygon& corners = body.facets[i].corners;
+    bool inside = true;
+    for (size_t k = 0; k < corners.size() && inside; ++k) {
+      const glm::dvec3 edge = corners[(k + 1) % corners.size()] - corners[k];
+      inside = glm::dot(glm::cross(edge, end - corners[k]), plane.normal) >= -1e-6 * glm::length(edge);
+    }
+    if (inside)
+      throw ConfigError(fmt::format("the {} of a body's echoes is on facet {}; move it away from the body", name, i));
+  }
+}
+
+std::vector<Echo> one_way(const Body& body, const LitParts& lit, glm::dvec3 transmitter, glm::dvec3 receiver,
+                          double wavelength_m, const PhysicalOptics& options) {
+  const auto fits_echo = [&](const Polygon&, glm::dvec3, double radius_m) {
+    return 2 * radius_m <= options.echo_size_m;
+  };
+  std::vector<Echo> echoes;
+  std::vector<Beam> beams{{transmitter, {}, {}}};
+  for (uint32_t bounce = 1; bounce <= options.max_bounces && !beams.empty(); ++bounce) {
+    const std::vector<LitPart> parts = lit_parts(body, lit, beams);
+    std::vector<std::vector<Echo>> found(parts.size());
+    std::vector<Beam> next(bounce < options.max_bounces ? parts.size() : 0);
+    tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
+      const auto& [beam, facet, part] = parts[i];
+      const FacetWave wave{body, lit, beams[beam], facet, receiver, wavelength_m};
+      for (const Polygon& cell : pieces_of(part, fits_echo, 1e-6 * lit.size_m()))
+        found[i].push_back(wave.echo(cell, options));
+      if (!next.empty()) next[i] = lit.reflected(beams[beam], facet, part);
+    });
+    for (std::vector<Echo>& some : found) std::move(some.begin(), some.end(), std::back_inserter(echoes));
+    beams = std::move(next);
+  }
+  return echoes;
+}
+
+void turn_back(Echo& echo) {
+  std::reverse(echo.facets.begin(), echo.facets.end());
+  std::reverse(echo.vertices.begin(), echo.vertices.end());
+  std::swap(echo.matrix[1], echo.matrix[2]);
+}
+
+}  // namespace
+
+std::vector<Echo> scattered(const Body& body, glm::dvec3 transmitter, glm::dvec3 receiver, double frequency_hz,
+                            const PhysicalOptics& options) {
+  check_body(body);
+  check_options(options, frequency_hz);
+  check_end(body, "transmitter", transmitter);
+  check_end(body, "receiver", receiver);
+  const LitParts lit(body);
+  const double wavelength_m = speed_of_light_m_s / frequency_hz;
+  std::vector<Echo> echoes = one_way(body, lit, transmitter, receiver, wavelength_m, options);
+  if (options.reciprocal) {
+    std::vector<Echo> back = one_way(body, lit, receiver, transmitter, wavelength_m, options);
+    for (Echo& echo : back) turn_back(echo);
+    echoes.insert(echoes.end(), std::make_move_iterator(back.begin()), std::make_move_iterator(back.end()));
+    for (Echo& echo : echoes)
+      for (std::complex<double>& m : echo.matrix) m *= 0.5;
+  }
+  return echoes;
+}
+
+Sum sum_of(const std::vector<Echo>& echoes, double frequency_hz) {
+  Sum sum{};
+  for (const Echo& echo : echoes) {
+    const auto turn = device::wt_cos_sin(-2 * WT_PI * frequency_hz / speed_of_light_m_s * echo.length_m);
+    for (size_t i = 0; i < 4; ++i) sum[i] += echo.matrix[i] * std::complex(turn.x, turn.y);
+  }
+  return sum;
+}
+
+}  // namespace wavetracer
