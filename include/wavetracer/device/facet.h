@@ -12,8 +12,8 @@ namespace wavetracer::device {
 
 // The mean of exp(j phase) over a segment on which the phase is linear, from a to b.
 inline wt_double2 wt_segment_mean(double a, double b) {
-  const double half = 0.5 * (b - a);
-  const double sinc = fabs(half) < 1e-5 ? 1.0 - half * half / 6.0 : wt_cos_sin(half).y / half;
+  const double turn = 0.5 * (b - a);
+  const double sinc = fabs(turn) < 1e-5 ? 1.0 - turn * turn / 6.0 : wt_cos_sin(turn).y / turn;
   return wt_cos_sin(0.5 * (a + b)) * sinc;
 }
 
