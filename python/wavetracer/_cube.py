@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Range-Doppler cubes of a radar: beams, detections, files."""
+"""Range-Doppler cubes of a radar: beams and detections."""
 from __future__ import annotations
 
-import pathlib
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import integer, number
-from .errors import ConfigError, InputError
+from .errors import ConfigError
 
 Array = NDArray[Any]
 _SPEED_OF_LIGHT_M_S = 299792458.0
-_FORMAT = "wavetracer radar"
 
 
 def _window(name: str, count: int) -> Array:
@@ -132,32 +130,3 @@ class Cube:
         before, here, after = (np.roll(level, shift, axis)[n, s] for shift in (1, 0, -1))
         bend = before - 2 * here + after
         return np.asarray(np.divide(0.5 * (before - after), bend, out=np.zeros(len(n)), where=bend < 0))
-
-    def save(self, file: str | pathlib.Path, spectrogram: tuple[Array, Array, Array] | None = None) -> None:
-        """Writes HDF5: /cube/{re,im} with the axes of `values`, /delay_s, /range_m, /doppler_hz, /speed_m_s, the map
-        /power_dbm, and, if given, /spectrogram/{time_s,doppler_hz,power_dbm}."""
-        import h5py
-
-        with h5py.File(file, "w") as out:
-            out.attrs["format"], out.attrs["format_version"] = _FORMAT, 1
-            out.attrs["frequency_hz"], out.attrs["left_out"] = self.frequency_hz, self.left_out
-            out["cube/re"], out["cube/im"] = self.values.real, self.values.imag
-            for name in ("delay_s", "range_m", "doppler_hz", "speed_m_s", "power_dbm"):
-                out[name] = getattr(self, name)
-            for name, column in zip(("time_s", "doppler_hz", "power_dbm"), spectrogram or ()):
-                out["spectrogram/" + name] = column
-
-
-def load(file: str | pathlib.Path) -> Cube:
-    """The cube of a file that save() has written."""
-    import h5py
-
-    try:
-        with h5py.File(file) as stored:
-            if stored.attrs.get("format") != _FORMAT:
-                raise InputError(f"{file}: this is no radar cube of wavetracer; give a file of Cube.save()")
-            values = stored["cube/re"][...] + 1j * stored["cube/im"][...]
-            return Cube(values, stored["delay_s"][...], stored["doppler_hz"][...], float(stored.attrs["frequency_hz"]),
-                        int(stored.attrs["left_out"]))
-    except (OSError, KeyError) as error:
-        raise InputError(f"{file}: it cannot be read: {error}") from None

@@ -14,9 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _channel
 from ._arguments import integer, number
-from ._cube import Cube, load, windowed
+from ._cube import Cube, windowed
+from ._radar_file import load, save
 from .errors import ConfigError
 from .paths import Paths
+
+__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_points", "cube", "cube_of", "load", "save", "spectrogram", "wheel"]
 
 Array = NDArray[Any]
 SPEED_OF_LIGHT_M_S = 299792458.0

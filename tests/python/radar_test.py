@@ -155,13 +155,27 @@ def check_wheel():
 
 
 def check_files():
-    cube = radar.cube(made([30e-9], [500], [1e-4]), WAVE)
-    cube.save(FOLDER / "radar.h5", radar.spectrogram(radar.beat(made([30e-9], [500], [1e-4]), WAVE), WAVE, 16, 8))
+    """What was written is read back, and the maps and detections are those of the cubes."""
+    cubes = [radar.cube(made([30e-9], [shift], [1e-4]), WAVE) for shift in (500, -2500)]
+    spectra = radar.spectrogram(radar.beat(made([30e-9], [500], [1e-4]), WAVE), WAVE, 16, 8)
+    radar.save(FOLDER / "radar.h5", cubes, [3, 5], [0.3, 0.5], spectra)
     again = radar.load(FOLDER / "radar.h5")
-    assert np.array_equal(again.values, cube.values) and np.array_equal(again.range_m, cube.range_m)
-    assert again.frequency_hz == CARRIER and "64 Doppler shifts" in repr(again)
+    assert list(again) == [3, 5]
+    for cube, read in zip(cubes, again.values()):
+        assert np.array_equal(read.values, cube.values.astype(np.complex64)) and np.array_equal(read.range_m, cube.range_m)
+        assert read.frequency_hz == CARRIER and "64 Doppler shifts" in repr(read)
+    with h5py.File(FOLDER / "radar.h5") as file:
+        assert file["power_dbm"].shape == (2, 64, 128) and file["spectrogram/power_dbm"].shape == spectra[2].shape
+        found = [cube.detections() for cube in cubes]
+        assert list(file["detections/frame"]) == sum(([n] * len(d["range_m"]) for n, d in zip((3, 5), found)), [])
+        assert np.array_equal(file["detections/doppler_hz"], np.concatenate([d["doppler_hz"] for d in found]))
+    other = radar.cube(made([30e-9], [0], [1]), radar.Waveform(1e9, 20e-6, chirps=32, samples=128))
+    refused(lambda: radar.save(FOLDER / "mixed.h5", [cubes[0], other], [0, 1], [0, 1]), "of one waveform")
     (FOLDER / "other.h5").write_text("no")
     refused(lambda: radar.load(FOLDER / "other.h5"), "cannot be read")
+    with h5py.File(FOLDER / "empty.h5", "w"):
+        pass
+    refused(lambda: radar.load(FOLDER / "empty.h5"), "no radar.h5")
 
 
 def check_misuse():
