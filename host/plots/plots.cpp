@@ -10,10 +10,12 @@
 #include "base/times.hpp"
 #include "plots/coverage_plot.hpp"
 #include "plots/link_plots.hpp"
+#include "plots/radar_plot.hpp"
 #include "plots/rays_plot.hpp"
 #include "results/link_rows.hpp"
 #include "results/link_table.hpp"
 #include "results/run_choice.hpp"
+#include "results/saved_radar.hpp"
 #include "results/saved_waypoints.hpp"
 #include "results/saved_world.hpp"
 #include "wavetracer/error.hpp"
@@ -35,9 +37,11 @@ class Plotter {
 
   PlotReport plot() {
     check_choice();
-    if (std::any_of(plot_names.begin(), plot_names.end() - 2, [&](auto name) { return asked(name); })) plot_links();
+    if (std::any_of(plot_names.begin(), plot_names.begin() + link_plots, [&](auto name) { return asked(name); }))
+      plot_links();
     if (asked("coverage")) plot_coverage();
     if (asked("rays")) plot_rays();
+    if (asked("range-doppler") || asked("micro-doppler")) plot_radar();
     return std::move(report_);
   }
 
@@ -165,6 +169,31 @@ class Plotter {
     else
       add(rays_figure(rows, run_.frame_count() > 1 ? fmt::format(", {} s", time_text(run_.time_s(row))) : "",
                       world_.scene));
+  }
+
+  void plot_radar() {
+    const std::optional<SavedRadar> radar = saved_radar(run_);
+    const std::string missing = "the run has no radar.h5: make it by `python3 -m wavetracer.radar RUN`";
+    if (wanted("range-doppler", radar.has_value(), missing)) {
+      const auto row =
+          static_cast<size_t>(std::ranges::find(radar->frames(), choice_.link.frame.value_or(radar->frames()[0])) -
+                              radar->frames().begin());
+      if (row == radar->frames().size())
+        throw ConfigError(fmt::format("--frame {}: radar.h5 has no such frame, only {} of them from {} to {}",
+                                      *choice_.link.frame, row, radar->frames().front(), radar->frames().back()));
+      const RadarMap map = radar->range_doppler(row);
+      if (has_power(map))
+        add(range_doppler_figure(
+            map, run_.frame_count() > 1 ? fmt::format(", {} s", time_text(radar->times_s()[row])) : ""));
+      else
+        report_.warnings.push_back(
+            fmt::format("range-doppler: the radar hears nothing in frame {}", radar->frames()[row]));
+    }
+    const std::optional<RadarMap> spectra = radar ? radar->spectrogram() : std::nullopt;
+    const bool several = spectra && spectra->rows.size() > 1;
+    if (wanted("micro-doppler", several, radar ? "radar.h5 has no spectrogram of two times or more" : missing) &&
+        has_power(*spectra))
+      add(micro_doppler_figure(*spectra));
   }
 };
 

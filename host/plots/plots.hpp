@@ -14,8 +14,9 @@
 namespace wavetracer::plots {
 
 // Names that --what takes; they are also the names of the files.
-constexpr std::array<std::string_view, 7> plot_names{"gain",   "pdp",      "delay-time", "doppler",
-                                                     "angles", "coverage", "rays"};
+constexpr std::array<std::string_view, 9> plot_names{"gain",     "pdp",  "delay-time",    "doppler",      "angles",
+                                                     "coverage", "rays", "range-doppler", "micro-doppler"};
+constexpr size_t link_plots = 5;  // the first of these show links
 
 struct PlotChoice {
   std::vector<std::string> what;  // some of plot_names; empty: all that suit the run

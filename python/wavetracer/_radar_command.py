@@ -12,6 +12,7 @@ import numpy as np
 
 from . import radar
 from .errors import ConfigError, Error
+from .paths import KINDS
 from .runs import Run, SavedFrame
 
 
@@ -33,6 +34,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--window", default="hann", help="hann, hamming, blackman or none; default: %(default)s")
     parser.add_argument("--false-alarm", type=float, default=1e-6, metavar="P",
                         help="probability of a false detection in a cell of noise; default: %(default)g")
+    parser.add_argument("--no-direct", action="store_true",
+                        help="leave out the direct path from the transmitter to the receiver, as a radar's filter would")
     parser.add_argument("--frames", metavar="A:B", help="only frames with numbers from A to B")
     return parser
 
@@ -58,7 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             for i, frame in enumerate(frames):
                 wave = radar.Waveform(options.bandwidth, options.chirp, options.chirps, options.samples, options.interval,
                                       options.power, options.noise_figure, options.seed + i, options.turns)
-                paths = frame.paths.select(tx=options.tx, rx=options.rx)
+                kinds = [kind for kind in KINDS if kind != "line_of_sight"] if options.no_direct else None
+                paths = frame.paths.select(tx=options.tx, rx=options.rx, kind=kinds)
                 signals.append(radar.beat(paths, wave))
                 cubes.append(radar.cube_of(signals[-1], wave, run.frequency_hz, options.window, options.window))
                 cubes[-1].left_out = int((paths.delay_s >= wave.longest_delay_s).sum())
@@ -72,6 +76,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"wavetracer: {error}", file=sys.stderr)
         return error.code
     left_out = sum(cube.left_out for cube in cubes)
-    print(f"{file}: {len(cubes)} frames, {sum(len(cube.detections(options.false_alarm)['range_m']) for cube in cubes)} "
+    print(f"{file}: {len(cubes)} frames{' without direct paths' if options.no_direct else ''}, {sum(len(cube.detections(options.false_alarm)['range_m']) for cube in cubes)} "
           f"detections" + (f"; {left_out} paths are later than {wave.longest_delay_s:g} s and left out" if left_out else ""))
     return 0

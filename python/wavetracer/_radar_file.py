@@ -35,7 +35,7 @@ def save(file: str | pathlib.Path, cubes: Sequence[Cube], frames: Sequence[int] 
                                  "frames/left_out": np.asarray([cube.left_out for cube in cubes], np.uint32)}
     for name in ("delay_s", "range_m", "doppler_hz", "speed_m_s"):
         columns[name] = getattr(first, name)
-    columns["power_dbm"] = np.stack([cube.power_dbm for cube in cubes]).astype(np.float32)
+    columns["power_dbm"] = np.stack([cube.power_dbm for cube in cubes])
     columns["cube/re"] = np.stack([cube.values.real for cube in cubes]).astype(np.float32)
     columns["cube/im"] = np.stack([cube.values.imag for cube in cubes]).astype(np.float32)
     found = [cube.detections(false_alarm) for cube in cubes]

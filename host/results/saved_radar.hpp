@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the radar.h5 of a run, which `python3 -m wavetracer.radar` writes: its range-Doppler maps and its spectrogram.
+// The file is not trusted: everything is checked before it is used.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+#include "results/saved_run.hpp"
+
+namespace wavetracer {
+
+// Powers in dBm over two axes, in ascending order; -inf is none.
+struct RadarMap {
+  std::vector<double> rows;       // speeds in m/s, those that come nearer are positive; or times in s
+  std::vector<double> columns;    // ranges in m; or speeds in m/s
+  std::vector<double> power_dbm;  // row by row
+};
+
+class SavedRadar {
+ public:
+  // Throws InputError if the file was not written by wavetracer, or parts of it are missing or contradict each other.
+  explicit SavedRadar(const std::filesystem::path& file);
+  ~SavedRadar();
+  SavedRadar(SavedRadar&&) noexcept;
+
+  const std::vector<uint32_t>& frames() const;  // their numbers, ascending
+  const std::vector<double>& times_s() const;   // of the frames
+  // The speeds and ranges of a frame, by its place in frames(). Throws InputError.
+  RadarMap range_doppler(size_t row) const;
+  // The times and speeds of all frames; nothing if the file has no spectrogram. Throws InputError.
+  std::optional<RadarMap> spectrogram() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Opens the radar.h5 beside the run's paths.h5; returns nothing if there is none.
+std::optional<SavedRadar> saved_radar(const SavedRun& run);
+
+}  // namespace wavetracer
