@@ -9,6 +9,7 @@
 #include "app/materials.hpp"
 #include "app/named_files.hpp"
 #include "app/number_range.hpp"
+#include "app/scene_radar.hpp"
 #include "base/file.hpp"
 #include "motion/fcd_writer.hpp"
 #include "scene/city.hpp"
@@ -161,12 +162,13 @@ void add_city(CLI::App& scene) {
 }  // namespace
 
 void add_scene(CLI::App& program) {
-  CLI::App* scene =
-      program.add_subcommand("scene", "Print what a scene file contains, list radio materials, or generate a city");
+  CLI::App* scene = program.add_subcommand(
+      "scene", "Print what a scene file contains or sends back to a radar, list radio materials, or generate a city");
   scene->require_subcommand(1);
   add_info(*scene);
   add_materials(*scene);
   add_city(*scene);
+  add_radar(*scene);
 }
 
 }  // namespace wavetracer::app

@@ -128,4 +128,14 @@ Sum sum_of(const std::vector<Echo>& echoes, double frequency_hz) {
   return sum;
 }
 
+std::array<double, 4> cross_sections_m2(const Body& body, glm::dvec3 to_transmitter, glm::dvec3 to_receiver,
+                                        double frequency_hz, const PhysicalOptics& options) {
+  constexpr double far_m = 1e6;
+  const Sum sum =
+      sum_of(scattered(body, to_transmitter * far_m, to_receiver * far_m, frequency_hz, options), frequency_hz);
+  std::array<double, 4> out;
+  for (size_t i = 0; i < 4; ++i) out[i] = 4 * WT_PI * std::norm(sum[i] * far_m * far_m);
+  return out;
+}
+
 }  // namespace wavetracer

@@ -26,7 +26,7 @@ class SavedRadar {
   SavedRadar(SavedRadar&&) noexcept;
 
   const std::vector<uint32_t>& frames() const;  // their numbers, ascending
-  const std::vector<double>& times_s() const;   // of the frames
+  const std::vector<double>& times_s() const;   // the times of the frames
   // The speeds and ranges of a frame, by its place in frames(). Throws InputError.
   RadarMap range_doppler(size_t row) const;
   // The times and speeds of all frames; nothing if the file has no spectrogram. Throws InputError.

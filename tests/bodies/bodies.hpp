@@ -50,9 +50,8 @@ inline Body box(glm::dvec3 size) {
 // Radar cross sections in dB over 1 m^2, theta to theta and so on row by row, of ends far away in these directions.
 inline std::array<double, 4> cross_section_db(const Body& body, glm::dvec3 from, glm::dvec3 to,
                                               const PhysicalOptics& options = {}) {
-  const auto sum = sum_of(scattered(body, from * far_m, to * far_m, wave_hz, options), wave_hz);
-  std::array<double, 4> out;
-  for (size_t i = 0; i < 4; ++i) out[i] = 10 * std::log10(4 * pi * std::norm(sum[i] * far_m * far_m));
+  std::array<double, 4> out = cross_sections_m2(body, from, to, wave_hz, options);
+  for (double& value : out) value = 10 * std::log10(value);
   return out;
 }
 

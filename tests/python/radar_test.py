@@ -155,7 +155,7 @@ def check_wheel():
 
 
 def check_files():
-    """What was written is read back, and the maps and detections are those of the cubes."""
+    """A file that was written is read back, and the maps and detections are those of the cubes."""
     cubes = [radar.cube(made([30e-9], [shift], [1e-4]), WAVE) for shift in (500, -2500)]
     spectra = radar.spectrogram(radar.beat(made([30e-9], [500], [1e-4]), WAVE), WAVE, 16, 8)
     radar.save(FOLDER / "radar.h5", cubes, [3, 5], [0.3, 0.5], spectra)
