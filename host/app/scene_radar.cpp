@@ -20,7 +20,7 @@ namespace wavetracer::app {
 namespace {
 
 struct RadarOptions {
-  std::string file, default_material = "metal";
+  std::string file, up = "auto", default_material = "metal";
   double scale = 1, frequency_hz = 77e9, elevation_deg = 0;
   std::vector<double> azimuths_deg = {0, 360, 1};  // first, last, step
   std::optional<double> transmitter_azimuth_deg;
@@ -78,6 +78,7 @@ void print_radar(const RadarOptions& options) {
   SceneConfig config;
   config.file = options.file;
   config.scale = options.scale;
+  config.up = UpAxis::named(options.up);
   config.default_material = options.default_material;
   const Scene scene = load_scene_file(options.file, config, {}, options.frequency_hz);
   const Body body = body_of(scene, options.frequency_hz);
@@ -96,6 +97,8 @@ void add_radar(CLI::App& scene) {
       ->capture_default_str();
   command->add_option("--scale", options->scale, "Metres per file unit, like the key scene.scale")
       ->check(positive_number());
+  command->add_option("--up", options->up, "Axis of the file that points up, like the key scene.up")
+      ->check(CLI::IsMember(std::vector<std::string>(UpAxis::words.begin(), UpAxis::words.end())));
   command
       ->add_option("--default-material", options->default_material,
                    "Radio material of meshes that name none, like the key scene.default_material")

@@ -5,6 +5,8 @@
 """
 from __future__ import annotations
 
+import csv
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -12,14 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _channel
+from . import _channel, _program
 from ._arguments import integer, number
 from ._cube import Cube, windowed
 from ._radar_file import load, save
 from .errors import ConfigError
 from .paths import Paths
 
-__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_points", "cube", "cube_of", "load", "save", "spectrogram", "wheel"]
+__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_echoes", "beat_of_points", "cube", "cube_of", "echoes", "load", "save", "spectrogram", "wheel"]
 
 Array = NDArray[Any]
 SPEED_OF_LIGHT_M_S = 299792458.0
@@ -165,6 +167,40 @@ def beat_of_points(motion: Motion, cross_section_m2: ArrayLike, waveform: Wavefo
         amplitude = root * wavelength / ((4 * np.pi) ** 1.5 * product)
         amplitude = np.where(begin < waveform.longest_delay_s, amplitude, 0.0)
         out[0, 0, n] = amplitude @ _phases(waveform, carrier_hz, begin, (end - begin) / waveform.chirp_s)
+    return np.asarray(out * np.sqrt(1e-3 * 10 ** (waveform.power_dbm / 10)))
+
+
+def echoes(scene: str | os.PathLike[str], frequency_hz: float, tx_m: ArrayLike, rx_m: ArrayLike, *options: str
+           ) -> dict[str, Array]:
+    """The echoes of a body in a scene file by physical optics, from `wavetracer scene radar`: columns bounces, delay_s,
+    first_m and last_m (where the wave meets the body first and last), and a, shape (echoes, 2, 2), the coefficient from
+    theta and phi of the transmitter (last axis) to those of the receiver, as in paths.a. options: more of the command's,
+    such as "--echo-size=0.5"."""
+    places = [",".join(repr(float(x)) for x in np.asarray(end, float)) for end in (tx_m, rx_m)]
+    text = _program.call("scene", "radar", scene, f"--frequency={frequency_hz!r}", f"--transmitter={places[0]}",
+                         f"--receiver={places[1]}", *options)
+    rows = list(csv.DictReader(text.splitlines()))
+
+    def column(name: str) -> Array:
+        return np.array([float(row[name]) for row in rows])
+
+    pairs = [column(f"{heard}_{sent}_re") + 1j * column(f"{heard}_{sent}_im")
+             for heard in ("theta", "phi") for sent in ("theta", "phi")]
+    return {"bounces": column("bounces").astype(int), "delay_s": column("delay_s"),
+            "a": np.stack(pairs, axis=1).reshape(-1, 2, 2),
+            **{f"{end}_m": np.stack([column(f"{end}_{axis}_m") for axis in "xyz"], axis=1) for end in ("first", "last")}}
+
+
+def beat_of_echoes(delay_s: ArrayLike, a: ArrayLike, waveform: Waveform, carrier_hz: float, doppler_hz: ArrayLike = 0.0
+                   ) -> Array:
+    """The beat signal of echoes with these delays, coefficients and Doppler shifts, one number or one of each echo: shape
+    (1, 1, chirps, samples), without noise, for a radar of one antenna on each side."""
+    delay = np.atleast_1d(np.asarray(delay_s, float))
+    amplitude = np.broadcast_to(np.asarray(a, complex), delay.shape) * (delay < waveform.longest_delay_s)
+    rate = np.broadcast_to(-np.asarray(doppler_hz, float) / number(carrier_hz, "carrier_hz"), delay.shape)
+    out = _channel.zeros((1, 1, waveform.chirps, waveform.samples), "the beat signal")
+    for n, time_s in enumerate(_chirp_times(waveform, 1)[0]):
+        out[0, 0, n] = amplitude @ _phases(waveform, carrier_hz, delay + rate * time_s, rate)
     return np.asarray(out * np.sqrt(1e-3 * 10 ** (waveform.power_dbm / 10)))
 
 

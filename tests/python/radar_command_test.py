@@ -65,6 +65,26 @@ rows = (FOLDER / "plots/micro_doppler.csv").read_text().splitlines()
 assert rows[0] == "time_s,speed_m_s,power_dbm" and len(rows) == 1 + 5 * 128
 if "gnuplot" not in text:
     assert b"<svg" in (FOLDER / "plots/range_doppler.svg").read_bytes()[:2000]
+# Echoes of a plate of 0.3 m x 0.3 m at 8 m are one detection with the power of the radar equation, 4 pi A^2 / lambda^2 at
+# normal incidence, less what the near field costs: 8 m is less than 2 D^2 / lambda = 46 m.
+(FOLDER / "plate.obj").write_text("v 8 -0.15 -0.15\nv 8 0.15 -0.15\nv 8 0.15 0.15\nv 8 -0.15 0.15\nf 1 2 3\nf 1 3 4\n")
+carrier, wave = 77e9, radar.Waveform(1e9, 20e-6, chirps=32, samples=128)
+found = radar.echoes(FOLDER / "plate.obj", carrier, [0, 0, 0], [0, 0, 0], "--up=z", "--echo-size=0.1")
+assert found["a"].shape == (len(found["delay_s"]), 2, 2) and (found["bounces"] == 1).all()
+assert np.allclose(found["first_m"][:, 0], 8) and np.array_equal(found["first_m"], found["last_m"])
+cube = radar.cube_of(radar.beat_of_echoes(found["delay_s"], found["a"][:, 0, 0], wave, carrier, 2000.0), wave, carrier)
+peak = cube.detections()
+assert abs(peak["range_m"][0] - 8) < 0.05 and abs(peak["doppler_hz"][0] - 2000) < 250
+# The field of a plate at this distance by Fresnel integrals, over that of the far field.
+wavelength = 299792458.0 / carrier
+x = (np.arange(20000) + 0.5) / 20000 * 0.15
+near = abs(np.mean(np.exp(-2j * np.pi / wavelength * x**2 / 8))) ** 2
+far = wavelength / (4 * np.pi) * (0.09 / wavelength) / 64
+expected = 10 + 20 * np.log10(far * near)
+assert abs(20 * np.log10(abs((found["a"][:, 0, 0] * np.exp(-2j * np.pi * carrier * found["delay_s"])).sum())) + 10
+           - expected) < 0.2
+assert abs(peak["power_dbm"][0] - expected) < 2
+
 with h5py.File(RUN / "radar.h5", "r+") as file:
     file["frames/frame"][...] = 7
 code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", "-o", FOLDER / "plots")
