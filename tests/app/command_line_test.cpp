@@ -99,7 +99,8 @@ TEST_CASE("misspelt commands, options and choices are answered with what was mea
         "wavetracer: run: there is no option --devise; did you mean \"--device\"? See `wavetracer help run`\n");
   check(run_program({"run", "--devise=x"}), 2, "did you mean \"--device\"?");
   check(run_program({"scene", "inf"}), 2, "scene: there is no command \"inf\"; did you mean \"info\"?");
-  check(run_program({"scene"}), 2, "scene: name one of them: info or materials or city or radar; see `wavetracer help scene`");
+  check(run_program({"scene"}), 2,
+        "scene: name one of them: info or materials or city or radar; see `wavetracer help scene`");
   check(run_program({"run", "-c"}), 2, "run: --config needs a value");
   check(run_program({"init", "x"}), 2, "init: \"x\" is not expected here");
   check(run_program({"plot", "x", "--format", "svh"}), 2, "svh not in {svg,png,pdf}; did you mean \"svg\"?");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Corners of conducting plates: waves that meet two and three of them, against closed forms.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "bodies/bodies.hpp"
 
@@ -38,6 +39,8 @@ TEST_CASE("a dihedral has 8 pi a^2 b^2 / lambda^2 on its axis, within 0.5 dB") {
     const auto found = cross_section_db(dihedral(a, b), axis, axis);
     CHECK(std::abs(found[0] - most) < 0.5);
     CHECK(std::abs(found[3] - most) < 0.5);
+    MESSAGE(fmt::format("dihedral of {:.1f} wavelengths: {:+.2f} and {:+.2f} dB", a / wave_m, found[0] - most,
+                        found[3] - most));
     const auto echoes = scattered(dihedral(a, b), axis * far_m, axis * far_m, wave_hz);
     CHECK(count_of(echoes, 1) == 2);
     CHECK(count_of(echoes, 2) == 2);
@@ -76,6 +79,8 @@ TEST_CASE("trihedrals have 12 pi a^4 / lambda^2 (squares) and 4 pi a^4 / (3 lamb
     for (const size_t i : {0u, 3u}) {
       CHECK(std::abs(square[i] - db(12 * pi * a4)) < 0.5);
       CHECK(std::abs(triangular[i] - db(4 * pi * a4 / 3)) < 0.5);
+      MESSAGE(fmt::format("trihedrals of {:.1f} wavelengths: {:+.2f} dB (squares), {:+.2f} dB (triangles)", a / wave_m,
+                          square[i] - db(12 * pi * a4), triangular[i] - db(4 * pi * a4 / 3)));
     }
     const auto echoes = scattered(square_trihedral(a), axis * far_m, axis * far_m, wave_hz);
     CHECK(count_of(echoes, 3) >= 6);
