@@ -36,6 +36,8 @@ def _parser() -> argparse.ArgumentParser:
                         help="probability of a false detection in a cell of noise; default: %(default)g")
     parser.add_argument("--no-direct", action="store_true",
                         help="leave out the direct path from the transmitter to the receiver, as a radar's filter would")
+    parser.add_argument("--osi", type=pathlib.Path, metavar="FILE",
+                        help="also write the paths as reflections of OSI's RadarSensorView, with angles in the scene's axes")
     parser.add_argument("--frames", metavar="A:B", help="only frames with numbers from A to B")
     return parser
 
@@ -57,18 +59,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with Run(options.run) as run:
-            frames, cubes, signals = _chosen(run, options.frames), [], []
+            frames, cubes, signals, heard = _chosen(run, options.frames), [], [], []
             for i, frame in enumerate(frames):
                 wave = radar.Waveform(options.bandwidth, options.chirp, options.chirps, options.samples, options.interval,
                                       options.power, options.noise_figure, options.seed + i, options.turns)
                 kinds = [kind for kind in KINDS if kind != "line_of_sight"] if options.no_direct else None
                 paths = frame.paths.select(tx=options.tx, rx=options.rx, kind=kinds)
+                heard.append((frame.time_s, paths))
                 signals.append(radar.beat(paths, wave))
                 cubes.append(radar.cube_of(signals[-1], wave, run.frequency_hz, options.window, options.window))
                 cubes[-1].left_out = int((paths.delay_s >= wave.longest_delay_s).sum())
             # Each frame gives one spectrum: the spectrogram of a drive has the times of its frames.
             spectra = [radar.spectrogram(signal, wave, wave.chirps, wave.chirps) for signal in signals]
             times = [frame.time_s for frame in frames]
+            if options.osi:
+                radar.write_osi(options.osi, heard)
             spectrogram = (np.array(times), spectra[0][1], np.concatenate([power for _, _, power in spectra]))
         file = options.output or options.run / "radar.h5"
         radar.save(file, cubes, [frame.number for frame in frames], times, spectrogram, options.false_alarm)

@@ -18,10 +18,12 @@ from . import _channel, _program
 from ._arguments import integer, number
 from ._cube import Cube, windowed
 from ._radar_file import load, save
+from ._radar_osi import write_osi
 from .errors import ConfigError
 from .paths import Paths
 
-__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_echoes", "beat_of_points", "cube", "cube_of", "echoes", "load", "save", "spectrogram", "wheel"]
+__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_echoes", "beat_of_points", "cube", "cube_of", "echoes", "load", "save", "spectrogram", "wheel",
+           "write_osi"]
 
 Array = NDArray[Any]
 SPEED_OF_LIGHT_M_S = 299792458.0

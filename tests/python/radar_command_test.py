@@ -37,7 +37,7 @@ code, text = said(*command, "--window", "kaiser")
 assert code == 2 and "there is no window" in text, text
 code, text = said(*command, "--samples", 64)
 assert code == 0 and "are later than 6.4e-08 s and left out" in text, text
-code, text = said(*command, "--no-direct", "--noise-figure", "12")
+code, text = said(*command, "--no-direct", "--noise-figure", "12", "--osi", FOLDER / "radar.osi")
 assert code == 0 and "5 frames without direct paths" in text, text
 
 # The car ahead: its rear is 20.3 m from the bumper at first, and it goes away at 19.9 - 13.9 = 6 m/s.
