@@ -17,9 +17,9 @@ study::Host study_host(Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const auto say = [&progress](const std::string& text) { progress.line(text); };
   const auto at = [&progress, start = Clock::now()](const std::string& what, uint64_t done, uint64_t total,
-                                                    const std::string& unit) {
+                                                    const ProgressUnit& unit) {
     if (total == 1) return progress.step(what);
-    if (unit != "figures") return progress.bar(what, done, total, unit);
+    if (unit.name != "figures") return progress.bar(what, done, total, unit);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     progress.line(
         fmt::format("{}: figure {} of {}, {}", what, done + 1, total, progress_words(seconds, 0, done, total, unit)));

@@ -14,9 +14,8 @@ namespace {
 
 constexpr double bar_interval_s = 0.1, line_interval_s = 10;
 
-// Studies begin with few rays, each of which takes long, so the time left is not told before this share of them.
+// The time left of uneven units is not told before this share of them.
 constexpr double told_share = 0.01;
-constexpr const char* rays_unit = "rays";
 
 // such as 1:05, 1:02:03
 std::string clock_time(double seconds) {
@@ -44,7 +43,7 @@ void Progress::line(const std::string& text) {
   std::cerr << (colour_ ? "\x1b[2m" + prefix_ + text + "\x1b[0m\n" : prefix_ + text + "\n") << std::flush;
 }
 
-void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) {
+void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const ProgressUnit& unit) {
   if (total < 2) {
     total_ = 0;  // within() has no bar to add to
     return;
@@ -64,7 +63,7 @@ void Progress::bar(const std::string& what, uint64_t done, uint64_t total, const
 
 void Progress::step(const std::string& what) {
   what_ = what;
-  unit_.clear();
+  unit_ = {};
   total_ = 1;
   begun_ = last_done_ = 0;
   start_ = said_ = Clock::now();
@@ -80,26 +79,26 @@ void Progress::draw(const std::string& what) {
   if (since(said_) < (terminal_ ? bar_interval_s : line_interval_s)) return;
   said_ = now;
   const std::string words = progress_words(since(start_), begun_, last_done_, total_, unit_);
-  if (unit_.empty() && !terminal_) return line(what + ", " + words);
+  if (unit_.name.empty() && !terminal_) return line(what + ", " + words);
   if (!terminal_)
-    return line(fmt::format("{}: {} of {} {}, {}", what, grouped(last_done_), grouped(total_), unit_, words));
+    return line(fmt::format("{}: {} of {} {}, {}", what, grouped(last_done_), grouped(total_), unit_.name, words));
   end();
   constexpr double width = 30;
   const auto filled = static_cast<size_t>(width * static_cast<double>(last_done_) / static_cast<double>(total_));
-  const std::string text =
-      unit_.empty() ? what + ", " + words
-                    : fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'),
-                                  std::string(size_t{30} - filled, '.'), grouped(last_done_), grouped(total_), words);
+  const std::string text = unit_.name.empty() ? what + ", " + words
+                                              : fmt::format("{} [{}{}] {}/{}, {}", what, std::string(filled, '#'),
+                                                            std::string(size_t{30} - filled, '.'), grouped(last_done_),
+                                                            grouped(total_), words);
   std::cerr << text << std::flush;
   bar_width_ = text.size();
 }
 
-std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64_t total, const std::string& unit) {
+std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64_t total, const ProgressUnit& unit) {
   std::string out = "elapsed " + clock_time(seconds);
   if (done <= begun || seconds <= 0) return out;
   const double rate = static_cast<double>(done - begun) / seconds;
-  out += fmt::format(", {}{}/s", short_number(rate), unit);
-  if (unit == rays_unit && static_cast<double>(done) < told_share * static_cast<double>(total)) return out;
+  out += fmt::format(", {}{}/s", short_number(rate), unit.name);
+  if (!unit.even && static_cast<double>(done) < told_share * static_cast<double>(total)) return out;
   return out + fmt::format(", {} left", clock_time(static_cast<double>(total - done) / rate));
 }
 

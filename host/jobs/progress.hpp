@@ -5,12 +5,13 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include "base/progress_unit.hpp"
 
 namespace wavetracer {
 
 // Returns text such as "elapsed 1:05, 12.3 frames/s, 0:40 left". done: of total; begun: the number that was done when
 // the clock started. Rate and time left are missing until something is done.
-std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64_t total, const std::string& unit);
+std::string progress_words(double seconds, uint64_t begun, uint64_t done, uint64_t total, const ProgressUnit& unit);
 
 class Progress {
  public:
@@ -22,7 +23,7 @@ class Progress {
   void line(const std::string& text);
   // what: the current step ("frame 12", "rays"); unit: of the count. The clock starts again with another unit or total.
   // A terminal gets a bar at most ten times a second; other outputs get a line every ten seconds.
-  void bar(const std::string& what, uint64_t done, uint64_t total, const std::string& unit);
+  void bar(const std::string& what, uint64_t done, uint64_t total, const ProgressUnit& unit);
   // Begins a step without parts, which has no bar: only within() tells of it.
   void step(const std::string& what);
   // Adds details of the current step, if it takes long: "frame 12, half of its rays".
@@ -34,8 +35,9 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string prefix_;
   bool terminal_, colour_;
-  size_t bar_width_ = 0;     // number of the bar's characters on the screen
-  std::string what_, unit_;  // step and unit of the current task
+  size_t bar_width_ = 0;  // number of the bar's characters on the screen
+  std::string what_;      // the current step
+  ProgressUnit unit_;     // that of the current task
   uint64_t total_ = 0, begun_ = 0, last_done_ = 0;
   Clock::time_point start_, said_;
   void draw(const std::string& what);

@@ -136,7 +136,7 @@ std::string measure_points(const OrderRun& run, std::vector<OrderRow>& rows, Fin
           "the start on this device; --rays {}:{} or more --minutes measure them",
           grouped(rays), grouped(run.counts.back()), run.most_s / 60, rays, run.counts.back());
     }
-    run.host.tell(run.experiment.name, done, all, "rays");
+    run.host.tell(run.experiment.name, done, all, rays_from_few);
     done += rays;
     const OrderFrames of = {.frames = run.frames > 0 ? frames_at(rays, run.frames, run.request) : 0,
                             .still = run.still,

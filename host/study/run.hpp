@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "base/progress_unit.hpp"
 #include "plots/figure.hpp"
 #include "study/coherence_rays.hpp"
 #include "study/experiment.hpp"
@@ -28,19 +29,22 @@ struct Request {
   std::string command_line;            // printed in the report
 };
 
+// Rays of an experiment that begins with few of them: a frame of few takes nearly as long as one of many.
+inline const ProgressUnit rays_from_few{"rays", false};
+
 // Services of the program: it prints lines of progress, tells whether the user wants to stop, and shows the state of a
 // task.
 struct Host {
   std::function<void(const std::string&)> say;
   std::function<bool()> interrupted;
-  // what: the current measurement; done: of total; unit: of the count ("rays"). It may be empty.
-  std::function<void(const std::string& what, uint64_t done, uint64_t total, const std::string& unit)> at = {};
+  // what: the current measurement; done: of total; unit: of the count. It may be empty.
+  std::function<void(const std::string& what, uint64_t done, uint64_t total, const ProgressUnit& unit)> at = {};
   // Watches every frame: it shows how far the frame is, and gives it up if the user wants to stop.
   FrameObserver watch = {};
   // Returns a guard for work that cannot stop midway, such as compiling kernels. If the user wants to stop while it
   // exists, `end` is called on another thread, and the program ends.
   std::function<std::shared_ptr<void>(std::function<void()> end)> at_once = {};
-  void tell(const std::string& what, uint64_t done, uint64_t total, const std::string& unit) const {
+  void tell(const std::string& what, uint64_t done, uint64_t total, const ProgressUnit& unit) const {
     if (at) at(what, done, total, unit);
   }
   std::shared_ptr<void> guard(std::function<void()> end = {}) const {

@@ -16,7 +16,7 @@ struct StudyWatch {
   uint64_t rays = 0, done = 0, all = 0;  // rays: of a frame
   // Begins another frame; returns false if it was stopped.
   bool next() {
-    host.tell(name, done, all, "rays");
+    host.tell(name, done, all, rays_from_few);
     done += rays;
     return !host.interrupted();
   }

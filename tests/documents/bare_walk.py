@@ -8,7 +8,7 @@ in it is a clone of the last commit. Without names the documents are README.md, 
 is typed line by line into one shell, as a reader types it, and blocks of Python run with the `python3` of that shell.
 The list bare_not_run.txt names the commands that a fresh container cannot run, with reasons. Maps of the reader's own come from
 tests/documents/files. --ccache gives a folder of compiled files, which makes the build faster and changes nothing else.
-This takes root, debootstrap, a network, some 5 GB, and 20 minutes on two cores: `./dev bare FOLDER` calls it by hand.
+This takes root, debootstrap, a network, some 5 GB, and 20 minutes on two cores: `./dev bare FOLDER` starts it.
 """
 import argparse
 import os

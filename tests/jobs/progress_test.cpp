@@ -42,7 +42,8 @@ TEST_CASE("progress has the elapsed time, and once something is done a rate and 
   CHECK(progress_words(65, 0, 0, 10, "frames") == "elapsed 1:05");
   CHECK(progress_words(10, 0, 5, 20, "frames") == "elapsed 0:10, 0.5 frames/s, 0:30 left");
   CHECK(progress_words(10, 100, 105, 120, "frames") == "elapsed 0:10, 0.5 frames/s, 0:30 left");  // 100 were there
-  CHECK(progress_words(14, 0, 8000, 178937000, "rays") == "elapsed 0:14, 571 rays/s");  // few rays take long each
+  CHECK(progress_words(14, 0, 8000, 178937000, {"rays", false}) == "elapsed 0:14, 571 rays/s");   // few take long each
+  CHECK(progress_words(14, 0, 2000000, 178937000, {"rays", false}) == "elapsed 0:14, 143 krays/s, 20:39 left");
   CHECK(progress_words(3723, 0, 3723000000, 7446000000, "rays") == "elapsed 1:02:03, 1 Mrays/s, 1:02:03 left");
 }
 
