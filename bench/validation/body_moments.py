@@ -54,7 +54,7 @@ def sphere_mesh(radius, step):
     return radius * bent / np.linalg.norm(bent, axis=1)[:, None], triangles
 
 
-@bempp.complex_callable(parameterized=True)
+@bempp.callable(complex=True, parameterized=True)
 def trace(x, n, domain, result, wave):
     """The trace E x n of a plane wave: `wave` has its direction and its polarization."""
     turn = np.exp(-1j * WAVE_NUMBER * (x[0] * wave[0] + x[1] * wave[1] + x[2] * wave[2]))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wavetracer {
 namespace {
@@ -61,25 +62,25 @@ bool LitParts::may_hide(const Beam& beam, uint32_t blocker, uint32_t facet) cons
   return between <= angle * (1 + 1e-9) + 1e-12;
 }
 
+// False if the facet is on the dark side of one of the beam's bounds.
+bool LitParts::may_light(const Beam& beam, uint32_t facet) const {
+  if (!lit_side(beam, facet) || (!beam.mirrors.empty() && beam.mirrors.back() == facet)) return false;
+  const SeenFacet& seen = facets_[facet];
+  return std::ranges::all_of(beam.bounds, [&](const Plane& bound) {
+    return height_over(bound, seen.centre) >= -seen.radius_m - tolerance_m_;
+  });
+}
+
 std::vector<Polygon> LitParts::operator()(const Beam& beam, uint32_t facet) const {
-  if (!lit_side(beam, facet)) return {};
-  // After a mirror, light is on its upper side, away from the image, and inside of the aperture's pyramid.
-  std::vector<Plane> way;
-  if (!beam.mirrors.empty()) {
-    if (beam.mirrors.back() == facet) return {};
-    way = pyramid(beam.source, beam.aperture, tolerance_m_);
-    if (way.empty()) return {};
-    way.push_back(flipped(towards(beam.source, beam.mirrors.back())));
-  }
-  Polygon reached = above_all(body_.facets[facet].corners, way, tolerance_m_);
+  if (!may_light(beam, facet)) return {};
+  Polygon reached = above_all(body_.facets[facet].corners, beam.bounds, tolerance_m_);
   if (reached.empty()) return {};
   std::vector<Polygon> lit{std::move(reached)};
-  const Plane lit_side_plane = towards(beam.source, facet);
+  const Plane side = towards(beam.source, facet);
   for (uint32_t blocker = 0; blocker < facets_.size() && !lit.empty(); ++blocker) {
-    if (blocker == facet || (!beam.mirrors.empty() && blocker == beam.mirrors.back())) continue;
-    if (!lit_side(beam, blocker) || !may_hide(beam, blocker, facet)) continue;
-    Polygon between = part_above(body_.facets[blocker].corners, lit_side_plane, tolerance_m_);
-    if (!between.empty() && !way.empty()) between = part_above(between, way.back(), tolerance_m_);
+    if (blocker == facet || !may_light(beam, blocker) || !may_hide(beam, blocker, facet)) continue;
+    Polygon between = part_above(body_.facets[blocker].corners, side, tolerance_m_);
+    if (!between.empty() && !beam.bounds.empty()) between = part_above(between, beam.bounds.back(), tolerance_m_);
     if (!between.empty()) subtract(lit, pyramid(beam.source, between, tolerance_m_), tolerance_m_);
   }
   return lit;
@@ -87,8 +88,10 @@ std::vector<Polygon> LitParts::operator()(const Beam& beam, uint32_t facet) cons
 
 Beam LitParts::reflected(const Beam& beam, uint32_t facet, const Polygon& part) const {
   const Plane& plane = facets_[facet].plane;
-  Beam out{beam.source - plane.normal * (2 * height_over(plane, beam.source)), beam.mirrors, part};
+  Beam out{beam.source - plane.normal * (2 * height_over(plane, beam.source)), beam.mirrors, {}};
   out.mirrors.push_back(facet);
+  out.bounds = pyramid(out.source, part, tolerance_m_);
+  out.bounds.push_back(towards(beam.source, facet));
   return out;
 }
 

@@ -2,8 +2,6 @@
 // Finds the parts of facets of a body that a source sees, directly or by mirrors of the body itself: exact polygons.
 #pragma once
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "bodies/polygons.hpp"
@@ -22,7 +20,9 @@ struct SeenFacet {
 struct Beam {
   glm::dvec3 source;
   std::vector<uint32_t> mirrors;  // facets, in the order in which they reflect
-  Polygon aperture;               // empty without mirrors
+  // What the beam lights is above all of these: the sides of the pyramid through the lit part of the last mirror, and,
+  // as the last one, that mirror. There are none without mirrors.
+  std::vector<Plane> bounds;
 };
 
 // Keeps a reference to the body. Tests of each facet against each other one take time with the square of their number.
@@ -40,6 +40,7 @@ class LitParts {
   double size_m() const { return size_m_; }
 
  private:
+  bool may_light(const Beam& beam, uint32_t facet) const;
   bool lit_side(const Beam& beam, uint32_t facet) const;
   bool may_hide(const Beam& beam, uint32_t blocker, uint32_t facet) const;
 

@@ -25,15 +25,19 @@ struct LitPart {
   Polygon part;
 };
 
-// All that the beams light, in the order of beams and facets.
+// All that the beams light, in the order of beams and facets. A task is a beam and some hundred facets.
 std::vector<LitPart> lit_parts(const Body& body, const LitParts& lit, const std::vector<Beam>& beams) {
-  const size_t facets = body.facets.size();
-  std::vector<std::vector<Polygon>> found(beams.size() * facets);
-  tbb::parallel_for(size_t{0}, found.size(),
-                    [&](size_t i) { found[i] = lit(beams[i / facets], static_cast<uint32_t>(i % facets)); });
+  constexpr size_t step = 256;
+  const size_t facets = body.facets.size(), blocks = (facets + step - 1) / step;
+  std::vector<std::vector<LitPart>> found(beams.size() * blocks);
+  tbb::parallel_for(size_t{0}, found.size(), [&](size_t task) {
+    const size_t beam = task / blocks, first = task % blocks * step;
+    for (size_t facet = first; facet < std::min(first + step, facets); ++facet)
+      for (Polygon& part : lit(beams[beam], static_cast<uint32_t>(facet)))
+        found[task].push_back({beam, static_cast<uint32_t>(facet), std::move(part)});
+  });
   std::vector<LitPart> parts;
-  for (size_t i = 0; i < found.size(); ++i)
-    for (Polygon& part : found[i]) parts.push_back({i / facets, static_cast<uint32_t>(i % facets), std::move(part)});
+  for (std::vector<LitPart>& some : found) std::move(some.begin(), some.end(), std::back_inserter(parts));
   return parts;
 }
 

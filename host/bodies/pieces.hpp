@@ -2,7 +2,6 @@
 // Cutting of lit parts until the phase over each piece is linear, and the field of a piece.
 #pragma once
 #include <functional>
-#include <span>
 
 #include "bodies/lit_parts.hpp"
 #include "bodies/physical_optics.hpp"

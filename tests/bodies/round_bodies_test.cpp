@@ -164,4 +164,9 @@ TEST_CASE("a sphere is near the series of Mie, away from forward, and near physi
     CHECK_MESSAGE(std::abs(found[0] - smooth_sphere_db(radius, bistatic, true)) < 0.3, bistatic);
     CHECK_MESSAGE(std::abs(found[3] - smooth_sphere_db(radius, bistatic, false)) < 0.3, bistatic);
   }
+  // Behind the sphere, what is scattered is its shadow, and the wave of the edge of the shadow that physical optics
+  // lacks is a part of (ka)^(-2/3).
+  const auto ahead = cross_section_db(body, from, towards(90, 180), {.max_bounces = 1});
+  CHECK(std::abs(ahead[0] - db(4 * pi * std::pow(pi * radius * radius / wave_m, 2))) < 0.1);
+  CHECK(std::abs(ahead[0] - db(wave_m * wave_m / pi * std::norm(mie(ka, 0)[0]))) < 1.0);
 }
