@@ -18,6 +18,7 @@ void add_devices(CLI::App& program, Invocation& invocation);
 void add_validate(CLI::App& program);
 void add_init(CLI::App& program);
 void add_scene(CLI::App& program);
+void add_events(CLI::App& program);
 void add_thesis(CLI::App& program, Invocation& invocation);
 void add_accuracy(CLI::App& program, Invocation& invocation);
 void add_calibrate(CLI::App& program, Invocation& invocation);

@@ -50,6 +50,7 @@ int run_program(int argc, char** argv) {
   wavetracer::app::add_validate(program);
   wavetracer::app::add_init(program);
   wavetracer::app::add_scene(program);
+  wavetracer::app::add_events(program);
   wavetracer::app::add_thesis(program, invocation);
   wavetracer::app::add_accuracy(program, invocation);
   wavetracer::app::add_calibrate(program, invocation);

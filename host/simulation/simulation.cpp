@@ -11,6 +11,7 @@
 #include "gradient/frame_gradient.hpp"
 #include "simulation/batched_frames.hpp"
 #include "simulation/missing_paths.hpp"
+#include "simulation/world_motion.hpp"
 #include "wavetracer/arrays.hpp"
 #include "wavetracer/error.hpp"
 #include "wavetracer/live.hpp"
@@ -131,6 +132,31 @@ const StageSeconds& Simulation::setup_seconds() const { return state_->setup.sta
 
 FrameResult Simulation::run_frame(uint32_t frame) {
   return state_->frames.run(state_->tasks(frame, state_->timed()), LinkPart());
+}
+
+FrameResult Simulation::run_time(double time_s, const std::vector<Link>* only) {
+  const RunPlan& plan = state_->plan();
+  const double first_s = plan.world.clock.time_s(0), last_s = plan.world.clock.time_s(frame_count() - 1);
+  if (!(time_s >= first_s && time_s <= last_s))
+    throw ConfigError(
+        fmt::format("the drive has frames from {} to {} s, and none can be computed at {} s", first_s, last_s, time_s));
+  if (!plan.trace.by_beams())
+    throw ConfigError("times between frames are computed by beams alone: set trace.discovery = \"beams\"");
+  const auto pose = [&] {
+    WorldState state = plan.world.at(time_s);
+    if (only) std::erase_if(state.links, [&](const Link& link) { return !std::ranges::binary_search(*only, link); });
+    return state;
+  };
+  return state_->frames.run(
+      [&](const LinkPart& links) {
+        return FrameTask::of_drive({.frame = 0, .pose = pose, .names = state_->names(), .timed = state_->timed()},
+                                   links);
+      },
+      LinkPart());
+}
+
+double Simulation::motion_m(double from_s, double to_s) const {
+  return motion_bound_m(state_->plan().world, from_s, to_s);
 }
 
 std::string block_obstacle(const Config& config) {

@@ -100,14 +100,17 @@ World make_world(const Config& config, const Scene& scene) {
 }
 
 WorldState World::state(uint64_t frame) const {
-  const double time = clock.time_s(frame);  // throws for a frame that there is not
+  return at(clock.time_s(frame));  // throws for a frame that there is not
+}
+
+WorldState World::at(double time_s) const {
   if (resting) return *resting;
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
-  for (const Track& track : fleet.trajectories.tracks) vehicles.push_back(vehicle_at(track, time));
+  for (const Track& track : fleet.trajectories.tracks) vehicles.push_back(vehicle_at(track, time_s));
   if (live)
     for (VehicleState& vehicle : vehicles) vehicle.present = false;
-  return world_at(*this, time, vehicles);
+  return world_at(*this, time_s, vehicles);
 }
 
 WorldState World::state(double time_s, const std::vector<PlacedPose>& placed) const {

@@ -37,6 +37,8 @@ struct World {
   // The world at the time of a frame. Vehicles that are absent, and their antennas, are where they were last or will be
   // first. Throws ConfigError for a frame that there is not.
   WorldState state(uint64_t frame) const;
+  // The world at any time of the drive.
+  WorldState at(double time_s) const;
   // The live world with these vehicles in their places.
   WorldState state(double time_s, const std::vector<PlacedPose>& placed) const;
   // Returns the names of ends and instances for these poses.

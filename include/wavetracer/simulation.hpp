@@ -71,6 +71,14 @@ class Simulation {
   // reused. Counts are of the work that was done, which includes the rays of other ends. Throws ConfigError if the
   // configuration couples all transmitters, see block_obstacle().
   FrameResult run_block(uint32_t frame, TransmitterRange transmitters);
+  // Computes the drive at any time from its first frame to its last, for all links, or for these of them alone. The
+  // frame has the number 0. Throws ConfigError for another time, and unless trace.discovery = "beams", because such
+  // instants leave nothing for each other.
+  FrameResult run_time(double time_s, const std::vector<Link>* only = nullptr);
+  // Returns a bound of how far any end and any point of a vehicle is from its place at from_s, at all times from then
+  // to to_s, which may be before; infinity if a vehicle comes or goes in between. Throws ConfigError for a [[mount]]
+  // whose height follows the ground.
+  double motion_m(double from_s, double to_s) const;
   // Computes a frame of poses that come at run time, in a world with [[live_vehicle]]. Updates the traffic. Throws
   // PoseError, which changes nothing, and ConfigError if there is no [[live_vehicle]].
   LiveFrame run_poses(LiveTraffic& traffic, double time_s, std::span<const LivePose> poses);
