@@ -76,6 +76,7 @@ void events(const EventOptions& options) {
   Simulation simulation(config, options.device);
   simulation.profile_every(profiled_frames);
   const std::vector<double> times = times_of(simulation, options.frames);
+  for (const std::string& warning : simulation.warnings()) std::cerr << "warning: " << warning << "\n";
   const EventList list = find_events(drive_of(simulation), times, options.choice);
   const Csv table = table_of(list, simulation);
   PendingFile file(fs::absolute(options.output), std::as_bytes(std::span(table.text())));

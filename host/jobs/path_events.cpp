@@ -2,6 +2,7 @@
 #include "jobs/path_events.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <tuple>
 
@@ -17,6 +18,29 @@ const LivingPaths& paths_of(const LinksAtTime& all, const Link& link) {
 bool are_same(const LivingPaths& a, const LivingPaths& b) {
   return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.first == y.first; });
 }
+
+// Bounds of the motion from the beginning of a piece of time, and from its end, to each of some times in it.
+class Motions {
+ public:
+  Motions(const EventDrive& drive, double from_s, double to_s) {
+    for (size_t k = 0; k < times; ++k) {
+      const double time_s = from_s + static_cast<double>(k) * (to_s - from_s) / (times - 1);
+      after_m_[k] = k == 0 ? 0 : drive.motion_m(from_s, time_s);
+      before_m_[k] = k == times - 1 ? 0 : drive.motion_m(to_s, time_s);
+    }
+  }
+  // Does a path live all the time, with these lifetimes at the beginning and at the end? It does if one lifetime
+  // reaches a time from which on the other one does.
+  bool covered(double first_m, double last_m) const {
+    for (size_t k = 0; k < times; ++k)
+      if (first_m >= after_m_[k] && last_m >= before_m_[k]) return true;
+    return false;
+  }
+
+ private:
+  static constexpr size_t times = 9;
+  std::array<double, times> after_m_, before_m_;
+};
 
 struct Instant {
   double time_s;
@@ -35,12 +59,12 @@ class EventSearch {
   // step_s: the step of the drive that the piece of time belongs to.
   void search(const Instant& a, const Instant& b, const std::vector<Link>& links, double step_s) {
     const double middle_s = (a.time_s + b.time_s) / 2, length = (b.time_s - a.time_s) / step_s;
-    const double after_m = drive_.motion_m(a.time_s, middle_s), before_m = drive_.motion_m(b.time_s, middle_s);
+    const Motions motions(drive_, a.time_s, b.time_s);
     std::vector<Link> open;
     for (const Link& link : links) {
       const LivingPaths &first = paths_of(a.links, link), &last = paths_of(b.links, link);
       const bool differ = !are_same(first, last);
-      const uint64_t uncovered = uncovered_of(first, last, after_m, before_m, length);
+      const uint64_t uncovered = uncovered_of(first, last, motions, length);
       if ((differ && length > choice_.precision) || (uncovered > 0 && length > choice_.finest)) {
         open.push_back(link);
         continue;
@@ -62,16 +86,15 @@ class EventSearch {
   }
 
  private:
-  // Returns how many paths at both ends may have died between, because they outlive less than half of the way.
-  uint64_t uncovered_of(const LivingPaths& first, const LivingPaths& last, double after_m, double before_m,
-                        double length) {
+  // Returns how many paths that are at both ends may have died between.
+  uint64_t uncovered_of(const LivingPaths& first, const LivingPaths& last, const Motions& motions, double length) {
     uint64_t count = 0;
     for (const auto& [path, lifetime_m] : first) {
       const auto same = last.find(path);
       if (same == last.end()) continue;
       const bool unknown = lifetime_m == 0 && same->second == 0;
       if (unknown) out_.unbounded += length >= 1.0 / choice_.parts - 1e-9;
-      count += !unknown && (lifetime_m < after_m || same->second < before_m);
+      count += !unknown && !motions.covered(lifetime_m, same->second);
     }
     return count;
   }

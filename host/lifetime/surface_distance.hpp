@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances from lines to the triangles of one scene or model, in its own coordinates, in double.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
