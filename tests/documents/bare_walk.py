@@ -4,7 +4,7 @@
     bare_walk.py FOLDER [DOCUMENT...] [--mirror ADDRESS] [--ccache FOLDER]
 
 FOLDER becomes the root folder of that system (debootstrap makes it where it is missing, and it is kept); /root/wavetracer
-in it is a clone of the last commit. Without names the documents are README.md, docs/tutorial.md and docs/python.md. Each
+in it is a clone of the last commit. Without names the documents are README.md, docs/tutorial.md, docs/python.md and docs/from-sionna.md. Each
 is typed line by line into one shell, as a reader types it, and blocks of Python run with the `python3` of that shell.
 The list bare_not_run.txt names the commands that a fresh container cannot run, with reasons. Maps of the reader's own come from
 tests/documents/files. --ccache gives a folder of compiled files, which makes the build faster and changes nothing else.
@@ -118,7 +118,7 @@ def walk(root, document):
 def main():
     parser = argparse.ArgumentParser(usage="bare_walk.py FOLDER [DOCUMENT...] [--mirror ADDRESS] [--ccache FOLDER]")
     parser.add_argument("folder")
-    parser.add_argument("documents", nargs="*", default=["README.md", "docs/tutorial.md", "docs/python.md"])
+    parser.add_argument("documents", nargs="*", default=["README.md", "docs/tutorial.md", "docs/python.md", "docs/from-sionna.md"])
     parser.add_argument("--mirror", default="http://deb.debian.org/debian")
     parser.add_argument("--ccache")
     options = parser.parse_args()
