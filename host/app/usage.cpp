@@ -65,7 +65,8 @@ std::string unknown_word(const CLI::App& command, const std::string& word) {
   }
   if (const std::vector<std::string> names = command_names(command); !names.empty())
     return fmt::format("there is no command \"{}\"{}", word, command_hint(word, names));
-  return fmt::format("\"{}\" is not expected here", word);
+  const bool config = word.ends_with(".toml") && command.get_option_no_throw("--config") != nullptr;
+  return fmt::format("\"{}\" is not expected here{}", word, config ? ", a configuration comes after -c" : "");
 }
 
 // Handles CLI11's "--format: svh not in {svg,png,pdf}".
@@ -105,6 +106,7 @@ std::string problem(const CLI::App& command, const CLI::ParseError& error) {
   // Handles CLI11's "--config: 1 required TEXT missing".
   if (const size_t missing = what.find(": 1 required "); missing != std::string::npos && what.ends_with(" missing"))
     return what.substr(0, missing) + " needs a value";
+  if (what == "--config is required") return what + ": -c FILE (`wavetracer init --minimal` prints a first one)";
   if (const std::string conversion = conversion_problem(command, what); !conversion.empty()) return conversion;
   return what + choice_hint(what);
 }

@@ -98,6 +98,9 @@ class Parser {
     try {
       document_ = toml::parse(text, file_);
     } catch (const toml::parse_error& e) {
+      if (e.description().find("utf-8") != std::string_view::npos)
+        throw ConfigError(file_ +
+                          ": this is no text, and a configuration is a text in TOML; `wavetracer init` prints one");
       const bool escape = e.description().find("escape") != std::string_view::npos;
       fail(place(e.source()),
            fmt::format("{}{}", e.description(), escape ? "; write / instead of \\ between the names of folders" : ""));

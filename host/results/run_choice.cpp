@@ -24,7 +24,9 @@ std::optional<uint32_t> find_end(const std::vector<RadioEnd>& ends, const std::s
   for (size_t i = 0; i < shown; ++i) nearest += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", *near[i].second);
   throw ConfigError(fmt::format("{} \"{}\" is not the name of a {} of the run; {}", option, name,
                                 option == "--tx" ? "transmitter" : "receiver",
-                                nearest.empty() ? "there is none" : "the nearest are " + nearest));
+                                shown == 0   ? "there is none"
+                                : shown == 1 ? "there is " + nearest
+                                             : "the nearest are " + nearest));
 }
 
 size_t find_frame(const SavedRun& run, uint32_t number) {

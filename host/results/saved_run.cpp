@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include "base/input_file.hpp"
 #include "output/foreign_file.hpp"
 #include "output/summary_json.hpp"
@@ -297,11 +299,27 @@ SavedFrame SavedRun::State::read_frame(size_t row) const {
   return out;
 }
 
+namespace {
+
+bool begins_as_hdf5(const fs::path& file) {
+  constexpr std::string_view signature = "\x89HDF";
+  std::string begin(signature.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == signature;
+}
+
+}  // namespace
+
 SavedRun::SavedRun(const fs::path& path) {
   const fs::path file = paths_file(path);
   try {
     state_ = std::make_unique<State>(file);
   } catch (const RuntimeError& e) {
+    if (!begins_as_hdf5(file))
+      throw InputError(fmt::format("{}: this is no paths.h5 of a run, which would be a file of HDF5{}", file.string(),
+                                   file.extension() == ".toml"
+                                       ? "; a configuration is run first: `wavetracer run -c " + file.string() + "`"
+                                       : "; name the folder that `wavetracer run -o` has written to"));
     throw InputError(fmt::format("{}: cannot be read as the paths.h5 of a run: {}", file.string(), e.what()));
   }
 }

@@ -89,6 +89,15 @@ TEST_CASE("a configuration that is not there, and an empty one") {
   const std::string here = std::filesystem::current_path().string();
   check(run_program({"run", "-c", "nowhere.toml"}), 2, "no such file; it was looked for in " + here + ";");
   check(run_program({"run", "-c", folder.path("nowhere.toml")}), 2, "no such file; `wavetracer init`");
+  check(run_program({"run", "here.toml"}), 2,
+        "\"here.toml\" is not expected here, a configuration comes after -c; see");
+  check(run_program({"run"}), 2, "--config is required: -c FILE (`wavetracer init --minimal` prints a first one)");
+  check(run_program({"run", "-c", folder.file("binary.toml", "\x89HDF\r\n\xff\xfe")}), 2,
+        "binary.toml: this is no text");
+  const std::string text = folder.file("text.toml", "a = 1\n");
+  check(run_program({"view", text}), 3,
+        "this is no paths.h5 of a run, which would be a file of HDF5; a configuration is");
+  check(run_program({"view", folder.file("text.h5", "a = 1\n")}), 3, "; name the folder that `wavetracer run -o` has");
   check(run_program({"run", "-c", folder.file("empty.toml", "")}), 2, "cannot be read as a config file: it is empty;");
 }
 
