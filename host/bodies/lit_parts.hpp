@@ -20,8 +20,8 @@ struct SeenFacet {
 struct Beam {
   glm::dvec3 source;
   std::vector<uint32_t> mirrors;  // facets, in the order in which they reflect
-  // What the beam lights is above all of these: the sides of the pyramid through the lit part of the last mirror, and,
-  // as the last one, that mirror. There are none without mirrors.
+  // All points that the beam lights are above these planes: the sides of the pyramid through the lit part of the last
+  // mirror, and, as the last one, that mirror. There are none without mirrors.
   std::vector<Plane> bounds;
 };
 

@@ -201,9 +201,11 @@ TEST_CASE("what the run does not have is an error that names what it has") {
                  "--grid \"map\" is not the name of a [[receiver_grid]] of the run, which has g");
   choice.grid.clear();
   choice.what = {"gian"};
-  check_contains(refused(drive, choice),
-                 "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays; "
-                 "did you mean \"gain\"?");
+  check_contains(
+      refused(drive, choice),
+      "--what \"gian\" is no plot, there are gain, pdp, delay-time, doppler, angles, coverage, rays, range-doppler, "
+      "micro-doppler; "
+      "did you mean \"gain\"?");
   choice.what = {"coverage"};
   check_contains(refused(drive, choice), "--what coverage: the run has no [[receiver_grid]]");
   choice.layer = "sinr_db";
