@@ -79,6 +79,21 @@ void scatter(Config& config, uint32_t reflections) {
   config.trace.scattering_reflections = reflections;
 }
 
+// Adds a square of small targets around the first transmitter.
+void sense(Config& config) {
+  constexpr int side = 10;
+  config.transmitters.resize(1);
+  config.trace.target_reflections = 1;
+  config.target_models = {{.name = "drone", .on = "", .kind = "uav-large"}};
+  const std::array<double, 3> middle = config.transmitters.front().position_m;
+  for (int i = 0; i < side * side; ++i)
+    config.targets.push_back(
+        {.name = std::to_string(i),
+         .model = "drone",
+         .position_m = {middle[0] + 7.3 * (i % side - side / 2) + 1.1, middle[1] + 7.3 * (i / side - side / 2) + 1.7,
+                        middle[2] + 0.1 * (i % 7)}});
+}
+
 // Adds a square of cells around the first transmitter.
 void add_map(Config& config, double side_m, double cell_m) {
   const std::array<double, 3> middle = config.transmitters.front().position_m;
@@ -126,6 +141,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     leaves.scattering = 0.5;
     c.trace.scattering = true;
   });
+  add("targets", sense);
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("edge rays", [](Config& c) {
     diffract(c, 1);

@@ -10,7 +10,7 @@
 Needs numpy and h5py; PNG also needs rsvg-convert (Debian: python3-h5py, librsvg2-bin).
 Reads Mitsuba XML scenes of PLY meshes (ascii or binary little endian), as Sionna RT and `wavetracer scene city` write
 them, with z up. Roofs are areas, the taller the brighter; walls, seen from above, are the outlines. Points of
-diffraction, of transmission and centres of scattering tiles have marks of their own.
+diffraction, of transmission, centres of scattering tiles and points of targets have marks of their own.
 """
 import argparse
 import math
@@ -30,16 +30,17 @@ PLASMA = ["#0d0887", "#46039f", "#7201a8", "#9c179e", "#bd3786", "#d8576b", "#ed
 THEMES = {
     "dark": dict(ground="#11151c", low="#1f2630", high="#3a4556", wall="#566377", text="#e8ecf2", faint="#9aa5b5",
                  halo="#11151c", tx="#ff5d73", rx="#5ad1ff", diffraction="#3ee08f", transmission="#ffffff",
-                 scattering="#8fb4d8", stops=PLASMA[2:]),
+                 scattering="#8fb4d8", target="#e8825a", stops=PLASMA[2:]),
     "light": dict(ground="#f7f6f3", low="#e6e3dc", high="#c3beb2", wall="#8d877a", text="#22262c", faint="#5f666f",
                   halo="#ffffff", tx="#d4213d", rx="#0b6fa8", diffraction="#00804a", transmission="#000000",
-                  scattering="#4a78a8", stops=PLASMA[:-1][::-1]),
+                  scattering="#4a78a8", target="#b8502a", stops=PLASMA[:-1][::-1]),
 }
 # Values of /vertices/interaction. Each except reflection has a mark: an outline about the point, filled or as lines.
 REFLECTION = 1
 MARKS = {8: ("diffraction", "m0,-5l5,5l-5,5l-5,-5z", True),
          4: ("transmission", "m-3.5,-3.5l7,7m0,-7l-7,7", False),
-         2: ("scattering", "m-2.6,-2.6h5.2v5.2h-5.2z", True)}
+         2: ("scattering", "m-2.6,-2.6h5.2v5.2h-5.2z", True),
+         16: ("target", "m-3.5,2.6h7l-3.5,-6z", True)}
 
 
 # ---- paths ----------------------------------------------------------------------------------------------------------

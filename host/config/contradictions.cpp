@@ -152,7 +152,7 @@ void check_features(const Config& config, Found& out) {
   const TraceConfig& trace = config.trace;
   for (const InteractionKind& kind : interaction_kinds) {
     const std::string key = fmt::format("trace.{}", kind.word);
-    if (trace.*kind.asked_for && kind.code != reflection && trace.by_spheres())
+    if (trace.*kind.asked_for && kind.code != reflection && kind.code != target_point && trace.by_spheres())
       out.push_back({{key, "trace.reception"},
                      fmt::format("trace.reception = \"sphere\" receives reflected rays only, but {} = true: "
                                  "set it to false, or use trace.reception = \"exact\"",
@@ -278,12 +278,15 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_names("vehicle_type", "name", config.vehicle_types, &VehicleTypeConfig::name, {}, out);
   check_names("track", "id", config.tracks, &TrackConfig::id, {}, out);
   check_names("parked", "name", config.parked, &ParkedConfig::name, {}, out);
+  check_names("target_model", "name", config.target_models, &TargetModelConfig::name, {}, out);
+  check_names("target", "name", config.targets, &TargetConfig::name, {}, out);
   check_names("array", "name", config.arrays, &ArrayConfig::name, {}, out);
   check_materials(config.materials, out);
   check_arrays(config, out);
   check_trajectories(config, out);
   check_degrees(config, out);
   check_grids(config, out);
+  check_targets(config, out);
   return out;
 }
 

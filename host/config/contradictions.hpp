@@ -26,6 +26,9 @@ void check_degrees(const Config& config, std::vector<Contradiction>& out);
 void check_materials(const std::vector<MaterialConfig>& materials, std::vector<Contradiction>& out);
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
 
+// Defined in target_checks.cpp.
+void check_targets(const Config& config, std::vector<Contradiction>& out);
+
 // Defined in grid_checks.cpp.
 void check_grids(const Config& config, std::vector<Contradiction>& out);
 

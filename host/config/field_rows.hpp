@@ -103,6 +103,10 @@ Table receiver_grid_table();
 Table air_table();
 Table vegetation_table();
 
+// Defined in target_fields.cpp: targets of sensing.
+Table target_model_table();
+Table target_table();
+
 // Defined in trace_fields.cpp: the search for paths.
 Table trace_table();
 

@@ -122,6 +122,8 @@ const std::vector<Table>& tables() {
       array_table(),
       mount_table(),
       vehicle_type_table(),
+      target_model_table(),
+      target_table(),
       track_table(),
       parked_table(),
       live_vehicle_table(),

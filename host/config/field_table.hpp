@@ -26,11 +26,12 @@ struct ChoiceSlot {
   std::span<const std::string_view> words;
 };
 // A pointer to the value of a field. The alternative that it holds is the type of the field.
-using Slot = std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*,
-                          std::optional<uint64_t>*, std::optional<double>*, std::array<double, 3>*,
-                          std::optional<std::array<double, 2>>*, std::optional<std::array<double, 3>>*, Aliases*,
-                          std::vector<double>*, std::vector<std::string>*, std::vector<std::array<double, 3>>*,
-                          std::vector<std::array<double, 4>>*, std::vector<LayerConfig>*, ChoiceSlot>;
+using Slot =
+    std::variant<std::string*, bool*, uint32_t*, uint64_t*, double*, std::optional<uint32_t>*, std::optional<uint64_t>*,
+                 std::optional<double>*, std::array<double, 3>*, std::optional<std::array<double, 2>>*,
+                 std::optional<std::array<double, 3>>*, Aliases*, std::vector<double>*, std::vector<std::string>*,
+                 std::vector<std::array<double, 3>>*, std::vector<std::array<double, 4>>*,
+                 std::vector<std::array<double, 7>>*, std::vector<LayerConfig>*, ChoiceSlot>;
 
 // Numbers allowed, both ends included unless lower_open.
 struct Range {

@@ -128,9 +128,10 @@ Table trace_table() {
            .unit = "rays per receiver",
            .range = {0, 2147483648.0},
            .none = "0",
-           .doc = "Only with diffraction or scattering_reflections: the largest number of rays from a receiver that is "
-                  "not a transmitter too. 0: a tenth of trace.rays, but at least 100,000, because many rays meet "
-                  "each edge."},
+           .doc =
+               "Only with diffraction, scattering_reflections or target_reflections: the largest number of rays from a "
+               "receiver that is not a transmitter too. 0: a tenth of trace.rays, but at least 100,000, because many rays meet "
+               "each edge."},
           {.name = "edge_rays",
            .slot = t(&TraceConfig::edge_rays),
            .unit = "rays per edge",
@@ -183,6 +184,17 @@ Table trace_table() {
                "the tile, so no stronger path is lost, and weaker ones may be kept. The entry weak of summary.json is "
                "the number of paths that are left out. "
                "Not given: none is left out."},
+          {.name = "target",
+           .slot = t(&TraceConfig::target),
+           .doc = "Paths that go by targets, where there are any: see [[target_model]]."},
+          {.name = "target_reflections",
+           .slot = t(&TraceConfig::target_reflections),
+           .unit = "reflections",
+           .range = {0, 63},
+           .doc =
+               "Only with targets: the largest number of reflections of a path before its target, and of those "
+               "after it. 0: paths go straight from the transmitter to the target to the receiver. All interactions "
+               "together are at most max_depth. It launches rays from every receiver that is not a transmitter too."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "

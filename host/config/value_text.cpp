@@ -136,6 +136,9 @@ std::string accepted(const Field& field) {
           [&](const std::vector<std::array<double, 4>>*) -> std::string {
             return range(field.name == "waypoints" ? "an array of [time, x, y, z]" : "an array of four numbers each");
           },
+          [&](const std::vector<std::array<double, 7>>*) -> std::string {
+            return range("an array of seven numbers each");
+          },
           [&]<class T>(const T*) -> std::string {
             return range(is_integer<T> ? "an integer" : "a number") + (choices.empty() ? "" : " or " + choices);
           },

@@ -247,6 +247,7 @@ std::string assign(const Field& field, const std::string& key, const Slot& slot,
           [&](std::vector<std::array<double, 4>>* to) {
             return assign_rows(field, key, *to, value, "four", "waypoint");
           },
+          [&](std::vector<std::array<double, 7>>* to) { return assign_rows(field, key, *to, value, "seven", "lobe"); },
           [&](Aliases* to) {  // key is that of one entry: table.field.NAME
             if (!value.is_string()) return fmt::format("{} must be a string, not {}", key, kind_of(value));
             const size_t dot = key.find('.', key.find('.') + 1);

@@ -88,8 +88,9 @@ Table links_table() {
   return {
       .name = "links",
       .doc =
-          "Selects the links (pairs of a transmitter and a receiver) that are computed. Two ends at the same place on a vehicle, "
-          "such as the two roles of one antenna, are never linked, nor is a [[station]] to itself.",
+          "Selects the links (pairs of a transmitter and a receiver) that are computed. The two roles "
+          "of one antenna are never linked, nor is a [[station]] to itself; a receiver at the place of a transmitter, "
+          "under a name of its own, hears the echoes.",
       .fields = {
           {.name = "max_distance_m",
            .slot = l(&LinksConfig::max_distance_m),

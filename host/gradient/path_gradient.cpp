@@ -19,6 +19,7 @@
 #include "gradient/path_gaps.hpp"
 #include "gradient/path_tables.hpp"
 #include "radio/field_frame.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
 namespace {
@@ -139,7 +140,11 @@ GradientModel::GradientModel(const Scene& scene, const Config& config, std::span
       models_(models),
       instances_(instances.begin(), instances.end()),
       tables_(make_field_tables(scene, config, models, instances)),
-      frequency_hz_(config.radio.frequency_hz) {}
+      frequency_hz_(config.radio.frequency_hz) {
+  if (!tables_.targets.laws.empty())
+    throw ConfigError(
+        "paths over targets ([[target_model]]) have no derivatives: set trace.target = false, or remove the targets");
+}
 
 ModelGradients GradientModel::compute(uint32_t frame, const PathGeometry& geometry, const WorldState& state,
                                       const GradientChoice& choice) const {

@@ -248,7 +248,10 @@ tangent::wt_field_world PathTables::moved_world() const {
           plain_.foliage_count,
           foliages_.data(),
           inside_.data(),
-          tangent::constant(plain_.air)};
+          tangent::constant(plain_.air),
+          nullptr,
+          nullptr,
+          nullptr};
 }
 
 tangent::wt_path_field PathTables::fields(std::span<const PathDirection> directions, double frequency_hz,

@@ -66,6 +66,7 @@ constexpr Row rows[] = {
     {"aoa_phi_rad", of_paths<&Paths::aoa_phi_rad>},
     {"doppler_hz", of_paths<&Paths::doppler_hz>},
     {"quarters", of_paths<&Paths::quarters>},
+    {"target", of_paths<&Paths::target>},
     {"group", of_paths<&Paths::group>},
     {"group_weight", of_paths<&Paths::group_weight>},
     {"lifetime_m", of_paths<&Paths::lifetime_m>},

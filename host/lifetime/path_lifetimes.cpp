@@ -146,8 +146,8 @@ double PathLifetimes::gap_to_body_m(const Stop& from, const Stop& to, uint32_t i
 double PathLifetimes::of_path(const Paths& paths, size_t row, const WorldState& state) const {
   const auto kinds = std::span(paths.vertex_interaction)
                          .subspan(paths.vertex_offset[row], paths.vertex_offset[row + 1] - paths.vertex_offset[row]);
-  if (std::ranges::count(kinds, uint8_t{scattering}) > 0 || std::ranges::count(kinds, uint8_t{diffraction}) > 1)
-    return 0;
+  const auto of_kind = [&](Interaction kind) { return std::ranges::count(kinds, uint8_t{kind}); };
+  if (of_kind(scattering) + of_kind(target_point) > 0 || of_kind(diffraction) > 1) return 0;
   const PathMotion motion(stops_of(paths, row, state), slack_m_);
   const std::vector<Stop>& stops = motion.stops();
   for (size_t leg = 0; leg + 1 < stops.size(); ++leg)

@@ -55,7 +55,7 @@ struct Stop {
 };
 
 // The stops of a path from the transmitter on, ends included. The bound holds for paths with at most one diffraction
-// and without scattering, whose stops are apart.
+// and without scattering and targets, whose stops are apart.
 class PathMotion {
  public:
   // slack_m: heights above planes are taken to be smaller by this.

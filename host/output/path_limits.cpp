@@ -83,6 +83,7 @@ Paths select_rows(const Paths& paths, std::span<const uint8_t> written) {
     out.*column = selected(paths.*column, written);
   out.a = selected(paths.a, written);
   out.quarters = selected(paths.quarters, written);
+  out.target = selected(paths.target, written);
   out.group = selected(paths.group, written);
   out.group_weight = selected(paths.group_weight, written);
   out.lifetime_m = selected(paths.lifetime_m, written);

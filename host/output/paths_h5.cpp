@@ -29,6 +29,7 @@ bool is_rectangular(const Paths& paths) {
     whole &= column->size() == rows;
   whole &= paths.lifetime_m.empty() || paths.lifetime_m.size() == rows;
   whole &= paths.group.size() == paths.group_weight.size() && (paths.group.empty() || paths.group.size() == rows);
+  whole &= paths.target.empty() || paths.target.size() == rows;
   return whole && paths.vertex_interaction.size() == vertices && paths.vertex_surface.size() == vertices &&
          paths.vertex_instance.size() == vertices;
 }
@@ -96,7 +97,8 @@ void append_groups(const Paths& paths, FrameTables& tables) {
                         flat(paths.group.empty() ? whole : paths.group_weight), {most_groups});
 }
 
-void append_paths(const Paths& paths, bool lifetimes, FrameTables& tables) {
+// targets: the run has any.
+void append_paths(const Paths& paths, bool targets, bool lifetimes, FrameTables& tables) {
   tables.group("/paths", "one row per path, sorted by frame, tx, rx, delay");
   const auto column = [&](const char* name, const char* units, const char* description, const auto& values) {
     tables.append(name, {units, description}, std::span(values));
@@ -119,6 +121,8 @@ void append_paths(const Paths& paths, bool lifetimes, FrameTables& tables) {
   column("aoa_phi_rad", "rad",
          "direction from which the path arrives, seen from the receiver, angle from +x towards +y", paths.aoa_phi_rad);
   column("doppler_hz", "Hz", "shift of the received frequency, positive when the path gets shorter", paths.doppler_hz);
+  if (targets)
+    column("target", "1", "row of /targets, the target that the path goes by; 4294967295 for none", paths.target);
   append_groups(paths, tables);
   if (lifetimes)
     column("lifetime_m", "m",
@@ -142,7 +146,7 @@ void append_vertices(const Paths& paths, FrameTables& tables) {
   column("interaction", interaction_legend().c_str(), paths.vertex_interaction);
   column("surface",
          "surface of the scene, or of the model of the instance that was hit; of a diffraction the edge, "
-         "as `wavetracer scene info --edges` numbers them; numbers hold for one file",
+         "as `wavetracer scene info --edges` numbers them; of a target its point; numbers hold for one file",
          paths.vertex_surface);
   column("instance", "row of /instances, the vehicle that was hit; 4294967295 for the static scene",
          paths.vertex_instance);
@@ -173,13 +177,14 @@ void encode_head_h5(const Run& run, hdf5::File& file) {
   write_inputs(file, run.summary.inputs);
   write_instances(file, run);
   write_ends(file, run);
+  write_targets(file, run);
 }
 
 void append_frame_h5(const Run& run, const FrameResult& frame, FrameTables& tables) {
   check(run, frame);
   append_frame(run, frame, tables);
   append_links(frame, tables);
-  append_paths(frame.paths, run.config.output.lifetimes, tables);
+  append_paths(frame.paths, !run.targets.empty(), run.config.output.lifetimes, tables);
   append_poses(run, frame, tables);
   append_vertices(frame.paths, tables);
 }

@@ -72,6 +72,22 @@ void write_instances(hdf5::File& file, const Run& run) {
        [&run](const Instance& instance) { return run.models[instance.model].file; });
 }
 
+void write_targets(hdf5::File& file, const Run& run) {
+  if (run.targets.empty()) return;
+  const auto group = file.make_group("/targets", "one row per target of sensing, whatever the frame");
+  std::vector<std::string> names, models;
+  Rows<uint32_t> instances(file, "/targets/instance",
+                           {"1", "row of /instances, the body of its vehicle; 4294967295 without one"},
+                           {run.targets.size()});
+  for (const SensedTarget& target : run.targets) {
+    names.push_back(target.name);
+    models.push_back(target.model);
+    instances.append(std::array{target.instance});
+  }
+  file.write_strings("/targets/name", {"1", "name given in the config; VEHICLE/MODEL of a vehicle"}, names);
+  file.write_strings("/targets/model", {"1", "its [[target_model]] in the config"}, models);
+}
+
 void write_ends(hdf5::File& file, const Run& run) {
   write_configured(file, "/transmitters", "one row per transmitter: those of the config, then those on vehicles",
                    run.config.transmitters);

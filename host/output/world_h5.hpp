@@ -9,6 +9,8 @@ namespace wavetracer {
 
 void write_instances(hdf5::File& file, const Run& run);
 void write_ends(hdf5::File& file, const Run& run);
+// Writes nothing where there are no targets.
+void write_targets(hdf5::File& file, const Run& run);
 // Appends the rows of a frame.
 void append_frame(const Run& run, const FrameResult& frame, FrameTables& tables);
 void append_poses(const Run& run, const FrameResult& frame, FrameTables& tables);

@@ -4,27 +4,13 @@
 #include "passes/crowns.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "passes/advice.hpp"
+#include "passes/link_pairs.hpp"
 #include "passes/tile_rows.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
-namespace {
-
-// The transmitter and receiver of each link.
-std::vector<uint32_t> link_pairs(const RadioEnds& ends) {
-  const uint32_t groups = ends.receiver_capacity / 16;
-  std::vector<uint32_t> out;
-  for (uint32_t tx = 0; tx < ends.transmitter_count; ++tx)
-    for (uint32_t group = 0; group < groups; ++group)
-      for (uint32_t word = ends.link_words[size_t{tx} * groups + group]; word; word &= word - 1)
-        out.insert(out.end(), {tx, 16 * group + static_cast<uint32_t>(std::countr_zero(word))});
-  return out;
-}
-
-}  // namespace
 
 Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t first_tile, uint32_t max_depth)
     : context_(context),

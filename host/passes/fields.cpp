@@ -25,6 +25,9 @@ gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows r
           {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
           {"WT_SCATTERS", tables.scatters ? tables.reflects_scattered ? "2" : "1" : "0"},
           {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
+          {"WT_TARGETS", tables.targets.laws.empty() ? "0"
+                         : tables.reflects_echoes    ? "2"
+                                                     : "1"},
           {"WT_LAYERS", tables.layered() ? "1" : "0"},
           {"WT_LOSSES", tables.loses() ? "1" : "0"}};
 }
@@ -61,7 +64,9 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
       area_of_tile_(context.buffer(tables.area_of_tile, {"areas of tiles", advice::tiles})),
       samples_(context.buffer(tables.samples, "antenna patterns")),
       antennas_(context.buffer(tables.antennas, "antennas")),
-      foliages_(context.buffer(tables.foliages, "kinds of vegetation")) {
+      foliages_(context.buffer(tables.foliages, "kinds of vegetation")),
+      laws_(context.buffer(tables.targets.laws, "laws of targets")),
+      lobes_(context.buffer(tables.targets.lobes, "lobes of targets")) {
   if (apart_) listed_kernel_.emplace(context, listed_build_);
   make_room(context_, rows_, 1 << 12, "path rows");
   make_room(context_, vertices_, 1 << 14, "path vertex rows");
@@ -103,6 +108,9 @@ calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
           .samples = samples_,
           .foliages = foliages_,
           .lengths_inside = inputs.lengths_inside,
+          .targets = inputs.targets,
+          .laws = laws_,
+          .lobes = lobes_,
           .listed = apart_ ? &listed_ : nullptr,
           .out = rows_,
           .out_vertices = vertices_,

@@ -18,11 +18,13 @@
 
 namespace wavetracer {
 
-// The geometry of a frame's rows. wedges: placed in the frame, or nullptr where nothing diffracts. lengths_inside:
+// The geometry of a frame's rows. wedges: placed in the frame, or nullptr where nothing diffracts. targets: the
+// points of targets in the frame, or nullptr without any. lengths_inside:
 // those of the visible paths, nullptr where there is no vegetation. The counts of rows are scanned.
 struct FieldInputs {
   const DeviceScene& scene;
   const gpu::Buffer<wt_wedge>* wedges;
+  const gpu::Buffer<wt_target_point>* targets;
   const RadioEnds& ends;
   const SolvedList& visible;
   const gpu::Buffer<double>* lengths_inside;
@@ -94,6 +96,8 @@ class Fields {
   gpu::Buffer<uint32_t> listed_;  // the number of listed rows, then their places
   gpu::Buffer<device::wt_antenna> antennas_;
   gpu::Buffer<device::wt_foliage> foliages_;
+  gpu::Buffer<device::wt_target_law> laws_;
+  gpu::Buffer<device::wt_target_lobe> lobes_;
   gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers
   std::vector<device::wt_field_end> end_records_[2];
   SharedList<EndState> end_states_[2];  // those that the records were made of

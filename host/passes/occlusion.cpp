@@ -38,6 +38,7 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                                         .sequences = solved.sequences,
                                         .wedges = steps.wedges,
                                         .surface_of_tile = steps.surface_of_tile,
+                                        .targets = steps.targets,
                                         .blockers = blockers ? &blockers->places : nullptr,
                                         .counters = counters.buffer(),
                                         .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,

@@ -10,6 +10,7 @@ namespace wavetracer {
 struct StepTables {
   const gpu::Buffer<wt_wedge>* wedges = nullptr;           // wedges of the world, as they are placed
   const gpu::Buffer<uint32_t>* surface_of_tile = nullptr;  // surface of each tile; cells of vegetation follow
+  const gpu::Buffer<wt_target_point>* targets = nullptr;   // points of targets, as they are placed
 
   uint32_t tile_count() const { return surface_of_tile ? static_cast<uint32_t>(surface_of_tile->size()) : 0; }
 };

@@ -94,7 +94,7 @@ UnfoldedPath ElementLink::unfolded(size_t row) const {
         out.sent = mirrored(out.sent, normal, point);
       else
         after.emplace_back(normal, point);
-    } else if (kind == diffraction || kind == scattering) {
+    } else if (kind == diffraction || kind == scattering || kind == target_point) {
       const glm::dvec3 along =
           kind == diffraction ? rotation * scene.wedges.at(paths.vertex_surface[k]).along : glm::dvec3(0);
       out.bends.at(static_cast<size_t>(out.count++)) = {point, along};

@@ -20,15 +20,18 @@ namespace wavetracer {
 namespace {
 
 // Throws std::out_of_range for a number that does not exist.
-void check_numbers(const PathGeometry& paths, size_t surfaces, size_t wedges, size_t tiles) {
+void check_numbers(const PathGeometry& paths, size_t surfaces, size_t wedges, size_t tiles, size_t targets) {
   for (size_t i = 0; i < paths.surface.size(); ++i) {
     const uint8_t kind = paths.interaction[i];
     if (kind == scattering && tiles == 0)
       throw RuntimeError("a path scatters from a tile, but there are none without trace.scattering");
-    const size_t count = kind == diffraction ? wedges : kind == scattering ? tiles : surfaces;
+    const size_t count = kind == diffraction    ? wedges
+                         : kind == scattering   ? tiles
+                         : kind == target_point ? targets
+                                                : surfaces;
     if (paths.surface[i] >= count)
       throw std::out_of_range(
-          fmt::format("a path has number {} of {} surfaces, wedges or tiles", paths.surface[i], count));
+          fmt::format("a path has number {} of {} surfaces, wedges, tiles or targets", paths.surface[i], count));
   }
 }
 
@@ -152,7 +155,10 @@ device::wt_field_world FieldFrame::world(const FieldTables& tables) const {
           static_cast<uint32_t>(tables.foliages.size()),
           tables.foliages.data(),
           inside.data(),
-          tables.air};
+          tables.air,
+          targets.data(),
+          tables.targets.laws.data(),
+          tables.targets.lobes.data()};
 }
 
 FieldFrame make_field_frame(const FieldTables& tables, const Scene& scene, std::span<const Scene> models,
@@ -164,8 +170,10 @@ FieldFrame make_field_frame(const FieldTables& tables, const Scene& scene, std::
   frame.surfaces = surface_records(scene, models, instances, state);
   frame.wedges = wedge_records(scene, models, instances);
   place_wedges(frame.wedges, state);
-  check_numbers(geometry, frame.surfaces.size(), frame.wedges.size(), tables.surface_of_tile.size());
+  check_numbers(geometry, frame.surfaces.size(), frame.wedges.size(), tables.surface_of_tile.size(),
+                state.targets.size());
   frame.instances = instance_records(instances, state);
+  frame.targets = target_records(state);
   if (!tables.foliages.empty()) frame.inside = lengths_inside(tables.volumes, frame.list(), geometry.size());
   frame.transmitters = field_ends(state.transmitters, 0);
   frame.receivers = field_ends(state.receivers, tables.transmitters);

@@ -26,6 +26,7 @@ struct FieldFrame {
   std::vector<wt_exact_surface> surfaces;
   std::vector<wt_wedge> wedges;
   std::vector<wt_exact_instance> instances;
+  std::vector<wt_target_point> targets;
   std::vector<device::wt_field_end> transmitters, receivers;
   std::vector<double> inside;  // the metres of each path inside of each kind of vegetation
   // The rows that stay, in their order, and their delays.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "radio/path_columns.hpp"
+#include "radio/target_laws.hpp"
 #include "radio/vegetation_law.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/device/field_records.h"
@@ -36,6 +37,8 @@ struct FieldTables {
   bool reflects_scattered = false;           // paths that scatter may be reflected before and after
   bool edge_ends = false;                    // edges with free ends diffract
   bool corners = false;                      // edges with less than a half space around them diffract
+  bool reflects_echoes = false;              // paths over targets may be reflected before and after
+  TargetLaws targets;                        // laws of points of targets; empty without targets
   VolumeTable volumes;                       // volumes of vegetation
   std::vector<device::wt_foliage> foliages;  // kinds of vegetation
   device::wt_air air{};

@@ -76,6 +76,7 @@ Paths sized_columns(RowCounts counts, Ports ports, Paths room) {
   paths.group.clear();
   paths.group_weight.clear();
   paths.lifetime_m.clear();
+  paths.target.clear();
   size_columns(paths, counts);
   return paths;
 }

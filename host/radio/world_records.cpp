@@ -110,4 +110,20 @@ std::vector<wt_exact_instance> instance_records(std::span<const Instance> instan
   return records;
 }
 
+std::vector<wt_target_point> target_records(const WorldState& state) {
+  std::vector<wt_target_point> out;
+  for (const TargetState& from : state.targets) {
+    wt_target_point& to = out.emplace_back();
+    for (int row = 0; row < 3; ++row) {
+      to.position[row] = from.position_m[row];
+      to.velocity[row] = from.velocity_m_s[row];
+      for (int column = 0; column < 3; ++column) to.rotation[3 * row + column] = from.rotation[column][row];
+    }
+    to.instance = from.instance;
+    to.law = from.law;
+    to.present = from.present;
+  }
+  return out;
+}
+
 }  // namespace wavetracer

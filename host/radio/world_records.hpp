@@ -30,4 +30,7 @@ std::vector<uint32_t> plane_records(const Scene& scene, std::span<const Scene> m
 // The instances without the numbers of surfaces in models.
 std::vector<wt_exact_instance> instance_records(std::span<const Instance> instances, const WorldState& state);
 
+// The points of targets in a frame.
+std::vector<wt_target_point> target_records(const WorldState& state);
+
 }  // namespace wavetracer

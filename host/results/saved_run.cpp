@@ -292,6 +292,8 @@ SavedFrame SavedRun::State::read_frame(size_t row) const {
   read_coefficients(row, out.paths);
   read_groups(row, out.paths);
   read_lifetimes(row, out.paths);
+  if (file.has("/paths/target"))
+    out.paths.target = file.rows<uint32_t>("/paths/target", first_path[row], first_path[row + 1] - first_path[row]);
   read_vertices(row, out.paths);
   read_poses(row, out);
   read_motion(row, out);

@@ -37,12 +37,16 @@ double power_of_tile(const Material& material, double area_m2, double wavelength
   return amplitude * amplitude * area_m2 * strongest_pattern(static_cast<uint32_t>(material.scattering_lobe));
 }
 
+JoinedPoints limits_of(const TraceConfig& trace) {
+  return {.max_depth = trace.max_depth,
+          .transmissions = trace.transmission ? trace.max_transmissions : 0,
+          .row_depth = tracing_depth(trace).row};
+}
+
 JoinedPoints joined_points(const Scene& scene, const World& world, const TileTable& tiles, const TraceConfig& trace,
                            double longest_wavelength_m) {
   constexpr double rounding = 1e-9;
-  JoinedPoints out{.max_depth = trace.max_depth,
-                   .transmissions = trace.transmission ? trace.max_transmissions : 0,
-                   .row_depth = tracing_depth(trace).row};
+  JoinedPoints out = limits_of(trace);
   if (!trace.scattering_floor_db) return out;
   out.floor = std::pow(10.0, *trace.scattering_floor_db / 10) * (1 - rounding);
   for (uint32_t id = 0; id < tiles.size(); ++id) {
@@ -91,19 +95,33 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
   }
+  if (trace.target) targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), depth.row);
+  if (trace.target && trace.target_reflections > 0)
+    target_chains = std::make_unique<TargetChains>(context, std::min(trace.target_reflections, trace.max_depth - 1),
+                                                   limits_of(trace));
   if (trace.transmission)
     transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth), trace.max_depth);
   else
     occlusion.emplace(context, device_scene);
 }
 
-void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters) {
+void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
+                            bool remember) {
   const StepTables steps{diffraction ? &diffraction->wedges.list().wedges : nullptr,
-                         scatter ? &scatter->tiles().surfaces : nullptr};
+                         scatter ? &scatter->tiles().surfaces : nullptr, targets ? &targets->points() : nullptr};
   if (transmissions)
     (*transmissions)(scene, ends, solved, counters, steps);
   else
-    (*occlusion)(scene, ends, solved, counters, blockers && !solved.open ? &*blockers : nullptr, steps);
+    (*occlusion)(scene, ends, solved, counters, blockers && remember && !solved.open ? &*blockers : nullptr, steps);
+}
+
+void ExactPaths::place_targets(const WorldState& world, const std::vector<uint32_t>& listeners) {
+  if (!targets) return;
+  targets->place(world);
+  if (!target_chains) return;
+  std::vector<EndState> launching = world.transmitters;
+  for (const uint32_t receiver : listeners) launching.push_back(world.receivers[receiver]);
+  target_chains->place(launching, world.targets);
 }
 
 }  // namespace wavetracer

@@ -10,12 +10,14 @@
 #include "passes/occlusion.hpp"
 #include "passes/scatter.hpp"
 #include "passes/solve.hpp"
+#include "passes/targets.hpp"
 #include "passes/transmissions.hpp"
 #include "passes/visible.hpp"
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/edge_discovery.hpp"
 #include "simulation/listeners.hpp"
 #include "simulation/scattered_paths.hpp"
+#include "simulation/target_chains.hpp"
 #include "simulation/world.hpp"
 #include "wavetracer/config.hpp"
 
@@ -27,12 +29,16 @@ struct ExactPaths {
              const TraceConfig& trace, double longest_wavelength_m, bool frames_follow);
 
   // Marks the solved paths with a leg that is obstructed, or that passes through more surfaces than allowed.
-  void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters);
-  // The number of kinds of paths: specular, diffracted, scattered off surfaces, without and with reflections, and off
-  // vegetation.
+  // remember: rows of candidates leave what hides them, for the next frame.
+  void check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
+                  bool remember = true);
+  // Places the targets of a frame, if there are any. listeners: the receivers that launch rays.
+  void place_targets(const WorldState& world, const std::vector<uint32_t>& listeners);
+  // The number of kinds of paths: specular, diffracted, scattered off surfaces, without and with reflections, off
+  // vegetation, and off targets, without and with reflections.
   uint64_t kinds() const {
     return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{scattered.has_value()} +
-           uint64_t{crowns.has_value()};
+           uint64_t{crowns.has_value()} + uint64_t{targets.has_value()} + uint64_t{target_chains != nullptr};
   }
 
   uint32_t max_depth;
@@ -44,7 +50,9 @@ struct ExactPaths {
   std::optional<Scatter> scatter;
   std::optional<ScatteredPaths> scattered;  // with trace.scattering_reflections
   std::optional<Crowns> crowns;
-  std::optional<Occlusion> occlusion;  // this or the next one is set
+  std::optional<TargetRows> targets;
+  std::unique_ptr<TargetChains> target_chains;  // with trace.target_reflections, else null
+  std::optional<Occlusion> occlusion;           // this or the next one is set
   std::optional<Transmissions> transmissions;
   Visible visible;
 };

@@ -70,7 +70,8 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
            {{!wedges, "no edge of the scene diffracts"},
             {!config.trace.free_edges && !closed, "all edges that diffract are free, and trace.free_edges = false"}}},
           {transmission, {{!passable, "all materials are metals or half spaces, and no wave passes through them"}}},
-          {scattering, {{!rough, "no material of the scene has a scattering coefficient (material.scattering)"}}}};
+          {scattering, {{!rough, "no material of the scene has a scattering coefficient (material.scattering)"}}},
+          {target_point, {{world.targets.empty(), "no vehicle and no place is a target ([[target_model]])"}}}};
 }
 
 }  // namespace
@@ -93,6 +94,10 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                            {trace.scattering_reflections == 0, "trace.scattering_reflections = 0"},
                                            {!out["reflection"].on, "reflection is off"},
                                            {trace.max_depth < 2, "trace.max_depth = 1"}});
+  out["target_reflections"] = feature({{!out["target"].on, "there are no paths over targets"},
+                                       {trace.target_reflections == 0, "trace.target_reflections = 0"},
+                                       {!out["reflection"].on, "reflection is off"},
+                                       {trace.max_depth < 2, "trace.max_depth = 1"}});
   out["instances"] = feature({{world.fleet.instances.empty(), "no vehicle has a body"}});
   out["vegetation"] = feature({{scene.volumes.empty(), "the scene has no volume of vegetation"}});
   const AirConfig& air = config.air;
@@ -105,6 +110,7 @@ TraceConfig with_features(TraceConfig trace, const Features& features) {
   for (const InteractionKind& kind : interaction_kinds) trace.*kind.asked_for = features.at(std::string(kind.word)).on;
   if (!features.at("double_diffraction").on) trace.max_diffractions = 1;
   if (!features.at("scattering_reflections").on) trace.scattering_reflections = 0;
+  if (!features.at("target_reflections").on) trace.target_reflections = 0;
   return trace;
 }
 

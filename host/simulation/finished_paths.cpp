@@ -42,9 +42,9 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
   }
 }
 
-void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-                          const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Rows rows,
-                          Counters& counters) {
+void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const TargetRows* targets,
+                          const RadioEnds& ends, const WorldState& world, const SolvedList& visible,
+                          const std::vector<Link>* own, Rows rows, Counters& counters) {
   const bool carriers = rows == Rows::all_carriers;
   const uint32_t places =
       distinct_.keys(ends, own ? context_.buffer(link_masks(ends, *own), "own links") : ends.links, visible,
@@ -65,7 +65,8 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     if (groups_) (*groups_)(wedges, ends, visible, distinct_, distinct_.rows(), most.rows);  // path_groups
     if (groups_ && rows != Rows::summed) groups_->begin_read(expected.rows);
     if (rows != Rows::summed && counts_ahead(expected)) begin_count(counters);
-    last_.emplace(FieldInputs{scene, wedges, ends, visible, inside, distinct_, distinct_.rows()});
+    last_.emplace(FieldInputs{scene, wedges, targets ? &targets->points() : nullptr, ends, visible, inside, distinct_,
+                              distinct_.rows()});
     for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i) fields_[i](*last_, world, most);  // fields
   }
   if (rows == Rows::summed) {

@@ -14,6 +14,7 @@
 #include "passes/path_groups.hpp"
 #include "passes/scan.hpp"
 #include "passes/sort.hpp"
+#include "passes/targets.hpp"
 #include "passes/vegetation.hpp"
 #include "radio/fields.hpp"
 #include "simulation/diffracted_paths.hpp"
@@ -32,11 +33,11 @@ class FinishedPaths {
   // config: has all ends of the world, and the features that are on. Throws ConfigError.
   FinishedPaths(gpu::Context& context, const Scene& scene, const Config& config, const World& world);
 
-  // Starts the passes. visible: solved paths in any order. edges: those of the frame, or nullptr. own: the links whose
-  // paths are wanted, if they are not all of ends.links.
-  void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const RadioEnds& ends,
-             const WorldState& world, const SolvedList& visible, const std::vector<Link>* own, Rows rows,
-             Counters& counters);
+  // Starts the passes. visible: solved paths in any order. edges, targets: those of the frame, or nullptr. own: the
+  // links whose paths are wanted, if they are not all of ends.links.
+  void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const TargetRows* targets,
+             const RadioEnds& ends, const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
+             Rows rows, Counters& counters);
   // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
   // Turns the antennas of the ends as they are in this state, for again(); the places of ends are those of the frame.

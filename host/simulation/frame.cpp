@@ -128,6 +128,7 @@ void FrameLoop::take_paths(const FrameTask& task, const DiscoveryCounts& found, 
     sums = s_.finish.take_sums(counted, left_out);
   else
     out.paths = s_.finish.take(counted, left_out, &out.carriers);
+  if (!task.only_compiles()) name_targets(out.paths, plan_.world.targets);
   const SumCounts of_sums = sum_counts(sums);
   if (!task.only_compiles())
     account.near_edges(summed_ ? std::vector{of_sums.near_edges} : s_.finish.near_edges(), out.carriers,
@@ -186,6 +187,7 @@ Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const Radi
       [&](const wt_counters&) { account.device_done(); });
   LeftOut left_out;
   Paths out = s_.finish.take(counted, left_out, nullptr);
+  name_targets(out, plan_.world.targets);
   account.end_stage(Stage::columns);
   return out;
 }
@@ -193,8 +195,9 @@ Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const Radi
 // distinct to fields (finished_paths.cpp)
 void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends,
                              const std::vector<Link>* own, Rows rows) {
+  const TargetRows* targets = s_.exact_paths.targets ? &*s_.exact_paths.targets : nullptr;
   DiffractedPaths* edges = s_.exact_paths.diffraction ? &*s_.exact_paths.diffraction : nullptr;
-  s_.finish.start(frame, s_.device_scene, edges, ends, world, s_.exact_paths.visible.list(), own, rows,
+  s_.finish.start(frame, s_.device_scene, edges, targets, ends, world, s_.exact_paths.visible.list(), own, rows,
                   s_.discovery->sequences().counters());
 }
 
@@ -230,6 +233,7 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
 void FrameLoop::set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
   const bool cut = block && s_.exact_paths.from_edges;  // the other receivers have heard, too
   ends_.moved = !(rests(task) && places_rest_);
+  if (ends_.moved || cut) s_.exact_paths.place_targets(world, plan_.origins.listeners.receivers);
   if (ends_.moved || cut)
     set_places(s_.context, ends_, world.transmitters, world.receivers, cut ? block->listeners : plan_.origins.listeners,
                plan_.origins.receiver_of_transmitter);

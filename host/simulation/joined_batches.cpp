@@ -93,7 +93,7 @@ class Columns {
 };
 
 Paths joined_paths(const std::vector<FrameResult>& batches) {
-  static_assert(sizeof(Paths) == 8 + 21 * sizeof(std::vector<int>), "join the column that is new here, too");
+  static_assert(sizeof(Paths) == 8 + 22 * sizeof(std::vector<int>), "join the column that is new here, too");
   Paths out;
   out.rx_ports = batches.front().paths.rx_ports;
   out.tx_ports = batches.front().paths.tx_ports;
@@ -104,6 +104,7 @@ Paths joined_paths(const std::vector<FrameResult>& batches) {
     columns.rows(out, column);
   columns.rows(out, &Paths::a);
   columns.rows(out, &Paths::quarters);
+  columns.rows(out, &Paths::target);
   columns.rows(out, &Paths::group);
   columns.rows(out, &Paths::group_weight);
   columns.rows(out, &Paths::lifetime_m);

@@ -77,6 +77,21 @@ JoinedCounts join_tiles(ExactPaths& exact, const DeviceScene& scene, const Radio
       [&](uint32_t done) { told(done, tiles.count); });
 }
 
+// Makes the paths over targets with reflections around them; take: as for join_tiles. Returns their counts.
+template <class Take>
+JoinedCounts chain_targets(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
+                           uint32_t nodes, const Take& take) {
+  // The list of nodes is as long as the counters say, where `nodes` is a bound of it.
+  const wt_counters now = set.counters().read(Stage::targets);
+  return (*exact.target_chains)(
+      scene, ends, {set.table(), set.quarters(), set.nodes(), std::min(nodes, now.nodes + now.exchanged)},
+      *exact.targets,
+      [&](SolvedList& ways, const RadioEnds& between, Counters& counters) {
+        exact.check_legs(scene, between, ways, counters, false);
+      },
+      take);
+}
+
 }  // namespace
 
 Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
@@ -124,16 +139,18 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     out.candidates += rows.count;
     out.solved += rows.count;
   };
-  if (exact.scatter) {
-    SolvedList& by_tiles =
-        (*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters);  // scatter
-    see_scattered(by_tiles);
-  }
+  if (exact.scatter)
+    see_scattered((*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters));  // scatter
   if (exact.scattered) {
     join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes, sort, point_join
     tell();
   }
-  if (exact.crowns) see_scattered((*exact.crowns)(ends));  // crowns
+  if (exact.crowns) see_scattered((*exact.crowns)(ends));    // crowns
+  if (exact.targets) see_scattered((*exact.targets)(ends));  // targets
+  if (exact.target_chains) {
+    chain_targets(exact, scene, ends, set, nodes, take).add_to(out);  // candidates, solve, targets, sort, point_join
+    tell();
+  }
   out.rays = std::move(heard);
   return out;
 }

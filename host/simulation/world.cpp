@@ -46,6 +46,7 @@ WorldState world_at(const World& world, double time_s, const std::vector<Vehicle
     out.instances.push_back(placement_of(fleet.models[fleet.instances[i].model], vehicles[fleet.track_of_instance[i]]));
   out.transmitters = ends_at(world.transmitters, fleet, world.ground, vehicles);
   out.receivers = ends_at(world.receivers, fleet, world.ground, vehicles);
+  out.targets = targets_at(world.targets, fleet, vehicles);
   out.links = world.links(out.transmitters, out.receivers);
   return out;
 }
@@ -80,16 +81,18 @@ World make_world(const Config& config, const Scene& scene) {
                      standing_ends(standing_receivers(config, scene, places), scene.origin_m)};
   Fleet fleet = make_fleet(std::move(trajectories), std::move(vehicles), scene);
   WorldEnds ends = with_mounts(std::move(standing), config.mounts, fleet, ground, !live);
+  Targets targets = make_targets(config, fleet, ends, scene.origin_m, !live);
   LinkRules links = link_rules(config.links, ends);
   TwinEnds twins = find_twins(ends);
   const FrameClock clock = drives(fleet, live) ? make_clock(config.time, fleet.trajectories) : FrameClock(0, 0, 1);
-  const double reach_m = reach_of(fleet, ends, live, scene);
+  const double reach_m = reach_of(fleet, ends, targets, live, scene);
   std::vector<std::string> warnings = warnings_of(config, scene, fleet, live, clock);
   World out{.live = std::move(live),
             .fleet = std::move(fleet),
             .ground = std::move(ground),
             .transmitters = std::move(ends.transmitters),
             .receivers = std::move(ends.receivers),
+            .targets = std::move(targets),
             .twins = std::move(twins),
             .links = std::move(links),
             .clock = clock,

@@ -12,6 +12,7 @@
 #include "simulation/world_ends.hpp"
 #include "simulation/world_fleet.hpp"
 #include "simulation/world_links.hpp"
+#include "simulation/world_targets.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/live.hpp"
 #include "wavetracer/scene.hpp"
@@ -26,6 +27,7 @@ struct World {
   GroundBelow ground;
   // All radio ends of all frames: those of the configuration, then those mounted on vehicles, by track, then by mount.
   EndsOfRole transmitters, receivers;
+  Targets targets;
   TwinEnds twins;
   LinkRules links;
   FrameClock clock;

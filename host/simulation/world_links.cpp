@@ -81,12 +81,11 @@ bool LinkRules::allowed(uint32_t tx_vehicle, uint32_t rx_vehicle) const {
   return tx_vehicle == rx_vehicle ? config_.same_vehicle : config_.v2v;
 }
 
-// Tells whether two ends in one place are one radio. An antenna on a vehicle or a station has no link to itself; a
-// receiver at the place of a transmitter, under a name of its own, hears the echoes.
+// Tells whether two ends in one place are one radio, which has one name. It has no link to itself; a receiver at the
+// place of a transmitter, under a name of its own, hears the echoes.
 bool LinkRules::one_radio(uint32_t tx, uint32_t rx) const {
-  const uint32_t vehicle = transmitters_.vehicles[tx];
-  if (vehicle != receivers_.vehicles[rx]) return false;
-  return vehicle != no_vehicle || transmitters_.ends[tx].name == receivers_.ends[rx].name;
+  return transmitters_.vehicles[tx] == receivers_.vehicles[rx] &&
+         transmitters_.ends[tx].name == receivers_.ends[rx].name;
 }
 
 bool LinkRules::any_allowed() const {

@@ -93,13 +93,16 @@ double from_ground_m(const MountedEnd& end, const Trajectories& trajectories, co
   return out;
 }
 
-// Returns the largest distance of antennas and corners of the body from each vehicle, by track.
-std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Scene& scene) {
+// Returns the largest distance of antennas, points of targets and corners of the body from each vehicle, by track.
+std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Targets& targets, const Scene& scene) {
   std::vector<double> out(fleet.trajectories.tracks.size(), 0);
   for (const auto* role : {&ends.transmitters, &ends.receivers})
     for (const MountedEnd& end : role->mounted)
       out[end.track] =
           std::max(out[end.track], glm::length(end.offset_m) + from_ground_m(end, fleet.trajectories, scene));
+  for (const TargetPoint& point : targets.points)
+    if (const auto track = targets.all[point.target].track)
+      out[*track] = std::max(out[*track], glm::length(point.arm_m));
   for (size_t i = 0; i < fleet.instances.size(); ++i) {
     const Scene& model = fleet.models[fleet.instances[i].model];
     const glm::dvec3 far_m = glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper));
@@ -111,12 +114,16 @@ std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Sce
 
 }  // namespace
 
-double reach_of(const Fleet& fleet, const WorldEnds& ends, const std::optional<LivePlaces>& live, const Scene& scene) {
+double reach_of(const Fleet& fleet, const WorldEnds& ends, const Targets& targets,
+                const std::optional<LivePlaces>& live, const Scene& scene) {
   Reach reach(scene.origin_m);
   for (const auto& [role, word] : {std::pair{&ends.transmitters, "transmitter"}, {&ends.receivers, "receiver"}})
     for (size_t i = 0; i < role->standing.size(); ++i)
       reach.add_end(fmt::format("{} \"{}\"", word, role->ends[i].name), role->standing[i].position_m);
-  const std::vector<double> radius_m = radii_m(fleet, ends, scene);
+  for (const TargetPoint& point : targets.points)
+    if (const Target& target = targets.all[point.target]; !target.track)
+      reach.add_end(fmt::format("target \"{}\"", target.name), position_at(target.pose, point.arm_m));
+  const std::vector<double> radius_m = radii_m(fleet, ends, targets, scene);
   for (size_t k = 0; k < radius_m.size(); ++k) {
     if (live)
       reach.add_box(live->bounds().lower_m - scene.origin_m, live->bounds().upper_m - scene.origin_m, radius_m[k]);

@@ -17,9 +17,10 @@ namespace wavetracer {
 // is far away widens the boxes of the trees, and so slows down the rays of all.
 constexpr double farthest_m = 1e6;
 
-// Returns the reach of a world: no recentred coordinate of an end or of a corner of an instance is larger, in any
-// frame. live: the places of a live world, whose vehicles may be anywhere in their bounds; empty for tracks. Throws
-// ConfigError or InputError for a place beyond farthest_m, and for NaN.
-double reach_of(const Fleet& fleet, const WorldEnds& ends, const std::optional<LivePlaces>& live, const Scene& scene);
+// Returns the reach of a world: no recentred coordinate of an end, of a target or of a corner of an instance is larger,
+// in any frame. live: the places of a live world, whose vehicles may be anywhere in their bounds; empty for tracks.
+// Throws ConfigError or InputError for a place beyond farthest_m, and for NaN.
+double reach_of(const Fleet& fleet, const WorldEnds& ends, const Targets& targets,
+                const std::optional<LivePlaces>& live, const Scene& scene);
 
 }  // namespace wavetracer

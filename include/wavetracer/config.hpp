@@ -15,8 +15,10 @@
 #include "wavetracer/choice.hpp"
 #include "wavetracer/live_config.hpp"
 #include "wavetracer/material_config.hpp"
+#include "wavetracer/order_config.hpp"
 #include "wavetracer/outdoors_config.hpp"
 #include "wavetracer/shared_list.hpp"
+#include "wavetracer/target_config.hpp"
 
 namespace wavetracer {
 
@@ -209,6 +211,7 @@ struct TraceConfig {
   uint32_t max_depth = 5;
   std::optional<double> floor_db = {};  // with discovery = "beams": weaker paths need not be found; not given: all are
   bool reflection = true, diffraction = false, transmission = false, scattering = false;
+  bool target = true;                                    // if there are targets
   uint32_t max_diffractions = 1, max_transmissions = 2;  // per path
   std::optional<double> diffraction_floor_db = {};       // gain below which paths over edges are left out; else none is
   bool free_edges = true;                                // edges of one face diffract as half planes
@@ -218,6 +221,7 @@ struct TraceConfig {
   double tile_m = 5;                                     // largest side length of a tile of scattering
   uint32_t scattering_reflections = 0;                   // most before a tile and after it; 0: tiles are seen directly
   std::optional<double> scattering_floor_db = {};        // gain below which such paths are left out; not given: none is
+  uint32_t target_reflections = 0;                       // most before a target and after it; 0: it is seen directly
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
@@ -229,29 +233,9 @@ struct TraceConfig {
   bool by_spheres() const { return reception == "sphere"; }
   bool by_beams() const { return discovery == "beams"; }
   bool reflects_scattered() const { return scattering && scattering_reflections > 0; }
+  bool reflects_echoes() const { return target && target_reflections > 0; }
   // Are paths joined from what both of their ends see? Then receivers launch rays, too.
-  bool from_both_ends() const { return diffraction || reflects_scattered(); }
-};
-
-// Methods of the thesis have two words each, a plain name and a mnemonic; outputs repeat the given word.
-using OrderMethod = Choice<"none", "WS", "morton", "Z", "hilbert3d-histogram", "H3DH", "morton-histogram", "HZ",
-                           "hilbert3d-histogram-hilbert2d", "H3DH2DH", "hilbert3d-histogram-hilbert3d", "H3DH3DH",
-                           "direction-origin", "auto">;
-
-struct OrderConfig {
-  OrderMethod method = "none";
-  bool each_depth = false;
-  uint32_t bin_num = 16;  // bins per direction component, histogram methods
-
-  // The method is the one that a trial on the device finds fastest.
-  bool by_trial() const { return method == "auto"; }
-};
-
-using LaunchDimensions = Choice<"auto", "1d", "2d", "3d">;
-
-struct LaunchConfig {
-  LaunchDimensions shape = "auto";
-  std::optional<uint32_t> local_size = {};  // work-items per work-group; not given: chosen for the device
+  bool from_both_ends() const { return diffraction || reflects_scattered() || reflects_echoes(); }
 };
 
 struct OutputConfig {
@@ -285,6 +269,8 @@ struct Config {
   std::vector<ParkedConfig> parked;
   std::vector<VehicleTypeConfig> vehicle_types;
   std::vector<MountConfig> mounts;
+  std::vector<TargetModelConfig> target_models;
+  std::vector<TargetConfig> targets;
   LinksConfig links;
   TimeConfig time;
   std::vector<LiveVehicleConfig> live_vehicles;

@@ -36,7 +36,7 @@ struct InteractionKind {
 
 // The least special comes first. A row: code, step and waypoint; words; paths; digit; key.
 // clang-format off
-inline constexpr std::array<InteractionKind, 4> interaction_kinds{{
+inline constexpr std::array<InteractionKind, 5> interaction_kinds{{
     {reflection, 0, WaypointKind::reflection, "reflection", "reflection",
      {"reflected", "#6db0f2", "#002080", 5}, 1, &TraceConfig::reflection},
     {transmission, 1, WaypointKind::launch, "transmission", "transmission",
@@ -45,6 +45,8 @@ inline constexpr std::array<InteractionKind, 4> interaction_kinds{{
      {"diffracted", "#00f279", "#21a685", 6}, 2, &TraceConfig::diffraction},
     {scattering, 3, WaypointKind::launch, "scattering", "diffuse scattering",
      {"scattered", "#a67c00", "#804000", 3}, 3, &TraceConfig::scattering},
+    {target_point, 4, WaypointKind::launch, "target", "target",
+     {"echoed", "#ff6a3d", "#c0392b", 1}, 0, &TraceConfig::target},
 }};
 // clang-format on
 static_assert(std::ranges::all_of(interaction_kinds,

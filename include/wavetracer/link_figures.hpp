@@ -31,7 +31,7 @@ struct LinkFigures {
 // The paths of a frame whose rows the host has not read (Simulation::sum_links).
 struct SummedPaths {
   std::vector<LinkFigures> links;   // one entry for each of the frame's links, in their order
-  std::array<uint64_t, 5> kinds{};  // the numbers of paths of each of path_kinds (interaction_kinds.hpp)
+  std::array<uint64_t, 6> kinds{};  // the numbers of paths of each of path_kinds (interaction_kinds.hpp)
   double power = 0;                 // sum of |a|^2 of all paths
 };
 

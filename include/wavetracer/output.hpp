@@ -43,6 +43,7 @@ struct Run {
   const std::vector<Instance>& instances;
   const std::vector<Scene>& models;
   RunSummary summary;
+  std::vector<SensedTarget> targets = {};
 };
 
 // Makes the Run from a simulation; the outputs name command_line as their origin.

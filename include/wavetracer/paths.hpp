@@ -10,9 +10,10 @@
 namespace wavetracer {
 
 // The interaction of a wave at a vertex of its path, with the numbers in files; see also interaction_kinds.hpp.
-enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8 };
+enum Interaction : uint8_t { reflection = 1, scattering = 2, transmission = 4, diffraction = 8, target_point = 16 };
 
 constexpr uint32_t no_instance = 0xFFFFFFFFu;
+constexpr uint32_t no_target = 0xFFFFFFFFu;
 
 // Groups of paths that form one wave: fields within a group are added with their phases, then the powers of groups are
 // added. A diffracted wave near a shadow boundary belongs to the wave that ends there, with a weight that falls with
@@ -47,11 +48,13 @@ struct Paths {
   // this distance of their places, and the path is still there. It is a lower bound, 100 m at most, and 0 where none is
   // known.
   std::vector<double> lifetime_m;
+  // The target that the path goes by, a number of World::targets, or no_target; empty where there are no targets.
+  std::vector<uint32_t> target;
   std::vector<uint64_t> vertex_offset{0};  // size() + 1 entries
   // One entry per interaction, ends excluded, in order from the transmitter.
   std::vector<glm::dvec3> vertex_position_m;  // file coordinates
   std::vector<uint8_t> vertex_interaction;
-  // Index in its scene or model; for a diffraction the wedge (`scene info --edges`).
+  // Index in its scene or model; for a diffraction the wedge (`scene info --edges`), for a target its point.
   std::vector<uint32_t> vertex_surface;
   std::vector<uint32_t> vertex_instance;
 

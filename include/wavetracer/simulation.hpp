@@ -108,6 +108,8 @@ class Simulation {
   // Returns the configuration; its transmitters and receivers include the ends that are mounted on vehicles.
   const Config& config() const;
   const std::vector<Instance>& instances() const;
+  // The targets that Paths::target names.
+  std::vector<SensedTarget> targets() const;
   const std::vector<Scene>& models() const;
   // Explains why links of a frame have no path: what their direct lines meet first, and which disabled feature may add
   // paths. It costs a pass over the scene.

@@ -163,6 +163,9 @@ typedef struct wavetracer_column {
      doppler_hz                                              float64
      quarters                                                uint8      a bit for each quarter of the launch that found
                                                              the path; no rows where that is not known
+     target                                                  uint32     the target that the path goes by, a row of
+                                                             /targets in paths.h5; 0xFFFFFFFF: none. No rows where there
+                                                             are no targets
      group                                                   uint32 x 4: numbers in the link of the groups of the path,
                                                              0xFFFFFFFF: none. The power of a link is the sum over
                                                              groups and pairs of ports of |sum of group_weight a

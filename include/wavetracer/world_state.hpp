@@ -33,6 +33,16 @@ struct EndState {
   bool present = true;
 };
 
+// A point of a target of sensing.
+struct TargetState {
+  glm::dvec3 position_m{0};
+  glm::dmat3 rotation{1.0};  // axes of the target to scene axes
+  glm::dvec3 velocity_m_s{0};
+  uint32_t instance = no_instance;  // the vehicle that it belongs to, which hides nothing from it
+  uint32_t law = 0;                 // its radar cross section: a law of FieldTables
+  bool present = true;
+};
+
 constexpr uint32_t no_end = 0xFFFFFFFFu;
 
 // A transmitter and a receiver between which paths are computed.
@@ -44,6 +54,7 @@ struct Link {
 struct WorldState {
   double time_s = 0;
   std::vector<Placement> instances;
+  std::vector<TargetState> targets;  // points of all targets
   SharedList<EndState> transmitters, receivers;
   std::vector<Link> links;  // links of ends that are present, sorted, each once
   bool arrivals = false;    // in a live world: a vehicle has arrived, or jumped, since the previous frame
@@ -54,6 +65,12 @@ struct DiscoveryMark {
   std::optional<double> time_s;
   std::vector<bool>
       active;  // for the vehicles, then the transmitters: whether they were present, and whether they sent
+};
+
+// A target of sensing: its name, VEHICLE/MODEL on a vehicle, its [[target_model]], and the body of its vehicle.
+struct SensedTarget {
+  std::string name, model;
+  uint32_t instance = no_instance;
 };
 
 // The properties of an instance that do not change with time.

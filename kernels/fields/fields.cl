@@ -25,8 +25,9 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                    const global wt_exact_instance* instances, const global wt_field_end* transmitters,
                    const global wt_field_end* receivers, const global wt_antenna* antennas,
                    const global double* samples, const global wt_foliage* foliages, const global double* lengths_inside,
-                   global uint* listed, global wt_path_row* out, global wt_vertex_row* out_vertices,
-                   wt_fields_arguments args) {
+                   const global wt_target_point* targets, const global wt_target_law* laws,
+                   const global wt_target_lobe* lobes, global uint* listed, global wt_path_row* out,
+                   global wt_vertex_row* out_vertices, wt_fields_arguments args) {
 #if WT_LISTED
   if (get_global_id(0) >= listed[0]) return;
   const uint place = listed[1 + get_global_id(0)];
@@ -38,11 +39,29 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
   if (first_row >= args.row_capacity || first_vertex + WT_MAX_DEPTH > args.vertex_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
-  const wt_field_world world = {surfaces,           materials_of,       materials,        wedges,
-                                surface_of_tile,    area_of_tile,       instances,        transmitters,
-                                receivers,          antennas,           samples,          args.wavelength_m,
-                                args.seed,          args.transmissions, args.reflections, args.scatters,
-                                args.foliage_count, foliages,           lengths_inside,   args.air};
+  const wt_field_world world = {surfaces,
+                                materials_of,
+                                materials,
+                                wedges,
+                                surface_of_tile,
+                                area_of_tile,
+                                instances,
+                                transmitters,
+                                receivers,
+                                antennas,
+                                samples,
+                                args.wavelength_m,
+                                args.seed,
+                                args.transmissions,
+                                args.reflections,
+                                args.scatters,
+                                args.foliage_count,
+                                foliages,
+                                lengths_inside,
+                                args.air,
+                                targets,
+                                laws,
+                                lobes};
 #if WT_DIFFRACTS && !WT_CORNER_EDGES
   const wt_path path = wt_path_of(&list, rows[place]);
   if (listed && wt_passes_corner(&world, &path)) {

@@ -19,7 +19,7 @@ inline double power_of_row(const global wt_path_row* row) {
 inline uint kind_of(const global wt_vertex_row* vertices, uint first, uint end) {
   uint met = 0;
   for (uint k = first; k < end; ++k) met |= vertices[k].interaction;
-  return met & 2u ? 4 : met & 8u ? 3 : met & 4u ? 2 : met & 1u;
+  return met & 16u ? 5 : met & 2u ? 4 : met & 8u ? 3 : met & 4u ? 2 : met & 1u;
 }
 
 // Counts a path by the quarters of the launch that found it (wavetracer/missed.hpp).
@@ -49,7 +49,7 @@ typedef struct {
 
 inline link_part no_rows(void) {
   link_part part = {
-      {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}, 0.0, {0, 0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0, 0},
+      {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}, 0.0, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0},
       {(double2)(0.0), (double2)(0.0), (double2)(0.0), (double2)(0.0)}};
   return part;
 }
@@ -93,7 +93,7 @@ inline void add_part(LINK_SPACE link_part* to, LINK_SPACE const link_part* part)
   to->sum.amplitude += part->sum.amplitude;
   for (uint k = 0; k < 4; ++k) to->sum.found[k] += part->sum.found[k];
   for (uint k = 0; k < 4; ++k) to->sum.found_powers[k] += part->sum.found_powers[k];
-  for (uint k = 0; k < 5; ++k) to->sum.kinds[k] += part->sum.kinds[k];
+  for (uint k = 0; k < 6; ++k) to->sum.kinds[k] += part->sum.kinds[k];
   to->sum.near_edges += part->sum.near_edges;
   for (uint k = 0; k < 4; ++k) to->response[k] += part->response[k];
 }

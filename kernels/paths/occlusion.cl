@@ -3,8 +3,8 @@
 // ordered by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs
 // have a launch of their own: paths over one tile follow each other and share their first leg, which is tested once,
 // and later legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges,
-// surface_of_tile: see lib/leg.clh. Open rows end at their last vertex. blockers: if given, the triangle that hides a
-// path is stored there.
+// surface_of_tile, targets: see lib/leg.clh. Open rows end at their last vertex. blockers: if given, the triangle that
+// hides a path is stored there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
 #include "wavetracer/device/arguments.h"
@@ -24,8 +24,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
                       const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
                       const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
-                      const global uint* surface_of_tile, global uint* blockers, const global wt_counters* counters,
-                      wt_legs_arguments args) {
+                      const global uint* surface_of_tile, const global wt_target_point* targets, global uint* blockers,
+                      const global wt_counters* counters, wt_legs_arguments args) {
   const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);
   const uint count = wt_length(counters, args.solved_counter, args.solved_count);
   if (i >= count || leg + args.open > solved[i].depth) return;
@@ -34,7 +34,7 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   // that does no harm. First legs are always tested, since others wait for the answer.
   if (leg > 0 && wt_load_relaxed_u32(&solved[i].blocked)) return;
   const size_t row = (size_t)i * args.max_depth;
-  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
+  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count, targets};
   wt_leg l;
   wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers, &l);
   uint place;

@@ -15,7 +15,7 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
                   uint node, uint receiver, double4 from, double4 to, const double3* points) {
   const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
   if (noted == WT_NONE || k > depth) return 0;
-  const wt_step_tables tables = {surfaces, 0, 0, 0};
+  const wt_step_tables tables = {surfaces, 0, 0, 0, 0};
   wt_leg leg;
   if (k == 0)
     wt_stop_at_end(from, &leg.from);

@@ -75,13 +75,14 @@ kernel void transmissions(const global WT_NODE* nodes, const global WT_LEAF* tri
                           const global wt_exact_surface* surfaces, const global double* corners,
                           const global wt_surface* boxes, global wt_solved* solved, global double* vertices,
                           global uint* sequences, const global wt_wedge* wedges, const global uint* surface_of_tile,
-                          const global wt_counters* counters, wt_legs_arguments args) {
+                          const global wt_target_point* targets, const global wt_counters* counters,
+                          wt_legs_arguments args) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, args.solved_counter, args.solved_count)) return;
   const uint depth = solved[i].depth, allowed = depth < args.deepest ? min(args.most, args.deepest - depth) : 0;
   global double* v = vertices + 3 * (size_t)args.max_depth * i;
   global uint* s = sequences + (size_t)args.max_depth * i;
-  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count};
+  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count, targets};
   wt_crossing crossings[WT_MAX_DEPTH];  // the last one of the path first
   uint count = 0;
   for (uint after = args.open; after <= depth; ++after) {

@@ -25,10 +25,11 @@ Between = Callable[[Array, "tuple[int, int]"], "tuple[Array, Array]"]
 
 # The word for a path, which depends on the most special of its interactions, and the bit of the interaction that
 # decides it; the least special comes first, as in include/wavetracer/interaction_kinds.hpp.
-KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2}
+KINDS = {"line_of_sight": 0, "reflected": 1, "transmitted": 4, "diffracted": 8, "scattered": 2,
+         "echoed": 16}
 _SPECIAL = tuple(KINDS.values())[:0:-1]
 _COLUMNS = ("tx", "rx", "depth", "delay_s", "gain_db", "a", "aod_theta_rad", "aod_phi_rad", "aoa_theta_rad", "aoa_phi_rad",
-            "doppler_hz", "group", "group_weight", "lifetime_m", "vertex_offset", "vertex_position_m",
+            "doppler_hz", "target", "group", "group_weight", "lifetime_m", "vertex_offset", "vertex_position_m",
             "vertex_interaction", "vertex_surface", "vertex_instance")
 _AT_CARRIERS = ("carrier_a", "carrier_gain_db", "carrier_doppler_hz")
 
@@ -130,6 +131,12 @@ class Paths:
         return self._column("doppler_hz")
 
     @property
+    def target(self) -> Array:
+        """The target of sensing that each path goes by, a row of /targets of paths.h5, uint32; 4294967295 is none. No rows
+        where there are no targets."""
+        return self._column("target")
+
+    @property
     def group(self) -> Array:
         """The groups of paths that are one wave: numbers of those of each path in its link, shape (paths, 4), uint32, the
         one with the largest weight first; 4294967295 is none. No rows where every path is a group of its own."""
@@ -162,7 +169,7 @@ class Paths:
     @property
     def vertex_interaction(self) -> Array:
         """Kinds of interactions, shape (interactions,), uint8: 1 reflection, 2 diffuse scattering, 4 transmission,
-        8 diffraction."""
+        8 diffraction, 16 target."""
         return self._column("vertex_interaction")
 
     @property
@@ -177,8 +184,8 @@ class Paths:
 
     @property
     def kind(self) -> Array:
-        """The kind of each path: "line_of_sight", "reflected", "transmitted", "diffracted" or "scattered", by its
-        interactions: of the words that apply, the last in this list. Shape (paths,), texts."""
+        """The kind of each path: "line_of_sight", "reflected", "transmitted", "diffracted", "scattered" or "echoed", by
+        its interactions: of the words that apply, the last in this list. Shape (paths,), texts."""
         bits = _figures.joined_bits(self.vertex_interaction, self.vertex_offset)
         words = {bit: word for word, bit in KINDS.items()}
         return np.select([(bits & bit) != 0 for bit in _SPECIAL], [words[bit] for bit in _SPECIAL], words[0])

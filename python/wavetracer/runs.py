@@ -62,6 +62,8 @@ class SavedFrame:
             offset = group["vertex_offset"]
             begin, end = int(offset[self._first]), int(offset[self._last])
             return np.asarray(self._run._group("vertices")[name.removeprefix("vertex_")][begin:end])
+        if name == "target" and name not in group:  # no targets, or a version that had none
+            return np.zeros(0, np.uint32)
         if name in ("group", "group_weight") and name not in group:  # of a version that had none
             return np.zeros((0, 4), np.uint32 if name == "group" else np.float64)
         if name == "lifetime_m" and name not in group:  # of a run without output.lifetimes

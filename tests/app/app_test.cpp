@@ -228,7 +228,7 @@ TEST_CASE("hints at misspelt keys are those of their table, a map as a scene nam
 }
 
 TEST_CASE("the configs that come with the program are valid") {
-  for (const std::string name : {"cache", "city", "demo", "drive", "edges"}) {
+  for (const std::string name : {"cache", "city", "demo", "drive", "edges", "radar"}) {
     const Outcome validate =
         run_program({"validate", "-c", wavetracer::test::source_folder() + "/configs/" + name + ".toml"});
     CAPTURE(validate.err);

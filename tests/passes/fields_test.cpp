@@ -80,7 +80,7 @@ Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, c
   const SolvedList visible = upload_rows(world.rows, most_steps);
   const FieldTables tables = make_field_tables(world.scene, world.config);
   CHECK(tables.corners);
-  const FieldInputs inputs{scene, &wedges.list().wedges, ends, visible, nullptr, distinct, list};
+  const FieldInputs inputs{scene, &wedges.list().wedges, nullptr, ends, visible, nullptr, distinct, list};
   const auto computed = [&](bool apart) {
     Fields fields(context(), tables, 1, world.scene.origin_m, apart);
     fields(inputs, world.state, count);

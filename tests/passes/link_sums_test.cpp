@@ -157,7 +157,7 @@ void check(const Rows& rows, const std::vector<Link>& links, Ports ports, bool g
   CHECK(counts.near_edges == std::ranges::count_if(rows.rows, [](const device::wt_path_row& row) {
           return (row.quarters & WT_ROW_NEAR_EDGE) != 0;
         }));
-  std::array<uint64_t, 5> kinds{};
+  std::array<uint64_t, 6> kinds{};
   for (size_t row = 0; row < paths.size(); ++row) {
     size_t kind = 0;
     for (uint64_t k = paths.vertex_offset[row]; k < paths.vertex_offset[row + 1]; ++k)

@@ -120,6 +120,21 @@ TEST_CASE("fields on the device are the host's to the last bit: rough surfaces")
   CHECK(kinds[reflection] > 1000);
 }
 
+TEST_CASE("fields on the device are the host's to the last bit: targets") {
+  Config config = town(20000, 4);
+  config.trace.transmission = true;
+  config.trace.target_reflections = 2;
+  config.target_models = {{.name = "car", .on = "", .kind = "vehicle-points"}};
+  config.targets = {{.name = "a",
+                     .model = "car",
+                     .position_m = {3, -2, 0},
+                     .orientation_deg = {33, 4, -2},
+                     .velocity_m_s = {4, 9, 1}}};
+  auto kinds = check_same(config, 1);
+  CHECK(kinds[target_point] > 100);
+  CHECK(kinds[reflection] > 100);
+}
+
 TEST_CASE("fields on the device are the host's to the last bit: behind crowns, several of one kind") {
   Config config = town(50000, 3);
   for (int i = 0; i < 6; ++i) {

@@ -44,8 +44,8 @@ Paths found(const Config& config, DirectionShare share) {
   solve_paths(s.exact_paths, s.device_scene, ends, s.discovery->sequences(), Search::all, *s.frame_watch, account);
   Counters& counters = s.discovery->sequences().counters();
   DiffractedPaths* edges = s.exact_paths.diffraction ? &*s.exact_paths.diffraction : nullptr;
-  s.finish.start(0, s.device_scene, edges, ends, state, s.exact_paths.visible.list(), nullptr, Rows::first_carrier,
-                 counters);
+  s.finish.start(0, s.device_scene, edges, nullptr, ends, state, s.exact_paths.visible.list(), nullptr,
+                 Rows::first_carrier, counters);
   LeftOut left_out;
   return s.finish.take(counters.read(Stage::fields), left_out, nullptr);
 }

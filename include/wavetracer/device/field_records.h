@@ -66,6 +66,22 @@ typedef struct {
   wt_uint first_triangle, triangle_count;
 } wt_volume;
 
+// The radar cross section of a point of a target (device/target.h): one lobe about a direction in its axes.
+typedef struct {
+  double azimuth, azimuth_width;  // the peak, and the width at 3 dB, radians; width 0: all azimuths are alike
+  double zenith, zenith_width;    // the same for the angle from the axis upwards
+  double peak_db, range_db;       // the peak, dBsm; the lobe falls by range_db at most
+  // The lobe counts where the bisector is in this part of the sphere, radians: zeniths from..to, azimuths from..span
+  // on.
+  double zenith_from, zenith_to, azimuth_from, azimuth_span;
+} wt_target_lobe;
+
+typedef struct {
+  double k[3];   // the loss k[0] sin(k[1] beta / 2) - k[2] log10(cos(beta / 2)) in dB at the bistatic angle beta
+  double cross;  // amplitude in the other polarisation, as a share of that in the same one
+  wt_uint first_lobe, lobe_count;
+} wt_target_law;
+
 // Patterns of antennas; the first four have the numbers of NamedAntenna (wavetracer/config.hpp).
 #define WT_PATTERN_ISOTROPIC 0u
 #define WT_PATTERN_SHORT_DIPOLE 1u
@@ -130,11 +146,10 @@ typedef struct {
   double mean_delay_s, rms_delay_s, rms_doppler_hz;  // weighted by power, rms about the mean; 0 without power
   double direct;                                     // the power of the path without interactions
   double found_powers[4], amplitude;                 // see powers and amplitude of MissedCounts (wavetracer/missed.hpp)
-  wt_uint kinds[5];                                  // numbers of paths by their kind
+  wt_uint kinds[6];                                  // numbers of paths by their kind
   wt_uint found[4];                                  // see paths of MissedCounts
   wt_uint near_edges;                                // the number of paths with WT_ROW_NEAR_EDGE
   wt_uint paths;
-  wt_uint padding;
 } wt_link_sum;
 
 typedef struct {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
-// solve: specular reflections, straight transmissions, one diffuse scattering or up to WT_MOST_EDGES diffractions. A
-// tile ends one spherical wave and begins another, so mirrors on either side of it see the length on their side.
+// solve: specular reflections, straight transmissions, one diffuse scattering, one point of a target or up to
+// WT_MOST_EDGES diffractions. A tile or a point ends one spherical wave and begins another, so mirrors on either side
+// of it see the length on their side.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
@@ -48,7 +49,7 @@ typedef struct {
   wt_walk_leg leg;
   wt_transfer transfer;
   double spread, since_m, speed;
-  double section_m;  // the length of the path, or of its part on this side of the tile that it scatters from
+  double section_m;  // the length of the path, or of its part on this side of the tile or target that it scatters from
   wt_uint solved;    // the number of the path in the list of solved ones
 } wt_wave;
 
@@ -64,8 +65,8 @@ inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_
   return leg;
 }
 
-#if WT_SCATTERS > 1
-// The length of the path as far as the tile or the cell that it scatters from, or else length_m, that of all of it.
+#if WT_SCATTERS > 1 || WT_TARGETS > 1
+// The length of the path as far as the tile, cell or target that it scatters from, or else length_m, that of all of it.
 inline double wt_first_section(const wt_path* path, double length_m) {
   double since_m = 0.0;
   wt_double3 from = path->from;
@@ -73,7 +74,7 @@ inline double wt_first_section(const wt_path* path, double length_m) {
     const wt_double3 to = wt_vertex(path, k);
     since_m += wt_length3(to - from);
     from = to;
-    if (wt_kind(path, k) == WT_STEP_SCATTERING) return since_m;
+    if (wt_kind(path, k) == WT_STEP_SCATTERING || wt_kind(path, k) == WT_STEP_TARGET) return since_m;
   }
   return length_m;
 }
@@ -92,6 +93,15 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
       wt_scatter_in_cell(world, cell, wave->solved, leg.direction, wave->leg.direction, &wave->transfer);
       wave->spread = 1.0 / (wt_distance_from_cell(wave->since_m, side_m) *
                             wt_distance_from_cell(length_m - wave->since_m, side_m));
+      continue;
+    }
+#endif
+#if WT_TARGETS
+    if ((step & WT_STEP_KIND) == WT_STEP_TARGET) {
+      wave->section_m = length_m - wave->since_m;
+      const wt_wave_map point = wt_wave_of_point(world, step & ~WT_STEP_KIND, leg.direction, wave->leg.direction);
+      wt_map(&wave->transfer, point.from, point.to, point.matrix);
+      wave->spread = 1.0 / (wave->since_m * (length_m - wave->since_m));
       continue;
     }
 #endif
@@ -190,7 +200,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const double length_m = wt_path_length(&path);
   wave.spread = 1.0 / length_m;
   wave.since_m = 0.0;
-#if WT_SCATTERS > 1
+#if WT_SCATTERS > 1 || WT_TARGETS > 1
   wave.section_m = wt_first_section(&path, length_m);
 #else
   wave.section_m = length_m;

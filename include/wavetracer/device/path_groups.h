@@ -128,7 +128,7 @@ inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges
     const wt_double3 at = wt_vertex(path, k), leg = at - from;
     from = at;
     if (bends) since_m += wt_length3(leg);
-    if (kind == WT_STEP_SCATTERING) {
+    if (kind == WT_STEP_SCATTERING || kind == WT_STEP_TARGET) {
       waves->count = 0;
       wt_add_wave(waves, wt_mixed(row, step), 1.0);
       return bends;

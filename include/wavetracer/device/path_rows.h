@@ -108,14 +108,16 @@ inline int wt_compare_vertices(const wt_path* a, const wt_path* b) {
 
 // Are two paths of one link and one depth the same? Where a point of reflection comes near an edge, the diffraction
 // there is another path. The path with the lowest surfaces stays, and of equal ones the one that was solved before its
-// twin: *first is not 0 where that is a. Rows that differ only in their number are ordered by it.
+// twin: *first is not 0 where that is a. Rows that differ only in their number are ordered by it. Points of targets may
+// lie in one place and are never the same.
 inline int wt_one_path(const wt_path* a, const wt_path* b, wt_uint row_a, wt_uint row_b, int* first) {
   int order = wt_compare_steps(a, b);
   if (order != 0)
     for (wt_uint k = 0; k < a->depth; ++k) {
       const wt_double3 d = wt_vertex(a, k) - wt_vertex(b, k);
-      if (((wt_step(a, k) ^ wt_step(b, k)) & WT_STEP_KIND) != 0 || !(fabs(d.x) <= WT_MERGE_M) ||
-          !(fabs(d.y) <= WT_MERGE_M) || !(fabs(d.z) <= WT_MERGE_M))
+      const wt_uint other = wt_step(a, k) ^ wt_step(b, k);
+      if ((other & WT_STEP_KIND) != 0 || !(fabs(d.x) <= WT_MERGE_M) || !(fabs(d.y) <= WT_MERGE_M) ||
+          !(fabs(d.z) <= WT_MERGE_M) || (other != 0 && (wt_step(a, k) & WT_STEP_KIND) == WT_STEP_TARGET))
         return 0;
     }
   if (order == 0) order = a->reversed - b->reversed;

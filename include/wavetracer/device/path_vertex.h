@@ -7,6 +7,7 @@
 #include "wavetracer/device/path_world.h"
 #include "wavetracer/device/scattering.h"
 #include "wavetracer/device/slab.h"
+#include "wavetracer/device/target.h"
 #include "wavetracer/device/transfer.h"
 
 // A device need not compile code for things that the scene does not have. 1: paths that scatter have no reflection; 2:
@@ -98,10 +99,15 @@ inline void wt_scatter_at(const wt_field_world* world, wt_uint tile, wt_ulong mi
 // dL/dt = sum over legs of k . (x'(i+1) - x'(i)): returns how much vertex p, on a body that moves, adds to the speed at
 // which the path gets shorter. A vertex moves with the velocity v of the body there, and slides along its surface or
 // edge besides. k_in - k_out is normal to a mirror or to an edge, so sliding does not change L (Fermat's principle) and
-// x' = v is exact, also on a turning body. A scattering point is fixed to the body. A transmission goes straight on,
+// x' = v is exact, also on a turning body. A scattering point is fixed to the body; the velocity of a target's point is
+// that of this point. A transmission goes straight on,
 // k_in = k_out, and adds nothing.
 inline double wt_closing_speed_at(const wt_field_world* world, wt_uint step, wt_double3 p, wt_double3 k_in,
                                   wt_double3 k_out) {
+#if WT_TARGETS
+  if ((step & WT_STEP_KIND) == WT_STEP_TARGET)
+    return wt_dot3(wt_vector(world->targets[step & ~WT_STEP_KIND].velocity), k_out - k_in);
+#endif
   const wt_uint instance = wt_step_instance(world, step);
   if (instance == WT_NONE || (step & WT_STEP_KIND) == WT_STEP_TRANSMISSION) return 0.0;
   const WT_GLOBAL wt_exact_instance* body = world->instances + instance;

@@ -11,6 +11,11 @@
 #define WT_CELLS 1
 #endif
 
+// 1: paths over targets have no reflection; 2: they may have some; 0: there are no targets.
+#ifndef WT_TARGETS
+#define WT_TARGETS 2
+#endif
+
 #ifndef __OPENCL_VERSION__
 namespace wavetracer::device {
 #endif
@@ -38,6 +43,9 @@ typedef struct {
   const WT_GLOBAL wt_foliage* foliages;    // one record for each kind
   const WT_GLOBAL double* lengths_inside;  // for solved paths, kind by kind (kernels/fields/vegetation.cl)
   wt_air air;
+  const WT_GLOBAL wt_target_point* targets;  // points of targets, in the frame
+  const WT_GLOBAL wt_target_law* laws;
+  const WT_GLOBAL wt_target_lobe* lobes;
 } wt_field_world;
 
 // The rows of a frame in their order, so that a row can look at its neighbours; a place may have no row (WT_NO_ROW).
@@ -110,14 +118,20 @@ inline int wt_is_cell(const wt_field_world* world, wt_uint step) {
 inline wt_uint wt_step_instance(const wt_field_world* world, wt_uint step) {
   const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
   if (wt_is_cell(world, step)) return WT_NONE;
+#if WT_TARGETS
+  if (kind == WT_STEP_TARGET) return world->targets[number].instance;
+#endif
   if (kind == WT_STEP_DIFFRACTION) return world->wedges[number].instance;
   return world->surfaces[kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number].instance;
 }
 
 // The number of a step's surface or wedge in its scene or model; for a tile, that of its surface; for a cell, that of
-// its volume.
+// its volume; for a point of a target, its number among the points of all targets.
 inline wt_uint wt_local_number(const wt_field_world* world, wt_uint step) {
   const wt_uint number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+#if WT_TARGETS
+  if (kind == WT_STEP_TARGET) return number;
+#endif
   if (wt_is_cell(world, step)) return world->surface_of_tile[number] & WT_CELL_NUMBER;
   const wt_uint instance = wt_step_instance(world, step);
   const wt_uint own = kind == WT_STEP_SCATTERING ? world->surface_of_tile[number] : number;

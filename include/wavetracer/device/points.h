@@ -55,4 +55,12 @@ typedef struct {
   wt_uint padding;
 } wt_point_join_arguments;
 
+// Paths over points of targets (kernels/paths/targets.cl).
+typedef struct {
+  wt_uint row_count;
+  wt_uint rows_per_item;
+  wt_uint points;
+  wt_uint max_depth;
+} wt_targets_arguments;
+
 #endif

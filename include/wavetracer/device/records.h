@@ -99,16 +99,28 @@ typedef struct {
   wt_uint present;
 } wt_exact_instance;
 
+// A point of a target in a frame (host/simulation/world_targets.hpp), recentred.
+typedef struct {
+  double rotation[9];  // from the axes of the target to those of the scene, row by row
+  double position[3];
+  double velocity[3];
+  wt_uint instance;  // the vehicle that carries it, which hides nothing from it; WT_NONE without a body
+  wt_uint law;       // its law, see wt_target_law
+  wt_uint present;
+  wt_uint padding;
+} wt_target_point;
+
 // The step of a vertex of a solved path: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of
-// a surface (reflection, transmission), wedge or tile.
+// a surface (reflection, transmission), wedge, tile or point of a target.
 #define WT_STEP_SHIFT 29u
 #define WT_STEP_KIND (7u << WT_STEP_SHIFT)
 #define WT_STEP_REFLECTION (0u << WT_STEP_SHIFT)
 #define WT_STEP_TRANSMISSION (1u << WT_STEP_SHIFT)
 #define WT_STEP_DIFFRACTION (2u << WT_STEP_SHIFT)
 #define WT_STEP_SCATTERING (3u << WT_STEP_SHIFT)
+#define WT_STEP_TARGET (4u << WT_STEP_SHIFT)
 // The codes of these kinds in files (Interaction in wavetracer/paths.hpp), a byte each, the first kind's the lowest.
-#define WT_STEP_CODES (1ul | 4ul << 8 | 8ul << 16 | 2ul << 24)
+#define WT_STEP_CODES (1ul | 4ul << 8 | 8ul << 16 | 2ul << 24 | 16ul << 32)
 
 // Ends of an edge beyond which its line runs on in the open: there its wave ends with the wave of a corner.
 #define WT_FREE_START 1u

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks of [[target_model]] and [[target]]: keys that go with one kind, lists of the right length, names that nothing
+// has, and what targets do not go with.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/spelling.hpp"
+#include "config/contradictions.hpp"
+#include "config/value_text.hpp"
+
+namespace wavetracer::config {
+namespace {
+
+void check_lobes(const TargetModelConfig& model, const std::string& key, size_t points,
+                 std::vector<Contradiction>& out) {
+  for (size_t i = 0; i < model.lobes.size(); ++i) {
+    const auto& [of, azimuth, azimuth_width, zenith, zenith_width, peak, range] = model.lobes[i];
+    const auto refuse = [&](const std::string& what) {
+      out.push_back(
+          {{key + ".lobes"}, fmt::format("target_model.lobes[{}] of {} {}", i, toml_string(model.name), what)});
+    };
+    if (of < 0 || of != std::floor(of) || of >= static_cast<double>(points))
+      refuse(fmt::format("belongs to point {:g}, but its points are 0 to {}", of, points - 1));
+    if (azimuth_width < 0 || zenith_width < 0) refuse("has a negative width: give 0 where all angles are alike");
+    if (zenith < 0 || zenith > 180) refuse(fmt::format("has the zenith {:g}, which is from 0 to 180 degrees", zenith));
+    if (range < 0) refuse("falls by a negative range: give by how many dB it falls at most");
+  }
+}
+
+void check_custom(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
+  const std::string name = toml_string(model.name);
+  const size_t points = std::max<size_t>(model.points_m.size(), 1);
+  if (model.rcs_dbsm.empty() == model.lobes.empty())
+    out.push_back({{key, key + ".rcs_dbsm", key + ".lobes"},
+                   fmt::format("[[target_model]] {} has kind = \"custom\" and {} rcs_dbsm {} lobes: give one of them",
+                               name, model.lobes.empty() ? "neither" : "both", model.lobes.empty() ? "nor" : "and")});
+  if (model.rcs_dbsm.size() > 1 && model.rcs_dbsm.size() != points)
+    out.push_back(
+        {{key + ".rcs_dbsm"},
+         fmt::format("[[target_model]] {} has {} numbers in rcs_dbsm for {} points: give one for each point, or "
+                     "one for all",
+                     name, model.rcs_dbsm.size(), points)});
+  check_lobes(model, key, points, out);
+}
+
+void check_kind(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
+  const auto refuse = [&](const char* of, const std::string& why) {
+    out.push_back(
+        {{key + "." + of},
+         fmt::format("[[target_model]] {} has kind = \"{}\", {}", toml_string(model.name), model.kind.word(), why)});
+  };
+  if (!model.rcs_dbsm.empty())
+    refuse("rcs_dbsm", "which has its own cross section: remove rcs_dbsm, or use \"custom\"");
+  if (!model.lobes.empty()) refuse("lobes", "which has its own lobes: remove lobes, or use \"custom\"");
+  if (model.bistatic_db != std::array<double, 3>{0, 0, 0})
+    refuse("bistatic_db", "which has its own bistatic law: remove bistatic_db, or use \"custom\"");
+  const size_t points = model.kind == "vehicle-points" || model.kind == "agv-points" ? 5 : 1;
+  if (!model.points_m.empty() && model.points_m.size() != points)
+    refuse("points_m", fmt::format("which has {}, but points_m has {}: remove points_m, or give as many",
+                                   points == 1 ? "one point" : "5 points", model.points_m.size()));
+}
+
+bool has_targets(const Config& config) {
+  return !config.targets.empty() ||
+         std::ranges::any_of(config.target_models, [](const TargetModelConfig& model) { return !model.on.empty(); });
+}
+
+void check_companions(const Config& config, std::vector<Contradiction>& out) {
+  const TraceConfig& trace = config.trace;
+  if (!trace.target || !has_targets(config)) return;
+  const auto refuse = [&](std::vector<std::string> keys, const std::string& what) {
+    keys.push_back(config.targets.empty() ? "target_model.0" : "target.0");
+    out.push_back({std::move(keys), what});
+  };
+  if (trace.by_spheres())
+    refuse({"trace.reception"},
+           "trace.reception = \"sphere\" receives reflected rays only, but there are targets: use trace.reception = "
+           "\"exact\", or set trace.target to false");
+  if (trace.floor_db)
+    refuse({"trace.floor_db"},
+           fmt::format("trace.floor_db = {} says nothing of the power of waves that a target scatters: "
+                       "remove trace.floor_db, or set trace.target to false",
+                       *trace.floor_db));
+  if (trace.target_reflections > 0 && trace.diffraction && trace.edge_rays > 0)
+    refuse(
+        {"trace.edge_rays", "trace.target_reflections"},
+        fmt::format("trace.edge_rays = {} does not go with trace.target_reflections = {}: give trace.edge_rays = 0, so "
+                    "that receivers launch rays, or set trace.target_reflections to 0",
+                    trace.edge_rays, trace.target_reflections));
+}
+
+}  // namespace
+
+void check_targets(const Config& config, std::vector<Contradiction>& out) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < config.target_models.size(); ++i) {
+    const TargetModelConfig& model = config.target_models[i];
+    names.push_back(model.name);
+    const std::string key = fmt::format("target_model.{}", i);
+    if (model.custom())
+      check_custom(model, key, out);
+    else
+      check_kind(model, key, out);
+  }
+  for (size_t i = 0; i < config.targets.size(); ++i) {
+    const std::string& model = config.targets[i].model;
+    if (std::ranges::find(names, model) == names.end())
+      out.push_back(
+          {{fmt::format("target.{}.model", i)},
+           fmt::format("target.model = {}: there is no [[target_model]] of this name{}; add one, or name another",
+                       toml_string(model), spelling_hint(model, names))});
+  }
+  check_companions(config, out);
+}
+
+}  // namespace wavetracer::config

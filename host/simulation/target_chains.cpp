@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The counters are the pass's own, so nothing of it is foreseen from the frame before.
+#include "simulation/target_chains.hpp"
+
+#include <algorithm>
+
+#include "passes/advice.hpp"
+#include "passes/growing_list.hpp"
+
+namespace wavetracer {
+namespace {
+
+std::vector<EndState> as_receivers(const std::vector<TargetState>& targets) {
+  std::vector<EndState> out;
+  for (const TargetState& point : targets)
+    out.push_back({.position_m = point.position_m, .instance = point.instance, .present = point.present});
+  return out;
+}
+
+std::vector<Link> present_pairs(const std::vector<EndState>& ends, const std::vector<EndState>& points) {
+  std::vector<Link> out;
+  for (uint32_t end = 0; end < ends.size(); ++end)
+    for (uint32_t point = 0; point < points.size(); ++point)
+      if (ends[end].present && points[point].present) out.push_back({end, point});
+  return out;
+}
+
+}  // namespace
+
+TargetChains::TargetChains(gpu::Context& context, uint32_t reflections, const JoinedPoints& limits)
+    : context_(context),
+      most_depth_(limits.max_depth),
+      local_(tuning_of(context.info()).exact.group),
+      counters_(context),
+      candidates_(context, reflections),
+      solve_(context, limits.row_depth),
+      rows_(context),
+      place_(context),
+      sort_(context),
+      join_(context, limits) {}
+
+void TargetChains::place(const std::vector<EndState>& launching, const std::vector<TargetState>& targets) {
+  const std::vector<EndState> points = as_receivers(targets);
+  set_places(context_, ends_, launching, points, {});
+  set_links(context_, ends_, points, present_pairs(launching, points));
+}
+
+uint32_t TargetChains::list_nodes(const FoundSequences& found, uint32_t transmitters) {
+  std::vector<uint32_t> roots;
+  for (uint32_t end = transmitters; end < ends_.transmitter_count; ++end) roots.push_back(WT_ROOT | end);
+  const size_t count = found.node_count + roots.size();
+  if (!nodes_ || nodes_.size() < count)
+    nodes_ = context_.buffer<uint32_t>(count + count / 4, {"sequences of targets", advice::targets});
+  context_.copy(found.nodes, nodes_, sizeof(uint32_t) * found.node_count, Stage::targets);
+  if (!roots.empty()) nodes_.write(roots, found.node_count, Stage::targets);
+  return static_cast<uint32_t>(count);
+}
+
+void TargetChains::sort(SolvedList& ways, const RadioEnds& ends, const TargetRows& targets) {
+  list_.rows = ways;
+  list_.hidden = wt_point_key(targets.count(), 0);
+  if (!list_.keys || list_.keys.size() < ways.headers.size()) {
+    const size_t rows = ways.headers.size();
+    list_.keys = context_.buffer<uint32_t>(rows, {"keys of targets", advice::targets});
+    list_.order = context_.buffer<uint32_t>(rows, {"order of targets", advice::targets});
+    list_.sorted = context_.buffer<wt_point_prefix>(rows, {"ways to targets", advice::targets});
+  }
+  rows_({ways.count, local_}, Stage::targets,
+        calls::targets::target_rows{.points = targets.points(),
+                                    .ends = ends.transmitters,
+                                    .solved = list_.rows.headers,
+                                    .vertices = list_.rows.vertices,
+                                    .sequences = list_.rows.sequences,
+                                    .keys = list_.keys,
+                                    .count = ways.count,
+                                    .max_depth = ways.max_depth,
+                                    .most_depth = most_depth_,
+                                    .hidden = list_.hidden});
+  sort_(list_.keys, list_.order, ways.count, list_.key_bits());
+  place_({ways.count, local_}, Stage::targets,
+         calls::point_prefixes::place_points{.keys = list_.keys,
+                                             .order = list_.order,
+                                             .solved = list_.rows.headers,
+                                             .vertices = list_.rows.vertices,
+                                             .sequences = list_.rows.sequences,
+                                             .ends = ends.transmitters,
+                                             .sorted = list_.sorted,
+                                             .count = ways.count,
+                                             .max_depth = ways.max_depth,
+                                             .hidden = list_.hidden});
+}
+
+JoinedCounts TargetChains::operator()(const DeviceScene& scene, const RadioEnds& ends, const FoundSequences& found,
+                                      const TargetRows& targets, const CheckLegs& check_legs,
+                                      const std::function<void(SolvedList&)>& take) {
+  JoinedCounts out;
+  counters_.zero();
+  const uint32_t nodes = list_nodes(found, ends.transmitter_count);
+  counters_.restart_nodes(nodes, Stage::targets);
+  const uint32_t candidates = candidates_(scene, ends_, found.table, nodes_, nodes, counters_);  // candidates
+  if (candidates == 0) return out;
+  SolvedList& ways =
+      solve_(scene, ends_, found.table, found.quarters, candidates_.list(), candidates, counters_);  // solve
+  if (ways.count == 0) return out;
+  check_legs(ways, ends_, counters_);  // the passes of legs (exact_paths.cpp)
+  sort(ways, ends, targets);           // targets, sort, point_prefixes
+  by_parts(
+      ways.count, ways.count, join_.most(),
+      [&](uint32_t first, uint32_t end) { return join_(list_, first, end, ends); },  // point_join
+      [&](uint32_t joined) {
+        take(join_.list());
+        out.paths += joined;
+      },
+      [](uint32_t) {}, [&](uint32_t paths) { join_.refuse(paths); });
+  return out;
+}
+
+}  // namespace wavetracer

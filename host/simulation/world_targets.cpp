@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points are numbered in the order of their targets, so that a number means the same point in all frames.
+#include "simulation/world_targets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+
+#include "radio/antenna.hpp"
+#include "radio/target_laws.hpp"
+#include "simulation/name_pattern.hpp"
+#include "wavetracer/error.hpp"
+
+namespace wavetracer {
+namespace {
+
+void add_target(Targets& to, Target target, const TargetModelConfig& model, const std::optional<glm::dvec3>& size_m,
+                uint32_t first_law) {
+  target.model = model.name;
+  target.first_point = static_cast<uint32_t>(to.points.size());
+  for (const glm::dvec3& arm_m : points_of(model, size_m))
+    to.points.push_back({static_cast<uint32_t>(to.all.size()), first_law + target.point_count++, arm_m});
+  to.all.push_back(std::move(target));
+}
+
+void check_body(const Fleet& fleet, const WorldEnds& ends, uint32_t track, const TargetModelConfig& model) {
+  if (fleet.instance_of_track[track] != no_instance) return;
+  for (const EndsOfRole* role : {&ends.transmitters, &ends.receivers})
+    for (const MountedEnd& end : role->mounted)
+      if (end.track == track)
+        throw ConfigError(fmt::format(
+            "[[target_model]] \"{}\": the vehicle \"{}\" is a target, carries an antenna and has no body, so "
+            "that its antenna would see its own points: give its [[vehicle_type]] a body, or choose other "
+            "vehicles by on",
+            model.name, fleet.trajectories.tracks[track].id));
+}
+
+void require_vehicles(const Config& config, const Trajectories& trajectories) {
+  std::vector<std::string> names;
+  for (const Track& track : trajectories.tracks) names.push_back(track.id);
+  for (const VehicleType& type : trajectories.types) names.push_back(type.name);
+  for (const TargetModelConfig& model : config.target_models)
+    if (!model.on.empty())
+      require_match(model.on, names, "[[target_model]] \"" + model.name + "\", on", "vehicle and of no type");
+}
+
+const TargetModelConfig& model_of(const Config& config, const std::string& name) {
+  return *std::ranges::find(config.target_models, name, &TargetModelConfig::name);
+}
+
+}  // namespace
+
+Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& ends, const glm::dvec3& origin_m,
+                     bool by_id) {
+  Targets out;
+  if (!config.trace.target) return out;
+  const TargetLaws laws = target_laws(config.target_models);
+  const Trajectories& trajectories = fleet.trajectories;
+  require_vehicles(config, trajectories);
+  for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
+    const Track& track = trajectories.tracks[k];
+    const VehicleType& type = trajectories.types[track.type];
+    for (size_t m = 0; m < config.target_models.size(); ++m) {
+      const TargetModelConfig& model = config.target_models[m];
+      if (!matches(model.on, type.name) && !(by_id && matches(model.on, track.id))) continue;
+      check_body(fleet, ends, k, model);
+      const glm::dvec3 size_m{type.length_m, type.width_m, type.height_m};
+      add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k}, model,
+                 size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m]);
+    }
+  }
+  for (const TargetConfig& standing : config.targets) {
+    const TargetModelConfig& model = model_of(config, standing.model);
+    const Pose pose{.position_m = vector_of(standing.position_m) - origin_m,
+                    .orientation = glm::quat_cast(rotation_of(standing.orientation_deg)),
+                    .velocity_m_s = vector_of(standing.velocity_m_s),
+                    .angular_velocity_rad_s = glm::dvec3(0)};
+    add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, {},
+               laws.first[static_cast<size_t>(&model - config.target_models.data())]);
+  }
+  return out;
+}
+
+std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
+                                    const std::vector<VehicleState>& vehicles) {
+  std::vector<TargetState> out;
+  for (const TargetPoint& point : targets.points) {
+    const Target& target = targets.all[point.target];
+    const bool rides = target.track.has_value();
+    const Pose& pose = rides ? vehicles[*target.track].pose : target.pose;
+    out.push_back({.position_m = position_at(pose, point.arm_m),
+                   .rotation = glm::mat3_cast(pose.orientation),
+                   .velocity_m_s = velocity_at(pose, point.arm_m),
+                   .instance = rides ? fleet.instance_of_track[*target.track] : no_instance,
+                   .law = point.law,
+                   .present = !rides || vehicles[*target.track].present});
+  }
+  return out;
+}
+
+void name_targets(Paths& paths, const Targets& targets) {
+  if (targets.empty()) return;
+  paths.target.assign(paths.size(), no_target);
+  for (size_t row = 0; row < paths.size(); ++row)
+    for (uint64_t k = paths.vertex_offset[row]; k < paths.vertex_offset[row + 1]; ++k) {
+      if (paths.vertex_interaction[k] != target_point) continue;
+      const uint32_t target = targets.points[paths.vertex_surface[k]].target;
+      paths.target[row] = target;
+      paths.vertex_surface[k] -= targets.all[target].first_point;
+    }
+}
+
+}  // namespace wavetracer

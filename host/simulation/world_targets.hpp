@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The targets of a world: vehicles that a [[target_model]] selects, by track and then by model, and then those that
+// stand ([[target]]).
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/world_ends.hpp"
+#include "simulation/world_fleet.hpp"
+#include "wavetracer/config.hpp"
+#include "wavetracer/world_state.hpp"
+
+namespace wavetracer {
+
+struct Target {
+  std::string name, model;        // VEHICLE/MODEL for a vehicle; the name of the [[target_model]]
+  std::optional<uint32_t> track;  // the vehicle
+  Pose pose = {};                 // pose of a target that stands, recentred
+  uint32_t first_point = 0;       // its points follow each other
+  uint32_t point_count = 0;
+};
+
+// A point of a target: its place on it, and its law (radio/target_laws.hpp).
+struct TargetPoint {
+  uint32_t target, law;
+  glm::dvec3 arm_m;
+};
+
+struct Targets {
+  std::vector<Target> all;
+  std::vector<TargetPoint> points;
+
+  bool empty() const { return points.empty(); }
+};
+
+// ends: those of the world. by_id: see with_mounts. Throws ConfigError for a pattern that nothing has, and for a
+// vehicle with an antenna and without a body, from whose antenna nothing would keep its own points.
+Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& ends, const glm::dvec3& origin_m,
+                     bool by_id);
+
+// The points where the vehicles are in these states, one for each track.
+std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
+                                    const std::vector<VehicleState>& vehicles);
+
+// Says by which target each path goes, in Paths::target, and numbers points within their target. The paths must have
+// the numbers of points of the world.
+void name_targets(Paths& paths, const Targets& targets);
+
+}  // namespace wavetracer

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// [[target_model]] and [[target]] in config files: keys that do not go with a kind, and what targets do not go with.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "config/texts.hpp"
+
+using namespace wavetracer;
+using test::check_contains;
+using test::ends;
+using test::error_of;
+using test::scene;
+
+namespace {
+
+std::string model(const std::string& keys) { return "[[target_model]]\nname = \"car\"\n" + keys + "\n"; }
+std::string at(const std::string& name) {
+  return "[[target]]\nname = \"a\"\nmodel = \"" + name + "\"\nposition_m = [1, 2, 3]\n";
+}
+
+}  // namespace
+
+TEST_CASE("target models: what a kind needs and what it refuses") {
+  const auto error = [](const std::string& keys) { return error_of(scene + ends + model(keys)); };
+  CHECK(error("kind = \"vehicle\"") == "no error");
+  CHECK(error("kind = \"vehicle-points\"\npoints_m = [[0,0,1],[0,0,1],[0,0,1],[0,0,1],[0,0,1]]") == "no error");
+  CHECK(error("rcs_dbsm = [3.0]\npoints_m = [[0,0,1],[0,0,2]]") == "no error");
+  CHECK(error("lobes = [[0, 0, 40, 90, 40, 15, 20]]\nbistatic_db = [6, 1.65, 5]") == "no error");
+  check_contains(error(""), "has kind = \"custom\" and neither rcs_dbsm nor lobes: give one of them");
+  check_contains(error("rcs_dbsm = [3]\nlobes = [[0, 0, 40, 90, 40, 15, 20]]"), "both rcs_dbsm and lobes");
+  check_contains(error("rcs_dbsm = [3, 4]"), "has 2 numbers in rcs_dbsm for 1 points");
+  check_contains(error("lobes = [[1, 0, 40, 90, 40, 15, 20]]"), "belongs to point 1, but its points are 0 to 0");
+  check_contains(error("lobes = [[0, 0, -1, 90, 40, 15, 20]]"), "has a negative width");
+  check_contains(error("lobes = [[0, 0, 40, 190, 40, 15, 20]]"), "has the zenith 190");
+  check_contains(error("lobes = [[0, 0, 40, 90, 40, 15, -20]]"), "falls by a negative range");
+  check_contains(error("lobes = [[0, 0, 40]]"), "seven numbers");
+  check_contains(error("kind = \"person\"\nrcs_dbsm = [3]"), "kind = \"person\", which has its own cross section");
+  check_contains(error("kind = \"person\"\nlobes = [[0, 0, 40, 90, 40, 15, 20]]"), "which has its own lobes");
+  check_contains(error("kind = \"agv\"\nbistatic_db = [1, 1, 1]"), "which has its own bistatic law");
+  check_contains(error("kind = \"agv-points\"\npoints_m = [[0, 0, 1]]"), "which has 5 points, but points_m has 1");
+  check_contains(error("kind = \"car\""), "vehicle-points");
+  check_contains(error_of(scene + ends + model("kind = \"agv\"") + model("kind = \"agv\"")), "is used twice");
+}
+
+TEST_CASE("targets: models that there are not, and what targets do not go with") {
+  const std::string car = model("kind = \"vehicle\"");
+  CHECK(error_of(scene + ends + car + at("car")) == "no error");
+  check_contains(error_of(scene + ends + car + at("cat")), "there is no [[target_model]] of this name");
+  const auto error = [&](const std::string& keys) { return error_of(scene + keys + ends + car + at("car")); };
+  check_contains(error("trace.reception = \"sphere\"\n"), "receives reflected rays only, but there are targets");
+  check_contains(error("trace.discovery = \"beams\"\ntrace.floor_db = -120\n"),
+                 "trace.floor_db = -120 says nothing of the power of waves that a target scatters");
+  const std::string edges = "trace.diffraction = true\ntrace.edge_rays = 100\ntrace.target_reflections = 1\n";
+  check_contains(error(edges), "trace.edge_rays = 100 does not go with trace.target_reflections = 1");
+  for (const std::string keys :
+       {"trace.reception = \"sphere\"\n", "trace.discovery = \"beams\"\ntrace.floor_db = -120\n"}) {
+    CHECK(error(keys + "trace.target = false\n") == "no error");
+    CHECK(error_of(scene + keys + ends + car) == "no error");  // nothing is such a target
+  }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// targets: its rows against a double loop over links and points, with points that are absent and ends that ride with a
+// point; the points of a frame as records.
+#include "passes/targets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <glm/geometric.hpp>
+#include <set>
+#include <tuple>
+
+#include "passes/triangles.hpp"
+#include "radio/world_records.hpp"
+
+using namespace wavetracer;
+using namespace wavetracer::test;
+
+namespace {
+
+// Points 0 to 4; point 2 is absent, points 3 and 4 ride on vehicle 7.
+WorldState five_points() {
+  WorldState out;
+  for (uint32_t i = 0; i < 5; ++i)
+    out.targets.push_back({.position_m = {1.5 * i, 2 - 0.3 * i, 0.7},
+                           .velocity_m_s = {0.1 * i, 3, -1},
+                           .instance = i > 2 ? 7 : no_instance,
+                           .law = 10 + i,
+                           .present = i != 2});
+  out.targets[1].rotation = glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1));
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("targets: a row for every link and every point") {
+  std::vector<EndState> transmitters(3), receivers(19);
+  transmitters[1].instance = 7;
+  receivers[18].instance = 7;
+  receivers[17].instance = 6;
+  std::vector<Link> links;
+  for (uint32_t t = 0; t < 3; ++t)
+    for (uint32_t r = 0; r < 19; ++r)
+      if ((t + 2 * r) % 3 != 0) links.push_back({t, r});
+  const RadioEnds ends = make_radio_ends(context(), transmitters, receivers, links);
+  const WorldState world = five_points();
+  TargetRows targets(context(), 5, 2);
+  targets.place(world);
+  targets(ends);  // it runs twice: nothing of the first run may remain
+  const SolvedList& list = targets(ends);
+  REQUIRE(list.count == links.size() * 5);
+  const auto headers = list.headers.read(0, list.count);
+  const auto steps = list.sequences.read(0, 2 * size_t{list.count});
+  const auto xyz = list.vertices.read(0, 3 * steps.size());
+  std::set<std::tuple<uint32_t, uint32_t, uint32_t>> rows, wanted;
+  for (size_t i = 0; i < headers.size(); ++i) {
+    CHECK(headers[i].depth == 1);
+    CHECK(headers[i].node == WT_NONE);
+    CHECK(headers[i].quarters == WT_ALL_QUARTERS);
+    CHECK((steps[2 * i] & WT_STEP_KIND) == WT_STEP_TARGET);
+    const uint32_t point = steps[2 * i] & ~WT_STEP_KIND;
+    REQUIRE(point < 5);
+    CHECK(glm::distance(world.targets[point].position_m, {xyz[6 * i], xyz[6 * i + 1], xyz[6 * i + 2]}) == 0);
+    if (!headers[i].blocked) CHECK(rows.insert({headers[i].transmitter, headers[i].receiver, point}).second);
+  }
+  for (const Link& link : links)
+    for (const uint32_t point : {0u, 1u, 3u, 4u})
+      if (point < 3 || (link.tx != 1 && link.rx != 18)) wanted.insert({link.tx, link.rx, point});
+  CHECK(rows == wanted);
+}
+
+TEST_CASE("targets: no links, and other ones than before") {
+  TargetRows targets(context(), 5, 1);
+  targets.place(five_points());
+  CHECK(targets(make_radio_ends(context(), {EndState{}}, {EndState{}}, {})).count == 0);
+  const SolvedList& list = targets(make_radio_ends(context(), {EndState{}}, std::vector<EndState>(3), {{0, 2}}));
+  REQUIRE(list.count == 5);
+  for (const wt_solved& row : list.headers.read(0, 5)) CHECK(row.receiver == 2);
+}
+
+TEST_CASE("targets: records of points are turned and move as the points do") {
+  const WorldState world = five_points();
+  const std::vector<wt_target_point> records = target_records(world);
+  REQUIRE(records.size() == 5);
+  // Ahead in the axes of point 1 is along y of the scene.
+  CHECK(records[1].rotation[0] == 0);
+  CHECK(records[1].rotation[3] == 1);
+  CHECK(records[1].rotation[1] == -1);
+  CHECK(records[4].velocity[0] == 0.4);
+  CHECK(records[4].law == 14);
+  CHECK(records[4].instance == 7);
+  CHECK(records[2].present == 0);
+}
