@@ -218,7 +218,7 @@ def visitor(groups):
         return share(max(map(power_lost, rows))) + " of the power"
 
     def of_cells(rows):
-        return share(max(row["error"] for row in rows)).replace("nothing", "none") + " of the cells err by 0.1 dB"
+        return share(max(row["error"] for row in rows)).replace("nothing", "none") + " of the cells are wrong by more than 0.1 dB"
 
     table = [("100 receivers and one transmitter, up to five reflections", "paths", LINKS[5][1], lambda rows: paths_lost(rows[0])),
              ("the same with diffraction at edges", "paths", EDGES[3][1], of_power),
@@ -234,7 +234,7 @@ def visitor(groups):
         lines.append([words.format(f"{rows[0].get('links', 0):,}" if "{}" in words else ""), value_cell(rows[0], value), peer_cell(rows[0]),
                       value_cell(rows[1], value), lost(rows)])
         found += rows
-    return markdown(["one frame of", "two CPU cores", "Sionna RT 2.2 on the same cores", "one GPU", "lost"], lines, 3) + devices_and_dates(found)
+    return markdown(["one frame of", "two CPU cores", "Sionna RT 2.2 on the same cores", "one GPU", "error: what is lost"], lines, 3) + devices_and_dates(found)
 
 
 CARS = [(f"{n} moving cars, {links} links, {words}", f"munich, {n} moving cars, {links} links: {way}, 1e+06 rays")

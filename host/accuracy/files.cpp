@@ -37,13 +37,16 @@ std::string table_html(const std::vector<Row>& rows) {
 }
 
 std::string frames_text(const Study& study) {
-  const std::string times = fmt::format(
-      "the time of a frame is the median of warm frames, each solved {} times, "
-      "once where it takes more than two seconds",
-      study.repeats);
+  const std::string times = study.repeats == 1
+                                ? "the time of a frame is that of a warm frame, solved once"
+                                : fmt::format(
+                                      "the time of a frame is the median of warm frames, each solved {} times, "
+                                      "once where it takes more than two seconds",
+                                      study.repeats);
   if (!study.drive) return fmt::format("one frame with {} links; {}", grouped(study.links), times);
-  return fmt::format("{} frames spread over the drive, {} links in all, each frame cold but for the rows of reuse; {}",
-                     study.frames, grouped(study.links), times);
+  return fmt::format("{} of the drive, {} links in all, each frame cold but for the rows of reuse; {}",
+                     study.frames == 1 ? "one frame" : fmt::format("{} frames spread over the time", study.frames),
+                     grouped(study.links), times);
 }
 
 constexpr double none = 1e-8;  // share at which 0 and smaller values are drawn

@@ -67,22 +67,21 @@ std::vector<const study::Experiment*> wanted(const std::vector<std::string>& nam
   return out;
 }
 
-// Throws ConfigError for an option that changes none of the experiments.
+// Throws ConfigError for an option that does not change the experiment. Several experiments share their options, each
+// of which need not be about all of them.
 void check_kinds(const CLI::App& command, const std::vector<const study::Experiment*>& experiments) {
-  using study::Experiment;
   if (experiments.empty())
-    return refuse_options(command,
-                          {"-c", "-o", "--set", "--device", "--rays", "--repeat", "--frames", "--minutes", "--quick"},
-                          "no experiment is named; `wavetracer thesis` lists them");
-  const auto none = [&](const auto& heeds) { return std::ranges::none_of(experiments, heeds); };
-  const auto orders = [](const Experiment* one) { return one->as<study::OrderFigure>() != nullptr; };
-  if (none(orders)) refuse_options(command, {"--minutes"}, "it is for figures of orders, such as figure-6.1");
-  if (none([](const Experiment* one) { return one->moves() || one->study(); }))
+    refuse_options(command, {"-c", "-o", "--set", "--device", "--rays", "--repeat", "--frames", "--minutes", "--quick"},
+                   "no experiment is named; `wavetracer thesis` lists them");
+  if (experiments.size() != 1) return;
+  const study::Experiment& one = *experiments.front();
+  const bool orders = one.as<study::OrderFigure>() != nullptr, caches = one.study() != nullptr;
+  if (!orders) refuse_options(command, {"--minutes"}, "it is for figures of orders, such as figure-6.1");
+  if (!one.moves() && !caches)
     refuse_options(command, {"--frames"}, "it is for experiments with the frames of a drive, such as figure-6.13");
-  if (none([&](const Experiment* one) { return (orders(one) && !one->moves()) || one->study(); }))
+  if (!(orders && !one.moves()) && !caches)
     refuse_options(command, {"--repeat"}, "this experiment compares hits, or averages over frames (--frames)");
-  if (none([](const Experiment* one) { return one->as<study::LagFigure>() == nullptr; }))
-    refuse_options(command, {"--quick"}, "this experiment has one launch alone");
+  if (one.as<study::LagFigure>()) refuse_options(command, {"--quick"}, "this experiment has one launch alone");
 }
 
 void study_thesis(const ThesisOptions& options, Invocation& invocation) {

@@ -93,9 +93,10 @@ TEST_CASE("figure-6.1: table, plot and paragraph agree") {
 TEST_CASE("figure-6.18: averages over frames; without gnuplot it says what to install") {
   if (!device_present()) return;
   const Folder folder;
-  const Outcome run = run_program({"thesis", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--repeat",
-                                   "2", "--set", "trace.max_depth=2"},
-                                  {"PATH=" + folder.path()});
+  std::filesystem::create_symlink("/usr/bin/ld", folder.path("ld"));  // PoCL calls it where kernels are not cached
+  const Outcome run = run_program(
+      {"thesis", "figure-6.18", "-o", folder.path("out"), "--rays", "1000:1000", "--set", "trace.max_depth=2"},
+      {"PATH=" + folder.path()});
   CAPTURE(run.err);
   REQUIRE(run.code == 0);
   CHECK(contains(run.err, "apt-get install gnuplot-nox"));
@@ -153,7 +154,7 @@ TEST_CASE("an interrupt ends the measuring after the point in progress, with who
   const Folder folder;
   const std::string file = folder.file("a.toml", street);
   Gate gate;
-  Program run({"thesis", "figure-6.18", "-c", file, "-o", folder.path("out"), "--repeat", "2"}, gate.at_launches());
+  Program run({"thesis", "figure-6.18", "-c", file, "-o", folder.path("out")}, gate.at_launches());
   while (!contains(run.messages(), "2,000 rays, tracing") && !run.ended()) gate.let_launch(50, run);
   run.signal(SIGINT);
   wait_until_interrupted(run.id());

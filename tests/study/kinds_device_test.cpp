@@ -71,13 +71,15 @@ const std::string& answer(const Kind& kind, const Experiment& experiment) {
 }
 
 Outcome bench(const Experiment& experiment, const Folder& folder, const std::string& config) {
-  std::vector<std::string> words = {"thesis", experiment.name, "-c", config, "-o", folder.path("out"), "--repeat", "1"};
+  std::vector<std::string> words = {"thesis", experiment.name, "-c", config, "-o", folder.path("out")};
+  const bool of_orders = experiment.as<OrderFigure>() != nullptr, of_caches = experiment.study() != nullptr;
   // The fewest rays of the study, or of all figures of orders.
-  if (experiment.study() && !experiment.one_ray_count())
+  if (of_caches && !experiment.one_ray_count())
     words.insert(words.end(), {"--rays", fmt::format("{0}:{0}", experiment.study()->rays.front())});
-  else if (experiment.as<OrderFigure>())
+  else if (of_orders)
     words.insert(words.end(), {"--rays", "1000:1000"});
-  words.insert(words.end(), {"--frames", "1"});
+  if (of_caches || (of_orders && !experiment.moves())) words.insert(words.end(), {"--repeat", "1"});
+  if (of_caches || experiment.moves()) words.insert(words.end(), {"--frames", "1"});
   return run_program(words);
 }
 
@@ -221,8 +223,8 @@ TEST_CASE("a figure of orders ends when its minutes are up, and says which numbe
   const std::string page = squeezed(contents(folder.path("out/figure-6.18.md")));
   CHECK(contains(page, "to 90,000,000 rays, as the next number of rays would end later than 0.001 minutes after"));
   CHECK_FALSE(contains(page, "interrupted"));
-  const Outcome all = run_program({"thesis", "figure-6.18", "-c", config, "-o", folder.path("out"), "--rays",
-                                   "1000:5000", "--frames", "2", "--repeat", "1"});
+  const Outcome all = run_program(
+      {"thesis", "figure-6.18", "-c", config, "-o", folder.path("out"), "--rays", "1000:5000", "--frames", "2"});
   CHECK(all.code == 0);
   CHECK_FALSE(contains(contents(folder.path("out/figure-6.18.md")), "left out"));
 }
