@@ -150,7 +150,7 @@ def misspelt(text, environment, work):
     for code in re.findall(r"`(wavetracer [a-z][^`]*)`", prose):
         words = code.split()[1:]
         path = [words[0]]
-        if words[0] == "scene" and len(words) > 1 and words[1] in ("info", "materials", "city"):
+        if words[0] == "scene" and len(words) > 1 and words[1] in ("info", "materials", "city", "radar"):
             path.append(words[1])
         told = help_of(path)
         if told is None:
