@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two figures of docs/rays_studied.md: ray orders, and frames with ray caches, on an H200.
 
-Their rows, bench/results/orders_h200.csv and caches_h200.csv, were read off the figures of 2026-11-21 and 2026-11-22,
-whose tables were not kept; a position in them is 0.01 pixels, 0.03 % of a value, and they have three digits. To measure
-anew, run `wavetracer thesis figure-6.1` and `figure-6.8` with `--device NVIDIA`, and write their times in this form.
+Usage: study_figures.py FOLDER, the folder of `wavetracer thesis figure-6.1 figure-6.8 --device NVIDIA -o FOLDER`, writes
+their rows, bench/results/orders_h200.csv and caches_h200.csv; report.py draws them. Where an order
+has several sizes of histograms, the size counts whose device time is the least with its sort.
 """
+import argparse
 import csv
+import pathlib
 import shutil
 
 import gnuplot_svg
@@ -54,7 +56,57 @@ def drawn(results):
     """(name, SVG) of both figures. results: the folder of their rows. Without gnuplot there are none."""
     if not shutil.which("gnuplot"):
         return
-    yield "orders_h200", draw("Ray orders and launch shapes, NVIDIA H200, 2026-11-21", "device time a ray (ns)",
+    yield "orders_h200", draw("Ray orders and launch shapes, NVIDIA H200, 2026-11-30", "device time a ray (ns)",
                               ["sort not paid", "sort paid"], ORDERS, read(results / "orders_h200.csv"))
-    yield "caches_h200", draw("Frames with the open table, NVIDIA H200, 2026-11-22", "seconds a frame",
+    yield "caches_h200", draw("Frames with the open table, NVIDIA H200, 2026-11-30", "seconds a frame",
                               ["table warm", "table empty before"], CACHES, read(results / "caches_h200.csv"))
+
+
+def table(folder, figure):
+    with open(folder / f"{figure}.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path, heads, series):
+    """series: {(name, rays): (left value, right value)}"""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(heads)
+        for (name, rays), (left, right) in series.items():
+            out.writerow([rays, name, f"{left:.4g}", f"{right:.4g}"])
+
+
+def write_orders(folder, results):
+    """Device times a ray in nanoseconds."""
+    wanted = {name for _, names in ORDERS for name in names}
+    series = {}
+    for row in table(folder, "figure-6.1"):
+        rays, name = int(row["rays"]), row["mnemonic"]
+        own_shape = "2DH" in name or name == "H3DH3DH"
+        if not own_shape and row["shape"] != "1d":
+            name = f"{name} {row['shape']}"
+        times = tuple(1e9 * float(row[column]) / rays for column in ("unpaid_s", "paid_s"))
+        if name in wanted and times[1] <= series.get((name, rays), times)[1]:
+            series[name, rays] = times
+    write(results / "orders_h200.csv", ["rays", "series", "unpaid_ns", "paid_ns"], dict(sorted(series.items())))
+
+
+def write_caches(folder, results):
+    """Device times of a frame in seconds."""
+    wanted = {name for _, names in CACHES for name in names}
+    series = {(row["setting"], int(row["rays"])): (float(row["warm_s"]), float(row["cold_s"]))
+              for row in table(folder, "figure-6.8") if row["setting"] in wanted}
+    write(results / "caches_h200.csv", ["rays", "series", "warm_s", "empty_s"], series)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("folder", type=pathlib.Path, help="results of wavetracer thesis")
+    folder = parser.parse_args().folder
+    results = pathlib.Path(__file__).resolve().parent / "results"
+    write_orders(folder, results)
+    write_caches(folder, results)
+
+
+if __name__ == "__main__":
+    main()
