@@ -42,7 +42,7 @@ def draw(title, y, panels, blocks, series):
     for block, (words, names) in enumerate(blocks):
         top, bottom = 1 - (HEAD_PX + 30 + BLOCK_PX * block) / height, 1 - (HEAD_PX + BLOCK_PX * (block + 1) - 105) / height
         for panel, what in enumerate(panels):
-            lines += [f"set lmargin at screen {0.09 + 0.47 * panel:g}", f"set rmargin at screen {0.50 + 0.47 * panel:g}",
+            lines += [f"set lmargin at screen {0.09 + 0.47 * panel:g}", f"set rmargin at screen {0.48 + 0.49 * panel:g}",
                       f"set bmargin at screen {bottom:.3f}", f"set tmargin at screen {top:.3f}",
                       f"set title '{what}{': ' if words else ''}{words}' noenhanced",
                       f"set ylabel '{y}'" if panel == 0 else "unset ylabel",
