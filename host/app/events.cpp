@@ -40,6 +40,10 @@ Config events_config(const EventOptions& options) {
     throw ConfigError(options.file +
                       ": the poses of [[live_vehicle]] tables are known when they come, and events are those of "
                       "trajectories: give trajectories instead");
+  if (config.trace.scattering || (config.trace.target && !config.target_models.empty()))
+    throw ConfigError(options.file +
+                      ": events tell paths apart by their surfaces and edges, and paths by tiles or targets have "
+                      "neither: set trace.scattering and trace.target to false");
   return config;
 }
 

@@ -75,7 +75,8 @@ std::string feature_line(const Run& run) {
   const TraceConfig& trace = run.config.trace;
   std::vector<std::pair<std::string, bool>> features;
   for (const InteractionKind& kind : interaction_kinds) {
-    features.emplace_back(kind.word, trace.*kind.asked_for);
+    const bool can_be = kind.code != target_point || !run.config.target_models.empty();
+    features.emplace_back(kind.word, can_be && trace.*kind.asked_for);
     if (kind.code == diffraction)
       features.emplace_back("double_diffraction", trace.diffraction && trace.max_diffractions > 1);
     if (kind.code == scattering) features.emplace_back("scattering_reflections", trace.reflects_scattered());

@@ -2,6 +2,7 @@
 #include "bodies/body.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>

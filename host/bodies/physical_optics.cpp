@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -134,9 +136,16 @@ Sum sum_of(const std::vector<Echo>& echoes, double frequency_hz) {
 
 std::array<double, 4> cross_sections_m2(const Body& body, glm::dvec3 to_transmitter, glm::dvec3 to_receiver,
                                         double frequency_hz, const PhysicalOptics& options) {
-  constexpr double far_m = 1e6;
+  check_body(body);
+  glm::dvec3 low = body.facets[0].corners[0], high = low;
+  for (const Facet& facet : body.facets)
+    for (const glm::dvec3& corner : facet.corners) low = glm::min(low, corner), high = glm::max(high, corner);
+  const glm::dvec3 middle = (low + high) / 2.0, size = high - low;
+  // The phase of the far field is right to 2 pi / 800 over the body.
+  const double far_m = std::max(1e6, 100 * glm::dot(size, size) * frequency_hz / speed_of_light_m_s);
   const Sum sum =
-      sum_of(scattered(body, to_transmitter * far_m, to_receiver * far_m, frequency_hz, options), frequency_hz);
+      sum_of(scattered(body, middle + to_transmitter * far_m, middle + to_receiver * far_m, frequency_hz, options),
+             frequency_hz);
   std::array<double, 4> out;
   for (size_t i = 0; i < 4; ++i) out[i] = 4 * WT_PI * std::norm(sum[i] * far_m * far_m);
   return out;

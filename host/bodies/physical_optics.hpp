@@ -46,9 +46,9 @@ std::vector<Echo> scattered(const Body& body, glm::dvec3 transmitter, glm::dvec3
 // The sum of echoes with their phases.
 std::array<std::complex<double>, 4> sum_of(const std::vector<Echo>& echoes, double frequency_hz);
 
-// Radar cross sections in m^2 for ends that are 1e6 m away in these directions, row by row: row theta and phi of the
-// receiver, column theta and phi of the transmitter. Directions are unit vectors from the body. Throws as scattered
-// does.
+// Radar cross sections in m^2 for ends that are far from the middle of the body's box in these directions (1e6 m, or
+// 100 D^2 / wavelength, with D its diagonal, if that is more), row by row: row theta and phi of the receiver, column
+// theta and phi of the transmitter. Directions are unit vectors from the body. Throws as scattered does.
 std::array<double, 4> cross_sections_m2(const Body& body, glm::dvec3 to_transmitter, glm::dvec3 to_receiver,
                                         double frequency_hz, const PhysicalOptics& options = {});
 

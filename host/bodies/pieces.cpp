@@ -2,6 +2,7 @@
 #include "bodies/pieces.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>

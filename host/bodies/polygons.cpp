@@ -2,6 +2,7 @@
 #include "bodies/polygons.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace wavetracer {

@@ -36,8 +36,10 @@ double interaction_code(const Paths& paths, size_t row) {
   for (uint64_t v = paths.vertex_offset[row]; v < paths.vertex_offset[row + 1]; ++v) {
     const InteractionKind* kind = find_interaction(paths.vertex_interaction[v]);
     if (!kind || kind->deepmimo == 0)
-      throw RuntimeError(fmt::format("path {} has an interaction of kind {}, which DeepMIMO has no number for", row,
-                                     paths.vertex_interaction[v]));
+      throw InputError(
+          fmt::format("path {} has an interaction of the kind {}, which DeepMIMO has no number for{}", row,
+                      kind ? std::string(kind->word) : std::to_string(paths.vertex_interaction[v]),
+                      kind && kind->code == target_point ? "; run once more with trace.target = false" : ""));
     code = 10 * code + kind->deepmimo;
   }
   return code;

@@ -95,8 +95,8 @@ class Plotter {
       refuse(!links && !choice_.link.tx.empty(), "--tx", "none of the figures of --what is about a transmitter");
     }
     refuse(!links && !choice_.link.rx.empty(), "--rx", "none of the figures of --what is about a link");
-    refuse(choice_.link.frame.has_value() && !any({"pdp", "doppler", "angles", "coverage", "rays"}), "--frame",
-           "the figures of --what show all frames");
+    refuse(choice_.link.frame.has_value() && !any({"pdp", "doppler", "angles", "coverage", "rays", "range-doppler"}),
+           "--frame", "the figures of --what show all frames");
   }
 
   void add(const Figure& figure) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/times.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -56,7 +57,8 @@ double track_motion_m(const Track& track, double from_s, double to_s, double rea
   if (absent == times.size()) return 0;
   if (absent > 0) return unbounded;
   for (const uint32_t first : track.segments)
-    if (const double time = track.samples[first].time_s; time > low && time < high) return unbounded;
+    if (const double time = track.samples[first].time_s; time > low && time <= high + time_tolerance_s(high))
+      return unbounded;
   for (size_t k = 1; k < times.size(); ++k)
     sum += moved_m(*pose_at(track, times[k - 1]), *pose_at(track, times[k]), times[k] - times[k - 1], reach_m);
   return sum;

@@ -4,6 +4,8 @@
 #include "simulation/world_reach.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -38,15 +38,15 @@ struct InteractionKind {
 // clang-format off
 inline constexpr std::array<InteractionKind, 5> interaction_kinds{{
     {reflection, 0, WaypointKind::reflection, "reflection", "reflection",
-     {"reflected", "#6db0f2", "#002080", 5}, 1, &TraceConfig::reflection},
+     {"reflected", "#36b3ff", "#002080", 5}, 1, &TraceConfig::reflection},
     {transmission, 1, WaypointKind::launch, "transmission", "transmission",
-     {"transmitted", "#f23091", "#f230f2", 2}, 4, &TraceConfig::transmission},
+     {"transmitted", "#ff2fa5", "#f230f2", 2}, 4, &TraceConfig::transmission},
     {diffraction, 2, WaypointKind::diffraction, "diffraction", "diffraction",
-     {"diffracted", "#00f279", "#21a685", 6}, 2, &TraceConfig::diffraction},
+     {"diffracted", "#12ff84", "#21a685", 6}, 2, &TraceConfig::diffraction},
     {scattering, 3, WaypointKind::launch, "scattering", "diffuse scattering",
-     {"scattered", "#a67c00", "#804000", 3}, 3, &TraceConfig::scattering},
+     {"scattered", "#bb740d", "#804000", 3}, 3, &TraceConfig::scattering},
     {target_point, 4, WaypointKind::launch, "target", "target",
-     {"echoed", "#ff6a3d", "#c0392b", 1}, 0, &TraceConfig::target},
+     {"echoed", "#94555a", "#336666", 1}, 0, &TraceConfig::target},
 }};
 // clang-format on
 static_assert(std::ranges::all_of(interaction_kinds,

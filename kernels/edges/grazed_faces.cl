@@ -43,7 +43,9 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
   const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
   if (i >= min(node_count, counters->nodes) || (nodes[i] & WT_ROOT)) return;
 #ifdef WT_AGES
-  if (wt_load_relaxed_u32(ages + nodes[i]) != now) return;
+  const uint age = min(now, wt_load_relaxed_u32(ages + nodes[i]) | 1u);
+#else
+  const uint age = now;
 #endif
   uint back[WT_MAX_DEPTH], depth = 0, n = nodes[i];  // the surfaces from the last one back
   for (; !(n & WT_ROOT) && depth < WT_MAX_DEPTH; ++depth) {
@@ -66,7 +68,7 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
       if (own != WT_NONE && w->instance == own) continue;
       const uint face = grazed_face(w, boxes, seen, mirrors, last, image);
       if (face == WT_NONE) continue;
-      const uint node = wt_enter(table, mask, parent, face, nodes, capacity, counters, quarters, found, ages, now);
+      const uint node = wt_enter(table, mask, parent, face, nodes, capacity, counters, quarters, found, ages, age);
       if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
     }
   }

@@ -72,8 +72,14 @@ def calibrate(config: Path, measured: Path | Iterable[Path], folder: Path, *, fi
     by their names, instead of the usual ones. sets: keys of the configuration."""
     files = [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
     options = ["-c", os.fspath(config), "-o", os.fspath(folder), "--fit", fit if isinstance(fit, str) else ",".join(fit),
-               "--offset", offset, "--spreads", spreads, "--profiles", repr(float(profiles)), "--prior", repr(float(prior)),
-               "--folds", str(int(folds))]
+               "--offset", offset, "--folds", str(int(folds))]
+    # The program refuses these where nothing is fitted, so they are given only if they say something.
+    if spreads != "none":
+        options += ["--spreads", spreads]
+    if profiles != 0:
+        options += ["--profiles", repr(float(profiles))]
+    if prior != 1:
+        options += ["--prior", repr(float(prior))]
     for file in files:
         options += ["--measured", os.fspath(file)]
     for name, error in (errors or {}).items():

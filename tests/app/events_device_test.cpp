@@ -38,6 +38,7 @@ TEST_CASE("events are refused without beams, without times, and where lifetimes 
     CHECK_FALSE(fs::exists(folder.path("events.csv")));
   };
   refuse("trace.discovery=rays", "which is no birth: events need trace.discovery = \"beams\"");
+  refuse("trace.scattering=true", "set trace.scattering and trace.target to false");
   refuse("trace.floor_db=-130", "remove output.lifetimes, or trace.floor_db");
   const Outcome precision = run_program({"events", "-c", file, "-o", "x.csv", "--precision", "0"});
   CHECK(precision.code == 2);

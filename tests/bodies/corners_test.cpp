@@ -2,6 +2,7 @@
 // Corners of conducting plates: waves that meet two and three of them, against closed forms.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "bodies/bodies.hpp"
 

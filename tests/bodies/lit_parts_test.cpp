@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "bodies/bodies.hpp"

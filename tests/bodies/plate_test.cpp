@@ -2,6 +2,7 @@
 // A plate: the closed form of its lobes, and the integral over it by quadrature where the far field does not hold.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 

@@ -2,6 +2,7 @@
 // A cylinder against its closed form and a sphere against the series of Mie.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <utility>
 #include "bodies/bodies.hpp"

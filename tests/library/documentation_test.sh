@@ -50,7 +50,7 @@ expect() {
   [ "$got" = "$wanted" ] || fail "after \"$*\": \"$got\" instead of \"$wanted\""
 }
 expect 'run ' ru
-expect 'city info materials ' scene ''
+expect 'city info materials radar ' scene ''
 expect '--resume ' run --res
 expect 'trace.rays= ' run -c file.toml --set trace.ra
 expect 'fibonacci hilbert horizon random ' run --set trace.directions = ''

@@ -2,6 +2,7 @@
 // Births and deaths of paths among twenty vehicles and boxes, compared with frames of much smaller steps.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "jobs/path_events.hpp"

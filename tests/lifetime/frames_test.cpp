@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <set>
 #include <tuple>
 

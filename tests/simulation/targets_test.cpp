@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths over targets: the radar equation, laws of 3GPP against their formula written once more, polarisation, both
 // directions, one mirror before and after against images, and that nothing changes without targets.
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <set>

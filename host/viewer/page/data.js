@@ -193,6 +193,7 @@ function place_of(frame, k) {
   const [id, , model] = instance === no_instance ? ["", "", -1] : meta.instances[instance];
   const scene = instance === no_instance ? city : models[model];
   const on = instance === no_instance ? "" : ", vehicle " + id;
+  if (frame.vertex_interaction[k] === code_of("target")) return `point ${number}${on}`;
   const edge = frame.vertex_interaction[k] === code_of("diffraction");
   if (scene === city && !edge && number >= city.surface_material.length && city.surface_material.length)
     return `vegetation ${number - city.surface_material.length}`;
