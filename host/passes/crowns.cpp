@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "passes/advice.hpp"
-#include "passes/link_pairs.hpp"
 #include "passes/tile_rows.hpp"
 #include "wavetracer/device/arguments.h"
 
@@ -26,16 +25,11 @@ Crowns::Crowns(gpu::Context& context, const std::vector<Cell>& cells, uint32_t f
 }
 
 SolvedList& Crowns::operator()(const RadioEnds& ends) {
-  if (!links_ || ends.link_words != link_words_) {
-    const std::vector<uint32_t> pairs = link_pairs(ends);
-    if (!pairs.empty()) links_ = context_.buffer(pairs, "links of crowns");
-    links_count_ = static_cast<uint32_t>(pairs.size() / 2);
-    link_words_ = ends.link_words;
-  }
-  solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_count_} * cells_);
+  links_.update(context_, ends, "links of crowns");
+  solved_.count = reserve_tile_rows(context_, solved_, uint64_t{links_.count()} * cells_);
   if (solved_.count > 0)
     kernel_(work_.range(solved_.count), Stage::crowns,
-            calls::crowns::crowns{.links = links_,
+            calls::crowns::crowns{.links = links_.pairs(),
                                   .centres = centres_,
                                   .solved = solved_.headers,
                                   .vertices = solved_.vertices,

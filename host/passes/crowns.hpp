@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel_calls/crowns.hpp"
+#include "passes/link_pairs.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/tuning.hpp"
@@ -28,10 +29,9 @@ class Crowns {
   gpu::Context& context_;
   gpu::KernelOf<calls::crowns::crowns> kernel_;
   Work work_;
-  uint32_t cells_, first_tile_, links_count_ = 0;
+  uint32_t cells_, first_tile_;
   gpu::Buffer<double> centres_;
-  std::vector<uint16_t> link_words_;  // words of links_
-  gpu::Buffer<uint32_t> links_;       // transmitter and receiver of each link
+  LinkPairs links_;
   SolvedList solved_;
 };
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "passes/advice.hpp"
-#include "passes/link_pairs.hpp"
 #include "passes/tile_rows.hpp"
 #include "radio/world_records.hpp"
 #include "wavetracer/device/points.h"
@@ -26,17 +25,12 @@ TargetRows::TargetRows(gpu::Context& context, uint32_t points, uint32_t max_dept
 void TargetRows::place(const WorldState& world) { points_.write(target_records(world), 0, Stage::targets); }
 
 SolvedList& TargetRows::operator()(const RadioEnds& ends) {
-  if (!links_ || ends.link_words != link_words_) {
-    const std::vector<uint32_t> pairs = link_pairs(ends);
-    if (!pairs.empty()) links_ = context_.buffer(pairs, "links of targets");
-    links_count_ = static_cast<uint32_t>(pairs.size() / 2);
-    link_words_ = ends.link_words;
-  }
-  solved_.count = reserve_point_rows(context_, solved_, uint64_t{links_count_} * count_,
+  links_.update(context_, ends, "links of targets");
+  solved_.count = reserve_point_rows(context_, solved_, uint64_t{links_.count()} * count_,
                                      "targets have {} paths to test", std::string(". ") + advice::targets);
   if (solved_.count > 0)
     kernel_(work_.range(solved_.count), Stage::targets,
-            calls::targets::targets{.links = links_,
+            calls::targets::targets{.links = links_.pairs(),
                                     .points = points_,
                                     .transmitters = ends.transmitters,
                                     .receivers = ends.receivers,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel_calls/targets.hpp"
+#include "passes/link_pairs.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
 #include "passes/tuning.hpp"
@@ -29,10 +30,9 @@ class TargetRows {
   gpu::Context& context_;
   gpu::KernelOf<calls::targets::targets> kernel_;
   Work work_;
-  uint32_t count_, links_count_ = 0;
+  uint32_t count_;
   gpu::Buffer<wt_target_point> points_;
-  std::vector<uint16_t> link_words_;  // words of links_
-  gpu::Buffer<uint32_t> links_;       // transmitter and receiver of each link
+  LinkPairs links_;
   SolvedList solved_;
 };
 

@@ -60,10 +60,8 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
     double3 image = ends[end].xyz;
     for (uint k = mirrors; k > 0; --k) image = wt_reflected(surfaces + back[k], image);
     const uint own = mirrors == 0 ? wt_end_instance(ends[end]) : WT_NONE;  // it neither hides nor diffracts
-    const double above = wt_above(surfaces + seen, image), rounding = wt_rounding(image);
-    const uint first = above > rounding ? sides[2 * seen] : first_wedges[seen];
-    const uint past = above < -rounding ? sides[2 * seen + 1] : first_wedges[seen + 1];
-    for (uint k = first; k < past; ++k) {
+    const uint2 range = wt_wedges_seen(surfaces, first_wedges, sides, seen, image);
+    for (uint k = range.x; k < range.y; ++k) {
       const global wt_wedge* w = wedges + surface_wedges[k];
       if (own != WT_NONE && w->instance == own) continue;
       const uint face = grazed_face(w, boxes, seen, mirrors, last, image);

@@ -100,10 +100,8 @@ inline void look(uint end, uint node, const uint* chain, uint depth, const globa
   const uint own = depth == 0 ? wt_end_instance(ends[end]) : WT_NONE;
   wt_view views[WT_VIEWS];
   uint count = 0;
-  const double above = wt_above(surfaces + from.seen, from.image), rounding = wt_rounding(from.image);
-  const uint first = above > rounding ? sides[2 * from.seen] : first_wedges[from.seen];
-  const uint last = above < -rounding ? sides[2 * from.seen + 1] : first_wedges[from.seen + 1];
-  for (uint k = first; k < last; ++k) {
+  const uint2 range = wt_wedges_seen(surfaces, first_wedges, sides, from.seen, from.image);
+  for (uint k = range.x; k < range.y; ++k) {
     const global wt_wedge* w = wedges + surface_wedges[k];
     if (own != WT_NONE && w->instance == own) continue;
     views[count].wedge = surface_wedges[k];
