@@ -142,6 +142,11 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.trace.scattering = true;
   });
   add("targets", sense);
+  add("targets behind edges", [](Config& c) {
+    sense(c);
+    diffract(c, 1);
+    c.trace.target_diffraction = true;
+  });
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("edge rays", [](Config& c) {
     diffract(c, 1);

@@ -57,6 +57,10 @@ double tries_of(N n) {
 }
 // Nodes, each of which several work-items take.
 double onlooking_nodes(N n) { return n.items("point_prefixes/onlookers") / n.tuning.onlooker_lanes; }
+// Prefixes with all points of targets, which the work-items of a prefix share.
+double points_of_prefixes(N n) {
+  return n.items("target_edges/target_edges") / n.tuning.join_lanes * static_cast<double>(n.frame.world.targets.size());
+}
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 // The sequences that rays have met, where a work-item or several take one.
 template <Name kernel>
@@ -189,6 +193,8 @@ constexpr KernelCost costs[] = {
     {"targets/targets", "targets", "points of links", joined, scatter_bytes, nothing},
     {"targets/target_rows", "targets", "ways to points", items_of<"targets/target_rows">,
      always<sizeof(wt_solved) + 3 * sizeof(double) + 2 * sizeof(uint32_t)>, nothing, true},
+    {"target_edges/target_edges", "targets behind edges", "points of prefixes", points_of_prefixes, nothing,
+     always<30>},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
     {"wedge_prefixes/place_prefixes", "diffraction", "prefixes", items_of<"wedge_prefixes/place_prefixes">,

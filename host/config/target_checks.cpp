@@ -90,6 +90,11 @@ void check_companions(const Config& config, std::vector<Contradiction>& out) {
         fmt::format("trace.edge_rays = {} does not go with trace.target_reflections = {}: give trace.edge_rays = 0, so "
                     "that receivers launch rays, or set trace.target_reflections to 0",
                     trace.edge_rays, trace.target_reflections));
+  if (trace.target_diffraction && (!trace.diffraction || trace.target_reflections == 0))
+    refuse({"trace.target_diffraction", "trace.diffraction", "trace.target_reflections"},
+           fmt::format("trace.target_diffraction = true needs trace.diffraction = true and trace.target_reflections of "
+                       "at least 1, but they are {} and {}: set them, or set trace.target_diffraction to false",
+                       trace.diffraction, trace.target_reflections));
 }
 
 }  // namespace

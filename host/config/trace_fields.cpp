@@ -195,6 +195,13 @@ Table trace_table() {
                "Only with targets: the largest number of reflections of a path before its target, and of those "
                "after it. 0: paths go straight from the transmitter to the target to the receiver. All interactions "
                "together are at most max_depth. It launches rays from every receiver that is not a transmitter too."},
+          {.name = "target_diffraction",
+           .slot = t(&TraceConfig::target_diffraction),
+           .doc =
+               "Only with diffraction and target_reflections: one of the interactions before a target, and one of those "
+               "after it, may be a diffraction at an edge, from which the path goes straight to the target, or on "
+               "which it comes straight from it. Corners do not diffract there. Each edge that an end sees is tried "
+               "with each point of a target."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "

@@ -67,7 +67,7 @@ uint32_t PointJoin::operator()(const PointPrefixList& prefixes, uint32_t first, 
                                                     .transmissions = limits_.transmissions,
                                                     .row_depth = limits_.row_depth,
                                                     .capacity = static_cast<uint32_t>(list_.headers.size()),
-                                                    .padding = 0}});
+                                                    .diffractions = limits_.diffractions}});
       },
       [&] {
         counts = counts_.read(0, 3, Stage::point_join);

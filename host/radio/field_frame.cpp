@@ -10,8 +10,8 @@
 
 #include "radio/constants.hpp"
 #include "radio/world_records.hpp"
+#include "wavetracer/device/field_row.h"
 #include "wavetracer/device/path_along.h"
-#include "wavetracer/device/path_field.h"
 #include "wavetracer/device/volumes.h"
 #include "wavetracer/error.hpp"
 #include "wavetracer/interaction_kinds.hpp"

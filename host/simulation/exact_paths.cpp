@@ -43,6 +43,12 @@ JoinedPoints limits_of(const TraceConfig& trace) {
           .row_depth = tracing_depth(trace).row};
 }
 
+JoinedPoints limits_of_targets(const TraceConfig& trace) {
+  JoinedPoints out = limits_of(trace);
+  if (trace.target_diffraction) out.diffractions = trace.max_diffractions;
+  return out;
+}
+
 JoinedPoints joined_points(const Scene& scene, const World& world, const TileTable& tiles, const TraceConfig& trace,
                            double longest_wavelength_m) {
   constexpr double rounding = 1e-9;
@@ -98,7 +104,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
   if (trace.target) targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), depth.row);
   if (trace.target && trace.target_reflections > 0)
     target_chains = std::make_unique<TargetChains>(context, std::min(trace.target_reflections, trace.max_depth - 1),
-                                                   limits_of(trace));
+                                                   limits_of_targets(trace), longest_wavelength_m);
   if (trace.transmission)
     transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth), trace.max_depth);
   else

@@ -98,6 +98,9 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                        {trace.target_reflections == 0, "trace.target_reflections = 0"},
                                        {!out["reflection"].on, "reflection is off"},
                                        {trace.max_depth < 2, "trace.max_depth = 1"}});
+  out["target_diffraction"] = feature({{!out["target_reflections"].on, "paths over targets are not reflected"},
+                                       {!trace.target_diffraction, "trace.target_diffraction = false"},
+                                       {!out["diffraction"].on, "diffraction is off"}});
   out["instances"] = feature({{world.fleet.instances.empty(), "no vehicle has a body"}});
   out["vegetation"] = feature({{scene.volumes.empty(), "the scene has no volume of vegetation"}});
   const AirConfig& air = config.air;
@@ -111,6 +114,7 @@ TraceConfig with_features(TraceConfig trace, const Features& features) {
   if (!features.at("double_diffraction").on) trace.max_diffractions = 1;
   if (!features.at("scattering_reflections").on) trace.scattering_reflections = 0;
   if (!features.at("target_reflections").on) trace.target_reflections = 0;
+  trace.target_diffraction = features.at("target_diffraction").on;
   return trace;
 }
 

@@ -3,6 +3,7 @@
 #include "simulation/solve_paths.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace wavetracer {
@@ -77,15 +78,21 @@ JoinedCounts join_tiles(ExactPaths& exact, const DeviceScene& scene, const Radio
       [&](uint32_t done) { told(done, tiles.count); });
 }
 
-// Makes the paths over targets with reflections around them; take: as for join_tiles. Returns their counts.
+// Makes the paths over targets with reflections and edges around them; take: as for join_tiles. The prefixes of
+// join_edges must be there. Returns their counts.
 template <class Take>
 JoinedCounts chain_targets(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                            uint32_t nodes, const Take& take) {
   // The list of nodes is as long as the counters say, where `nodes` is a bound of it.
   const wt_counters now = set.counters().read(Stage::targets);
+  std::optional<SeenEdges> edges;
+  if (exact.target_chains->takes_edges()) {
+    DiffractedPaths& seen = *exact.diffraction;
+    edges.emplace(SeenEdges{seen.wedges.list(), seen.prefixes.list(), seen.candidates});
+  }
   return (*exact.target_chains)(
       scene, ends, {set.table(), set.quarters(), set.nodes(), std::min(nodes, now.nodes + now.exchanged)},
-      *exact.targets,
+      *exact.targets, edges ? &*edges : nullptr,
       [&](SolvedList& ways, const RadioEnds& between, Counters& counters) {
         exact.check_legs(scene, between, ways, counters, false);
       },

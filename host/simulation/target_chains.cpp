@@ -27,17 +27,23 @@ std::vector<Link> present_pairs(const std::vector<EndState>& ends, const std::ve
 
 }  // namespace
 
-TargetChains::TargetChains(gpu::Context& context, uint32_t reflections, const JoinedPoints& limits)
+TargetChains::TargetChains(gpu::Context& context, uint32_t interactions, const JoinedPoints& limits,
+                           double longest_wavelength_m)
     : context_(context),
       most_depth_(limits.max_depth),
       local_(tuning_of(context.info()).exact.group),
       counters_(context),
-      candidates_(context, reflections),
+      candidates_(context, interactions),
       solve_(context, limits.row_depth),
       rows_(context),
       place_(context),
       sort_(context),
-      join_(context, limits) {}
+      join_(context, limits) {
+  if (limits.diffractions > 0)
+    edge_ways_.emplace(EdgeWays{{context, interactions, longest_wavelength_m},
+                                {context, limits.row_depth, longest_wavelength_m},
+                                {context, limits.row_depth}});
+}
 
 void TargetChains::place(const std::vector<EndState>& launching, const std::vector<TargetState>& targets) {
   const std::vector<EndState> points = as_receivers(targets);
@@ -90,22 +96,54 @@ void TargetChains::sort(SolvedList& ways, const RadioEnds& ends, const TargetRow
                                              .hidden = list_.hidden});
 }
 
+SolvedList& TargetChains::mirrored_ways(const DeviceScene& scene, const FoundSequences& found, uint32_t transmitters,
+                                        const CheckLegs& check_legs) {
+  const uint32_t nodes = list_nodes(found, transmitters);
+  counters_.restart_nodes(nodes, Stage::targets);
+  const uint32_t candidates = candidates_(scene, ends_, found.table, nodes_, nodes, counters_);  // candidates
+  SolvedList& ways =
+      solve_(scene, ends_, found.table, found.quarters, candidates_.list(), candidates, counters_);  // solve
+  check_legs(ways, ends_, counters_);  // the passes of legs (exact_paths.cpp)
+  return ways;
+}
+
+void TargetChains::add_edge_ways(const DeviceScene& scene, const FoundSequences& found, const TargetRows& targets,
+                                 const SeenEdges& edges, const CheckLegs& check_legs) {
+  by_parts(
+      edges.prefixes.count, edges.prefixes.count, edges.candidates.most(),
+      [&](uint32_t first, uint32_t end) {
+        return edge_ways_->pass(scene, edges.prefixes, first, end, edges.wedges, targets, edges.candidates,
+                                counters_);  // target_edges
+      },
+      [&](uint32_t candidates) {
+        SolvedList& ways = edge_ways_->solve(scene, edges.wedges, ends_, found.table, edges.candidates.list(),
+                                             candidates, counters_);  // wedge_solve
+        check_legs(ways, ends_, counters_);                           // the passes of legs
+        edge_ways_->all(ways, counters_);                             // visible
+      },
+      [&](uint32_t) {
+        counters_.restart(&wt_counters::wedge_candidates, 0, Stage::targets);
+        counters_.restart(&wt_counters::wedge_solved, 0, Stage::targets);
+      },
+      [&](uint32_t candidates) { edges.candidates.refuse(candidates); });
+}
+
 JoinedCounts TargetChains::operator()(const DeviceScene& scene, const RadioEnds& ends, const FoundSequences& found,
-                                      const TargetRows& targets, const CheckLegs& check_legs,
+                                      const TargetRows& targets, const SeenEdges* edges, const CheckLegs& check_legs,
                                       const std::function<void(SolvedList&)>& take) {
   JoinedCounts out;
   counters_.zero();
-  const uint32_t nodes = list_nodes(found, ends.transmitter_count);
-  counters_.restart_nodes(nodes, Stage::targets);
-  const uint32_t candidates = candidates_(scene, ends_, found.table, nodes_, nodes, counters_);  // candidates
-  if (candidates == 0) return out;
-  SolvedList& ways =
-      solve_(scene, ends_, found.table, found.quarters, candidates_.list(), candidates, counters_);  // solve
-  if (ways.count == 0) return out;
-  check_legs(ways, ends_, counters_);  // the passes of legs (exact_paths.cpp)
-  sort(ways, ends, targets);           // targets, sort, point_prefixes
+  SolvedList* ways = &mirrored_ways(scene, found, ends.transmitter_count, check_legs);
+  if (edges) {
+    edge_ways_->all.clear();
+    edge_ways_->all(*ways, counters_);  // visible
+    add_edge_ways(scene, found, targets, *edges, check_legs);
+    ways = &edge_ways_->all.list();
+  }
+  if (ways->count == 0) return out;
+  sort(*ways, ends, targets);  // targets, sort, point_prefixes
   by_parts(
-      ways.count, ways.count, join_.most(),
+      ways->count, ways->count, join_.most(),
       [&](uint32_t first, uint32_t end) { return join_(list_, first, end, ends); },  // point_join
       [&](uint32_t joined) {
         take(join_.list());

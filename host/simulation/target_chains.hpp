@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of paths that go by a target and are reflected before or after it. The points of targets are receivers of
-// all ends that launch rays: candidates and solve find the ways between them. These are sorted by the points and joined
-// there, as prefixes of tiles are. Both ends of every link must have launched.
+// The passes of paths that go by a target and are reflected or diffracted before or after it. The points of targets are
+// receivers of all ends that launch rays: candidates and solve find the ways between them, target_edges and wedge_solve
+// those over one edge. These are sorted by the points and joined there, as prefixes of tiles are. Both ends of every
+// link must have launched.
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kernel_calls/point_prefixes.hpp"
@@ -14,30 +16,51 @@
 #include "passes/point_prefixes.hpp"
 #include "passes/solve.hpp"
 #include "passes/sort.hpp"
+#include "passes/target_edges.hpp"
 #include "passes/targets.hpp"
+#include "passes/visible.hpp"
+#include "passes/wedge_solve.hpp"
 #include "simulation/scattered_paths.hpp"
 
 namespace wavetracer {
 
+// The edges of a frame, and the prefixes of all ends that see them, sorted by their edges; candidates: a list that
+// nothing else uses meanwhile.
+struct SeenEdges {
+  const WedgeList& wedges;
+  const WedgePrefixList& prefixes;
+  WedgeCandidates& candidates;
+};
+
 class TargetChains {
  public:
-  // reflections: the most before a target and after it.
-  TargetChains(gpu::Context& context, uint32_t reflections, const JoinedPoints& limits);
+  // interactions: the most before a target and after it. With limits.diffractions, one of those on either side may be
+  // an edge; longest_wavelength_m: see WedgeSolve.
+  TargetChains(gpu::Context& context, uint32_t interactions, const JoinedPoints& limits, double longest_wavelength_m);
+
+  bool takes_edges() const { return edge_ways_.has_value(); }
 
   // Places the points of a frame. launching: the ends that launch rays, in the order of RadioEnds::transmitters.
   void place(const std::vector<EndState>& launching, const std::vector<TargetState>& targets);
 
   // Tests the legs of rows of ways between these ends.
   using CheckLegs = std::function<void(SolvedList& rows, const RadioEnds& ends, Counters& counters)>;
-  // Makes all paths, and returns their counts. ends: those of the frame; take: takes paths whose legs have been tested.
+  // Makes all paths, and returns their counts. ends: those of the frame; edges: null without diffraction beside
+  // targets; take: takes paths whose legs have been tested.
   JoinedCounts operator()(const DeviceScene& scene, const RadioEnds& ends, const FoundSequences& found,
-                          const TargetRows& targets, const CheckLegs& check_legs,
+                          const TargetRows& targets, const SeenEdges* edges, const CheckLegs& check_legs,
                           const std::function<void(SolvedList&)>& take);
 
  private:
   // Lists the sequences, and after them the roots of the ends that are no transmitters, which the list lacks. Returns
   // their number.
   uint32_t list_nodes(const FoundSequences& found, uint32_t transmitters);
+  // The ways between ends and points by mirrors; their legs have been tested.
+  SolvedList& mirrored_ways(const DeviceScene& scene, const FoundSequences& found, uint32_t transmitters,
+                            const CheckLegs& check_legs);
+  // Adds the ways over one edge to edge_ways_->all.
+  void add_edge_ways(const DeviceScene& scene, const FoundSequences& found, const TargetRows& targets,
+                     const SeenEdges& edges, const CheckLegs& check_legs);
   // Makes open rows of the ways, and sorts them by their points.
   void sort(SolvedList& ways, const RadioEnds& ends, const TargetRows& targets);
 
@@ -48,6 +71,12 @@ class TargetChains {
   Counters counters_;
   Candidates candidates_;
   Solve solve_;
+  struct EdgeWays {
+    TargetEdges pass;
+    WedgeSolve solve;
+    Visible all;  // the ways that nothing obstructs, of all kinds
+  };
+  std::optional<EdgeWays> edge_ways_;
   gpu::KernelOf<calls::targets::target_rows> rows_;
   gpu::KernelOf<calls::point_prefixes::place_points> place_;
   Sort sort_;

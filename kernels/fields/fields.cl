@@ -2,7 +2,7 @@
 // fields: the columns of the paths of a frame, from rows in their order (distinct.cl): delay, angles, coefficients and
 // Doppler shift of each (wavetracer/device/path_field.h), and its vertices.
 #include "wavetracer/device/arguments.h"
-#include "wavetracer/device/path_field.h"
+#include "wavetracer/device/field_row.h"
 #pragma OPENCL FP_CONTRACT OFF
 
 // On GPUs paths past corners, whose fields take much longer, would hold up their neighbours. So they are listed by a

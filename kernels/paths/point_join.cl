@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// point_join: paths over one tile with reflections before or after it, from prefixes of both ends that see the tile on
-// one side. Their legs have been tested, so the rows need no further test.
+// point_join: paths over one tile, or one point of a target, with reflections or an edge before or after it, from
+// prefixes of both ends that see the tile on one side. Their legs have been tested, so the rows need no further test.
 #include "lib/join.clh"
 #include "wavetracer/device/points.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -41,9 +41,11 @@ kernel void point_join(const global uint* keys, const global wt_point_prefix* pr
   uint weak = 0;
   for (uint j = first + lane; j < args.count && keys[j] == keys[i]; j += args.lanes) {
     const global wt_point_prefix* b = prefixes + j;
-    // scatter makes the paths without mirrors.
+    // scatter and targets make the paths without mirrors and edges.
     if (a->depth - a->transmissions + b->depth - b->transmissions <= 2) continue;
-    if (a->depth + b->depth - 1 > args.max_depth || a->transmissions + b->transmissions > args.transmissions) continue;
+    if (a->depth + b->depth - 1 > args.max_depth || a->transmissions + b->transmissions > args.transmissions ||
+        a->diffractions + b->diffractions > args.diffractions)
+      continue;
     const uint receiver = receiver_of_end[b->end];
     if (receiver == WT_NONE || !(links[(size_t)a->end * args.groups + receiver / 16] >> receiver % 16 & 1)) continue;
     if (b->spread < least_spread) {

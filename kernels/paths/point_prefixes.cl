@@ -170,7 +170,7 @@ kernel void place_points(const global uint* keys, const global uint* order, cons
   if (i >= count || keys[i] >= hidden) return;
   const uint row = order[i], depth = solved[row].depth;
   double length_m = 0.0;
-  uint transmissions = 0;
+  uint transmissions = 0, diffractions = 0;
   double3 from = ends[solved[row].transmitter].xyz;
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)row * max_depth + k;
@@ -178,6 +178,7 @@ kernel void place_points(const global uint* keys, const global uint* order, cons
     length_m += sqrt(wt_dot(along, along));
     from = to;
     transmissions += (sequences[at] & WT_STEP_KIND) == WT_STEP_TRANSMISSION;
+    diffractions += (sequences[at] & WT_STEP_KIND) == WT_STEP_DIFFRACTION;
   }
   sorted[i].spread = 1.0 / (length_m * length_m);
   sorted[i].row = row;
@@ -185,5 +186,5 @@ kernel void place_points(const global uint* keys, const global uint* order, cons
   sorted[i].depth = depth;
   sorted[i].transmissions = transmissions;
   sorted[i].quarters = solved[row].quarters;
-  sorted[i].padding = 0;
+  sorted[i].diffractions = diffractions;
 }

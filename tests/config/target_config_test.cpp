@@ -51,6 +51,8 @@ TEST_CASE("targets: models that there are not, and what targets do not go with")
   check_contains(error("trace.reception = \"sphere\"\n"), "receives reflected rays only, but there are targets");
   check_contains(error("trace.discovery = \"beams\"\ntrace.floor_db = -120\n"),
                  "trace.floor_db = -120 says nothing of the power of waves that a target scatters");
+  check_contains(error("trace.target_diffraction = true\ntrace.target_reflections = 1\n"),
+                 "trace.target_diffraction = true needs trace.diffraction = true");
   const std::string edges = "trace.diffraction = true\ntrace.edge_rays = 100\ntrace.target_reflections = 1\n";
   check_contains(error(edges), "trace.edge_rays = 100 does not go with trace.target_reflections = 1");
   for (const std::string keys :

@@ -113,7 +113,7 @@ inline const std::vector<Record> argument_records{
       FIELD(wt_point_join_arguments, hidden), FIELD(wt_point_join_arguments, transmitter_count),
       FIELD(wt_point_join_arguments, groups), FIELD(wt_point_join_arguments, max_depth),
       FIELD(wt_point_join_arguments, transmissions), FIELD(wt_point_join_arguments, row_depth),
-      FIELD(wt_point_join_arguments, capacity), FIELD(wt_point_join_arguments, padding)}},
+      FIELD(wt_point_join_arguments, capacity), FIELD(wt_point_join_arguments, diffractions)}},
     {"wt_crowns_arguments",
      sizeof(wt_crowns_arguments),
      {FIELD(wt_crowns_arguments, row_count), FIELD(wt_crowns_arguments, rows_per_item),

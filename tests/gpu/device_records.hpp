@@ -98,7 +98,7 @@ inline const std::vector<Record> other_records{
      sizeof(wt_point_prefix),
      {FIELD(wt_point_prefix, spread), FIELD(wt_point_prefix, row), FIELD(wt_point_prefix, end),
       FIELD(wt_point_prefix, depth), FIELD(wt_point_prefix, transmissions), FIELD(wt_point_prefix, quarters),
-      FIELD(wt_point_prefix, padding)}},
+      FIELD(wt_point_prefix, diffractions)}},
     {"wt_wedge_candidate",
      sizeof(wt_wedge_candidate),
      {FIELD(wt_wedge_candidate, node), FIELD(wt_wedge_candidate, back), FIELD(wt_wedge_candidate, wedges),

@@ -169,7 +169,8 @@ typedef struct {
 } wt_hear_arguments;
 
 // Numbers for wedge_join and wedge_pairs: `lanes` work-items take each of the prefixes first to end - 1, in their
-// order, as the transmitter's prefix of a pair. heard_join takes the nodes first to end - 1 so.
+// order, as the transmitter's prefix of a pair. heard_join takes the nodes first to end - 1 so, and target_edges takes
+// prefixes of all ends, with `count` points.
 typedef struct {
   wt_uint count;  // the number of all prefixes
   wt_uint first;

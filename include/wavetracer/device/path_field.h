@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
-// solve: specular reflections, straight transmissions, one diffuse scattering, one point of a target or up to
-// WT_MOST_EDGES diffractions. A tile or a point ends one spherical wave and begins another, so mirrors on either side
-// of it see the length on their side.
+// solve: specular reflections, straight transmissions, one diffuse scattering, one point of a target with up to one
+// diffraction on either side of it, or up to WT_MOST_EDGES diffractions. A tile or a point ends one wave and begins
+// another, so mirrors and edges on either side of it see the length on their side.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
 #define WAVETRACER_DEVICE_PATH_FIELD_H
 #include "wavetracer/device/antenna.h"
@@ -156,12 +156,53 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 }
 #endif
 
+#if WT_DIFFRACTS && WT_TARGETS > 1
+inline int wt_meets_target(const wt_path* path) {
+  for (wt_uint k = 0; k < path->depth; ++k)
+    if (wt_kind(path, k) == WT_STEP_TARGET) return 1;
+  return 0;
+}
+
+// Is there an edge before the target?
+inline int wt_bends_before_target(const wt_path* path) {
+  for (wt_uint k = 0; k < path->depth && wt_kind(path, k) != WT_STEP_TARGET; ++k)
+    if (wt_kind(path, k) == WT_STEP_DIFFRACTION) return 1;
+  return 0;
+}
+
+// Goes over all vertices of a path over a target, with an edge before it or after it or both: a wave of an edge has its
+// own spreading, and the wave on the other side 1 / its length.
+inline void wt_pass_beside_target(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                  const wt_path* path, double length_m, wt_edge* edges, wt_uint count, wt_wave* wave) {
+  double spread = 1.0;
+  wt_uint k = 0;
+  for (wt_uint i = 0; i < count; ++i) {
+    const wt_edge_ends ends = wt_ends_of(world, path, edges + i, 1);
+    const int turns = wt_turns_at_all(edges + i, 1);
+    spread *= turns ? wt_edge_spreading(edges + i, 1) : 0.0;
+    k = wt_pass_surfaces(world, path, length_m, k, wave);
+    wt_pass(world, path, k++, wave);
+    if (turns) wt_diffract_at(world, ordered, row, path, edges + i, &ends, &wave->transfer);
+  }
+  wt_pass_surfaces(world, path, length_m, k, wave);
+  const double first_m = wt_first_section(path, length_m);
+  const int before = wt_bends_before_target(path), after = count > (wt_uint)before;
+  wave->spread = spread / ((before ? 1.0 : first_m) * (after ? 1.0 : length_m - first_m));
+}
+#endif
+
 #if WT_DIFFRACTS
 // Goes over all vertices. A wave along an edge is lost: no single point diffracts it. Returns wt_is_near_edge.
 inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row, const wt_path* path,
                        double length_m, wt_wave* wave) {
   wt_edge edges[WT_EDGE_ROOM];
   const wt_uint count = wt_edges_of(world, path, edges);
+#if WT_TARGETS > 1
+  if (count > 0 && wt_meets_target(path)) {
+    wt_pass_beside_target(world, ordered, row, path, length_m, edges, count, wave);
+    return wt_is_near_edge(world, edges, count);
+  }
+#endif
   const wt_edge_ends ends = wt_ends_of(world, path, edges, count);
   const int turns = wt_turns_at_all(edges, count);
   if (count > 0) wave->spread = turns ? wt_edge_spreading(edges, count) : 0.0;
@@ -232,41 +273,6 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
       wt_antenna_fields(world->antennas + rx->antenna, world->samples, rx->rotation, arrival, arrival_basis);
   wt_port_coefficients(&m, &sent, &heard, world->wavelength_m / (4.0 * WT_PI), &out);
   return out;
-}
-
-// The row at `place`, and its vertices from first_vertex on. origin: of recentred coordinates in those of the file.
-inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
-                         wt_double3 origin, wt_uint first_vertex, WT_GLOBAL wt_path_row* row,
-                         WT_GLOBAL wt_vertex_row* vertices) {
-  const wt_path path = wt_path_of(ordered->list, ordered->rows[place]);
-  const wt_path_field field = wt_field_of(world, ordered, place);
-  row->tx = path.transmitter;
-  row->rx = path.receiver;
-  row->first_vertex = first_vertex;
-  row->quarters = quarters | (field.near_edge ? WT_ROW_NEAR_EDGE : 0u);
-  row->delay_s = field.delay_s;
-  row->gain_db = field.gain_db;
-  row->doppler_hz = field.doppler_hz;
-  row->aod_theta = field.departure.theta;
-  row->aod_phi = field.departure.phi;
-  row->aoa_theta = field.arrival.theta;
-  row->aoa_phi = field.arrival.phi;
-  for (int i = 0; i < 4; ++i) {
-    row->a[2 * i] = field.a[i].x;
-    row->a[2 * i + 1] = field.a[i].y;
-  }
-  for (wt_uint k = 0; k < path.depth; ++k) {
-    const wt_uint step = wt_step(&path, k);
-    const wt_double3 p = wt_vertex(&path, k) + origin;
-    WT_GLOBAL wt_vertex_row* vertex = vertices + first_vertex + k;
-    vertex->position[0] = p.x;
-    vertex->position[1] = p.y;
-    vertex->position[2] = p.z;
-    vertex->surface = wt_local_number(world, step);
-    vertex->instance = wt_step_instance(world, step);
-    vertex->interaction = wt_interaction(step);
-    vertex->padding = 0;
-  }
 }
 
 #ifndef __OPENCL_VERSION__

@@ -17,7 +17,7 @@ typedef struct {
   wt_uint depth;          // the number of vertices; the tile is one
   wt_uint transmissions;  // the number of those that are transmissions
   wt_uint quarters;       // quarters that found it
-  wt_uint padding;
+  wt_uint diffractions;   // the number of those that are diffractions
 } wt_point_prefix;
 
 // The key that sorts such prefixes: the tile, then the side of it that they see.
@@ -52,7 +52,7 @@ typedef struct {
   wt_uint transmissions;  // the most transmissions of a path
   wt_uint row_depth;      // vertices that a row has room for
   wt_uint capacity;
-  wt_uint padding;
+  wt_uint diffractions;  // the most diffractions of a path
 } wt_point_join_arguments;
 
 // Paths over points of targets (kernels/paths/targets.cl).
