@@ -106,6 +106,8 @@ Table vegetation_table();
 // Defined in target_fields.cpp: targets of sensing.
 Table target_model_table();
 Table target_table();
+// Defined in target_part_fields.cpp.
+Table target_part_table();
 
 // Defined in trace_fields.cpp: the search for paths.
 Table trace_table();

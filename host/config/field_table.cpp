@@ -123,6 +123,7 @@ const std::vector<Table>& tables() {
       mount_table(),
       vehicle_type_table(),
       target_model_table(),
+      target_part_table(),
       target_table(),
       track_table(),
       parked_table(),

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of [[target_model]] and [[target]]: keys that go with one kind, lists of the right length, names that nothing
-// has, and what targets do not go with.
+// Checks of [[target_model]], [[target_part]] and [[target]]: keys that go with one kind, lists of the right length,
+// names that nothing has, and what targets do not go with.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "base/spelling.hpp"
 #include "config/contradictions.hpp"
@@ -63,6 +65,47 @@ void check_kind(const TargetModelConfig& model, const std::string& key, std::vec
                                    points == 1 ? "one point" : "5 points", model.points_m.size()));
 }
 
+// Keys of one kind of part that the other has not, and what a kind needs.
+void check_part(const TargetPartConfig& part, const std::string& key, std::vector<Contradiction>& out) {
+  const std::string what = fmt::format("[[target_part]] of {}", toml_string(part.model));
+  const auto check = [&](const char* name, const std::optional<double>& value, bool needed) {
+    if (needed && !value)
+      out.push_back({{key}, fmt::format("{} has kind = \"{}\" and no {}: give it one", what, part.kind.word(), name)});
+    if (!needed && value)
+      out.push_back(
+          {{key + "." + name},
+           fmt::format("{} has kind = \"{}\", which has no {}: remove the key", what, part.kind.word(), name)});
+  };
+  check("radius_m", part.radius_m, part.wheel());
+  for (const auto& [name, value] :
+       {std::pair{"length_m", part.length_m}, {"swing_deg", part.swing_deg}, {"stride_m", part.stride_m}})
+    check(name, value, !part.wheel());
+  const auto& [ahead, left, up] = part.axis;
+  if (!(std::hypot(ahead, left) > 1e-6 * std::abs(up)))
+    out.push_back({{key + ".axis"},
+                   fmt::format("{} turns about an axis that is upright or has no length: give it a level one, such as "
+                               "[0, 1, 0]",
+                               what)});
+}
+
+void check_parts(const Config& config, const std::vector<std::string>& models, std::vector<Contradiction>& out) {
+  for (size_t i = 0; i < config.target_parts.size(); ++i) {
+    const TargetPartConfig& part = config.target_parts[i];
+    const std::string key = fmt::format("target_part.{}", i);
+    if (std::ranges::find(models, part.model) == models.end())
+      out.push_back(
+          {{key + ".model"},
+           fmt::format("target_part.model = {}: there is no [[target_model]] of this name{}; add one, or name "
+                       "another",
+                       toml_string(part.model), spelling_hint(part.model, models))});
+    check_part(part, key, out);
+  }
+  if (config.trace.target && !config.target_parts.empty() && !config.live_vehicles.empty())
+    out.push_back({{"target_part.0", "live_vehicle.0"},
+                   "[[target_part]] does not go with [[live_vehicle]]: a wheel turns with the way from the start of a "
+                   "track, and live vehicles have no tracks; remove the parts, or set trace.target to false"});
+}
+
 bool has_targets(const Config& config) {
   return !config.targets.empty() ||
          std::ranges::any_of(config.target_models, [](const TargetModelConfig& model) { return !model.on.empty(); });
@@ -118,6 +161,7 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
            fmt::format("target.model = {}: there is no [[target_model]] of this name{}; add one, or name another",
                        toml_string(model), spelling_hint(model, names))});
   }
+  check_parts(config, names, out);
   check_companions(config, out);
 }
 

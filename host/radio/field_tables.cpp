@@ -75,7 +75,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   tables.foliages = foliages_at(tables.volumes, scene, config.radio.frequency_hz);
   tables.edge_ends = std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.free_ends != 0; });
   tables.corners = has_corners(scene) || std::ranges::any_of(models, has_corners);
-  if (config.trace.target) tables.targets = target_laws(config.target_models);
+  if (config.trace.target) tables.targets = target_laws(config.target_models, config.target_parts);
   tables.reflects_echoes = config.trace.reflects_echoes();
   tables.scatters = config.trace.scattering;
   tables.reflects_scattered = config.trace.reflects_scattered();

@@ -12,6 +12,7 @@ namespace wavetracer {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr std::array<double, 4> everywhere{0, 180, 0, 360};
 
 device::wt_target_lobe record_of(const KindLobe& lobe) {
   const auto& [zenith_from, zenith_to, azimuth_from, azimuth_to] = lobe.counts_deg;
@@ -30,7 +31,6 @@ device::wt_target_lobe record_of(const KindLobe& lobe) {
 
 // The lobes of a point of a custom model.
 std::vector<KindLobe> custom_lobes(const TargetModelConfig& model, size_t point) {
-  constexpr std::array<double, 4> everywhere{0, 180, 0, 360};
   std::vector<KindLobe> out;
   if (!model.rcs_dbsm.empty()) {
     const double peak = model.rcs_dbsm[model.rcs_dbsm.size() == 1 ? 0 : point];
@@ -52,20 +52,23 @@ void add_law(TargetLaws& to, std::span<const KindLobe> lobes, const std::array<d
 
 }  // namespace
 
-TargetLaws target_laws(const std::vector<TargetModelConfig>& models) {
+TargetLaws target_laws(const std::vector<TargetModelConfig>& models, const std::vector<TargetPartConfig>& parts) {
+  constexpr double none = std::numeric_limits<double>::infinity();
   TargetLaws out;
   for (const TargetModelConfig& model : models) {
     out.first.push_back(static_cast<uint32_t>(out.laws.size()));
+    const double xpr_db = model.xpr_db.value_or(model.custom() ? none : kind_law(model.kind).xpr_db);
     if (model.custom()) {
-      const double xpr_db = model.xpr_db.value_or(std::numeric_limits<double>::infinity());
       for (size_t point = 0; point < points_of(model, {}).size(); ++point)
         add_law(out, custom_lobes(model, point), model.bistatic_db, xpr_db);
-      continue;
+    } else {
+      const KindLaw& law = kind_law(model.kind);
+      if (!law.points) add_law(out, law.lobes, law.k, xpr_db);
+      for (size_t i = 0; law.points && i < law.lobes.size(); ++i) add_law(out, law.lobes.subspan(i, 1), law.k, xpr_db);
     }
-    const KindLaw& law = kind_law(model.kind);
-    const double xpr_db = model.xpr_db.value_or(law.xpr_db);
-    if (!law.points) add_law(out, law.lobes, law.k, xpr_db);
-    for (size_t i = 0; law.points && i < law.lobes.size(); ++i) add_law(out, law.lobes.subspan(i, 1), law.k, xpr_db);
+    for (const TargetPartConfig& part : parts)
+      if (part.model == model.name)
+        add_law(out, std::array{KindLobe{"", 0, 0, 0, 0, part.rcs_dbsm, none, everywhere}}, {}, xpr_db);
   }
   return out;
 }

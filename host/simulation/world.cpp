@@ -46,7 +46,7 @@ WorldState world_at(const World& world, double time_s, const std::vector<Vehicle
     out.instances.push_back(placement_of(fleet.models[fleet.instances[i].model], vehicles[fleet.track_of_instance[i]]));
   out.transmitters = ends_at(world.transmitters, fleet, world.ground, vehicles);
   out.receivers = ends_at(world.receivers, fleet, world.ground, vehicles);
-  out.targets = targets_at(world.targets, fleet, vehicles);
+  out.targets = targets_at(world.targets, fleet, vehicles, time_s);
   out.links = world.links(out.transmitters, out.receivers);
   return out;
 }

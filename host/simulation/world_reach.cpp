@@ -103,8 +103,7 @@ std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Tar
       out[end.track] =
           std::max(out[end.track], glm::length(end.offset_m) + from_ground_m(end, fleet.trajectories, scene));
   for (const TargetPoint& point : targets.points)
-    if (const auto track = targets.all[point.target].track)
-      out[*track] = std::max(out[*track], glm::length(point.arm_m));
+    if (const auto track = targets.all[point.target].track) out[*track] = std::max(out[*track], point.reach_m());
   for (size_t i = 0; i < fleet.instances.size(); ++i) {
     const Scene& model = fleet.models[fleet.instances[i].model];
     const glm::dvec3 far_m = glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper));
@@ -122,9 +121,13 @@ double reach_of(const Fleet& fleet, const WorldEnds& ends, const Targets& target
   for (const auto& [role, word] : {std::pair{&ends.transmitters, "transmitter"}, {&ends.receivers, "receiver"}})
     for (size_t i = 0; i < role->standing.size(); ++i)
       reach.add_end(fmt::format("{} \"{}\"", word, role->ends[i].name), role->standing[i].position_m);
-  for (const TargetPoint& point : targets.points)
-    if (const Target& target = targets.all[point.target]; !target.track)
-      reach.add_end(fmt::format("target \"{}\"", target.name), position_at(target.pose, point.arm_m));
+  for (const TargetPoint& point : targets.points) {
+    const Target& target = targets.all[point.target];
+    if (target.track) continue;
+    const glm::dvec3 at = position_at(target.pose, point.part ? point.part->pivot_m : point.arm_m);
+    reach.add_end(fmt::format("target \"{}\"", target.name), at);
+    if (point.part) reach.add_box(at, at, point.part->arm_m);
+  }
   const std::vector<double> radius_m = radii_m(fleet, ends, targets, scene);
   for (size_t k = 0; k < radius_m.size(); ++k) {
     if (live)

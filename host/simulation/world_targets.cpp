@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "radio/antenna.hpp"
@@ -15,13 +16,39 @@
 namespace wavetracer {
 namespace {
 
-void add_target(Targets& to, Target target, const TargetModelConfig& model, const std::optional<glm::dvec3>& size_m,
-                uint32_t first_law) {
+void add_target(Targets& to, Target target, const TargetModelConfig& model, const std::vector<TargetPartConfig>& parts,
+                const std::optional<glm::dvec3>& size_m, uint32_t law) {
   target.model = model.name;
   target.first_point = static_cast<uint32_t>(to.points.size());
-  for (const glm::dvec3& arm_m : points_of(model, size_m))
-    to.points.push_back({static_cast<uint32_t>(to.all.size()), first_law + target.point_count++, arm_m});
+  const auto number = static_cast<uint32_t>(to.all.size());
+  for (const glm::dvec3& arm_m : points_of(model, size_m)) to.points.push_back({number, law++, arm_m});
+  for (const TargetPartConfig& part : parts) {
+    if (part.model != model.name) continue;
+    for (uint32_t point = 0; point < part.points; ++point)
+      to.points.push_back({number, law, glm::dvec3(0), point_of_part(part, point)});
+    ++law;
+  }
+  target.point_count = static_cast<uint32_t>(to.points.size()) - target.first_point;
   to.all.push_back(std::move(target));
+}
+
+// The ways of the vehicles with parts.
+std::vector<std::optional<Travel>> travels_of(const Targets& targets, const Trajectories& trajectories) {
+  std::vector<std::optional<Travel>> out;
+  for (const TargetPoint& point : targets.points) {
+    const auto& track = targets.all[point.target].track;
+    if (!point.part || !track) continue;
+    out.resize(trajectories.tracks.size());
+    if (!out[*track]) out[*track].emplace(trajectories.tracks[*track]);
+  }
+  return out;
+}
+
+// The way of a target at a time. One that stands is on a treadmill: parts turn with its velocity.
+Travelled travelled_by(const Targets& targets, const Target& target, const Fleet& fleet, double time_s) {
+  if (target.track) return targets.travels[*target.track]->at(fleet.trajectories.tracks[*target.track], time_s);
+  const glm::dvec3 velocity_m_s = glm::conjugate(target.pose.orientation) * target.pose.velocity_m_s;
+  return {.way_m = velocity_m_s * time_s, .velocity_m_s = velocity_m_s};
 }
 
 void check_body(const Fleet& fleet, const WorldEnds& ends, uint32_t track, const TargetModelConfig& model) {
@@ -55,7 +82,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
                      bool by_id) {
   Targets out;
   if (!config.trace.target) return out;
-  const TargetLaws laws = target_laws(config.target_models);
+  const TargetLaws laws = target_laws(config.target_models, config.target_parts);
   const Trajectories& trajectories = fleet.trajectories;
   require_vehicles(config, trajectories);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
@@ -66,7 +93,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
       if (!matches(model.on, type.name) && !(by_id && matches(model.on, track.id))) continue;
       check_body(fleet, ends, k, model);
       const glm::dvec3 size_m{type.length_m, type.width_m, type.height_m};
-      add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k}, model,
+      add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k}, model, config.target_parts,
                  size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m]);
     }
   }
@@ -76,22 +103,34 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
                     .orientation = glm::quat_cast(rotation_of(standing.orientation_deg)),
                     .velocity_m_s = vector_of(standing.velocity_m_s),
                     .angular_velocity_rad_s = glm::dvec3(0)};
-    add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, {},
+    add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, config.target_parts, {},
                laws.first[static_cast<size_t>(&model - config.target_models.data())]);
   }
+  out.travels = travels_of(out, trajectories);
   return out;
 }
 
+double TargetPoint::reach_m() const { return part ? glm::length(part->pivot_m) + part->arm_m : glm::length(arm_m); }
+
 std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
-                                    const std::vector<VehicleState>& vehicles) {
+                                    const std::vector<VehicleState>& vehicles, double time_s) {
   std::vector<TargetState> out;
+  out.reserve(targets.points.size());
+  std::optional<uint32_t> rolling;  // the target that `travelled` belongs to
+  Travelled travelled;
   for (const TargetPoint& point : targets.points) {
     const Target& target = targets.all[point.target];
     const bool rides = target.track.has_value();
     const Pose& pose = rides ? vehicles[*target.track].pose : target.pose;
-    out.push_back({.position_m = position_at(pose, point.arm_m),
+    PartPlace place{point.arm_m, glm::dvec3(0)};
+    if (point.part) {
+      if (rolling != point.target) travelled = travelled_by(targets, target, fleet, time_s);
+      rolling = point.target;
+      place = place_of(*point.part, travelled);
+    }
+    out.push_back({.position_m = position_at(pose, place.arm_m),
                    .rotation = glm::mat3_cast(pose.orientation),
-                   .velocity_m_s = velocity_at(pose, point.arm_m),
+                   .velocity_m_s = velocity_at(pose, place.arm_m) + pose.orientation * place.velocity_m_s,
                    .instance = rides ? fleet.instance_of_track[*target.track] : no_instance,
                    .law = point.law,
                    .present = !rides || vehicles[*target.track].present});

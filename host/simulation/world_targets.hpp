@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/target_parts.hpp"
 #include "simulation/world_ends.hpp"
 #include "simulation/world_fleet.hpp"
 #include "wavetracer/config.hpp"
@@ -22,15 +23,20 @@ struct Target {
   uint32_t point_count = 0;
 };
 
-// A point of a target: its place on it, and its law (radio/target_laws.hpp).
+// A point of a target: its place on it, and its law (radio/target_laws.hpp). part: that of a point that moves on it.
 struct TargetPoint {
   uint32_t target, law;
-  glm::dvec3 arm_m;
+  glm::dvec3 arm_m{0};
+  std::optional<PartPoint> part = {};
+
+  // Its largest distance from the middle of the footprint.
+  double reach_m() const;
 };
 
 struct Targets {
   std::vector<Target> all;
   std::vector<TargetPoint> points;
+  std::vector<std::optional<Travel>> travels;  // by track: the ways of those that have parts; empty without any
 
   bool empty() const { return points.empty(); }
 };
@@ -40,9 +46,9 @@ struct Targets {
 Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& ends, const glm::dvec3& origin_m,
                      bool by_id);
 
-// The points where the vehicles are in these states, one for each track.
+// The points at this time, where the vehicles are in these states, one for each track.
 std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
-                                    const std::vector<VehicleState>& vehicles);
+                                    const std::vector<VehicleState>& vehicles, double time_s);
 
 // Says by which target each path goes, in Paths::target, and numbers points within their target. The paths must have
 // the numbers of points of the world.

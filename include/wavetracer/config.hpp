@@ -271,6 +271,7 @@ struct Config {
   std::vector<VehicleTypeConfig> vehicle_types;
   std::vector<MountConfig> mounts;
   std::vector<TargetModelConfig> target_models;
+  std::vector<TargetPartConfig> target_parts;
   std::vector<TargetConfig> targets;
   LinksConfig links;
   TimeConfig time;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables [[target_model]] and [[target]]: points that scatter by radar cross sections (docs/targets.md).
+// The tables [[target_model]], [[target_part]] and [[target]]: points that scatter by radar cross sections
+// (docs/targets.md).
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +30,25 @@ struct TargetModelConfig {  // [[target_model]]
   std::optional<std::array<double, 3>> size_m = {};  // length, width, height; not given: that of the vehicle or kind
 
   bool custom() const { return kind == "custom"; }
+};
+
+// A wheel rolls with its vehicle; a limb swings as it walks.
+using TargetPartKind = Choice<"wheel", "limb">;
+
+struct TargetPartConfig {  // [[target_part]]: points that move on the targets of a model
+  std::string model;       // name of the [[target_model]]
+  TargetPartKind kind = "wheel";
+  std::array<double, 3> pivot_m{0, 0, 0};  // centre of the wheel or joint of the limb: ahead, left, up
+  std::array<double, 3> axis{0, 1, 0};     // the axis about which it turns or swings: ahead, left, up
+  std::optional<double> radius_m = {};     // a wheel's
+  std::optional<double> length_m = {};     // a limb's, which hangs down from the joint
+  std::optional<double> swing_deg = {};    // a limb's: the largest angle from hanging down
+  std::optional<double> stride_m = {};     // a limb's: the way in which it swings forth and back once
+  double phase_deg = 0;                    // phase of turn or swing where the track begins
+  uint32_t points = 4;                     // around the rim, or from the joint to the end of the limb
+  double rcs_dbsm = 0;                     // the same for each point
+
+  bool wheel() const { return kind == "wheel"; }
 };
 
 struct TargetConfig {  // [[target]]: a target that stands

@@ -61,3 +61,22 @@ TEST_CASE("targets: models that there are not, and what targets do not go with")
     CHECK(error_of(scene + keys + ends + car) == "no error");  // nothing is such a target
   }
 }
+
+TEST_CASE("parts of targets: keys of their kinds, axes, models that there are not, and live vehicles") {
+  const auto error = [&](const std::string& keys, const std::string& of = "car") {
+    return error_of(scene + ends + model("kind = \"vehicle\"") + "[[target_part]]\nmodel = \"" + of +
+                    "\"\npivot_m = [1, 0.8, 0.3]\nrcs_dbsm = -15\n" + keys + "\n");
+  };
+  const std::string limb = "kind = \"limb\"\nlength_m = 0.8\nswing_deg = 30\nstride_m = 1.4\n";
+  CHECK(error("radius_m = 0.3") == "no error");
+  CHECK(error(limb + "phase_deg = 180\npoints = 3") == "no error");
+  check_contains(error(""), "[[target_part]] of \"car\" has kind = \"wheel\" and no radius_m: give it one");
+  check_contains(error("kind = \"limb\"\nlength_m = 0.8\nswing_deg = 30"), "has kind = \"limb\" and no stride_m");
+  check_contains(error("radius_m = 0.3\nswing_deg = 30"), "which has no swing_deg: remove the key");
+  check_contains(error(limb + "radius_m = 0.3"), "has kind = \"limb\", which has no radius_m");
+  check_contains(error("radius_m = 0"), "radius_m");
+  check_contains(error("radius_m = 0.3\npoints = 0"), "points");
+  check_contains(error("radius_m = 0.3\naxis = [0, 0, 1]"), "turns about an axis that is upright or has no length");
+  check_contains(error("radius_m = 0.3\naxis = [0, 0, 0]"), "turns about an axis that is upright or has no length");
+  check_contains(error("radius_m = 0.3", "cat"), "target_part.model = \"cat\": there is no [[target_model]]");
+}
