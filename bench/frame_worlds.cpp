@@ -94,6 +94,20 @@ void sense(Config& config) {
                         middle[2] + 0.1 * (i % 7)}});
 }
 
+// Adds vehicles around the first transmitter, whose bodies scatter.
+void scatter_off_bodies(Config& config) {
+  config.transmitters.resize(1);
+  TargetModelConfig body;
+  body.name = "body";
+  body.on = "passenger";
+  body.kind = "body";
+  config.target_models = {body};
+  const std::array<double, 3> middle = config.transmitters.front().position_m;
+  ParkedConfig cars{.name = "cars"};
+  for (int i = 0; i < 4; ++i) cars.places.push_back({middle[0] + 6 * i - 9, middle[1] + 6, 0, 30.0 * i});
+  config.parked = {cars};
+}
+
 // Adds a square of cells around the first transmitter.
 void add_map(Config& config, double side_m, double cell_m) {
   const std::array<double, 3> middle = config.transmitters.front().position_m;
@@ -147,6 +161,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     diffract(c, 1);
     c.trace.target_diffraction = true;
   });
+  add("bodies", scatter_off_bodies);
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("edge rays", [](Config& c) {
     diffract(c, 1);

@@ -195,6 +195,8 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_solved) + 3 * sizeof(double) + 2 * sizeof(uint32_t)>, nothing, true},
     {"target_edges/target_edges", "targets behind edges", "points of prefixes", points_of_prefixes, nothing,
      always<30>},
+    {"targets/target_bodies", "bodies", "paths", items_of<"targets/target_bodies">,
+     always<sizeof(wt_solved) + sizeof(uint32_t)>, nothing, true},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,
      mirror_operations, true},
     {"wedge_prefixes/place_prefixes", "diffraction", "prefixes", items_of<"wedge_prefixes/place_prefixes">,

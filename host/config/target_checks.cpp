@@ -48,6 +48,22 @@ void check_custom(const TargetModelConfig& model, const std::string& key, std::v
   check_lobes(model, key, points, out);
 }
 
+// A body has the facets and the materials of its vehicle.
+void check_body_model(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
+  const auto refuse = [&](const char* name) {
+    out.push_back({{key + "." + name},
+                   fmt::format("[[target_model]] {} has kind = \"body\", whose facets and materials are those of the "
+                               "vehicle: remove {}, or use another kind",
+                               toml_string(model.name), name)});
+  };
+  if (!model.rcs_dbsm.empty()) refuse("rcs_dbsm");
+  if (!model.lobes.empty()) refuse("lobes");
+  if (model.bistatic_db != std::array<double, 3>{0, 0, 0}) refuse("bistatic_db");
+  if (!model.points_m.empty()) refuse("points_m");
+  if (model.xpr_db) refuse("xpr_db");
+  if (model.size_m) refuse("size_m");
+}
+
 void check_kind(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
   const auto refuse = [&](const char* of, const std::string& why) {
     out.push_back(
@@ -148,8 +164,15 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
     const TargetModelConfig& model = config.target_models[i];
     names.push_back(model.name);
     const std::string key = fmt::format("target_model.{}", i);
+    if (model.piece_m && !model.body())
+      out.push_back({{key + ".piece_m"},
+                     fmt::format("[[target_model]] {} has kind = \"{}\" and piece_m, which only a body has: remove "
+                                 "piece_m, or use kind = \"body\"",
+                                 toml_string(model.name), model.kind.word())});
     if (model.custom())
       check_custom(model, key, out);
+    else if (model.body())
+      check_body_model(model, key, out);
     else
       check_kind(model, key, out);
   }
@@ -160,6 +183,12 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
           {{fmt::format("target.{}.model", i)},
            fmt::format("target.model = {}: there is no [[target_model]] of this name{}; add one, or name another",
                        toml_string(model), spelling_hint(model, names))});
+    const auto found = std::ranges::find(config.target_models, model, &TargetModelConfig::name);
+    if (found != config.target_models.end() && found->body())
+      out.push_back({{fmt::format("target.{}.model", i)},
+                     fmt::format("target.model = {} has kind = \"body\", but a [[target]] has no body: let a vehicle "
+                                 "stand there ([[parked]] or [[track]]), which the model selects by on",
+                                 toml_string(model))});
   }
   check_parts(config, names, out);
   check_companions(config, out);

@@ -65,7 +65,8 @@ Table target_model_table() {
                .slot = m(&TargetModelConfig::kind),
                .doc = "The law of the cross section: one of 3GPP TR 38.901 V19, tables 7.9.2.1-1 to 7.9.2.1-7, at "
                       "its mean over the random part, or custom, by rcs_dbsm or lobes. -aspects depends on the "
-                      "direction; -points has a point on each of four sides and on the roof."},
+                      "direction; -points has a point on each of four sides and on the roof. body: the facets of the "
+                      "vehicle's body scatter by physical optics."},
               {.name = "points_m",
                .slot = m(&TargetModelConfig::points_m),
                .unit = "m",
@@ -86,6 +87,15 @@ Table target_model_table() {
                .doc = "Length, width and height, from which the places of points follow. Not given: the size "
                       "of the vehicle, or at a [[target]] that of 3GPP for the kind.",
                .example = "[4.5, 1.8, 1.5]"},
+              {.name = "piece_m",
+               .slot = m(&TargetModelConfig::piece_m),
+               .unit = "m",
+               .range = {0.01, 1e3},
+               .doc =
+                   "Only with kind = \"body\": the longest edge of the pieces into which facets are cut. Each piece is "
+                   "a point with one path for each link, is lit or hidden as a whole, and has one delay and one "
+                   "angle. Its phase is right at any size. Not given: 0.25.",
+               .example = "0.1"},
           },
       .append = append<&Config::target_models>,
       .count = count<&Config::target_models>,

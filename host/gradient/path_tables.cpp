@@ -251,6 +251,7 @@ tangent::wt_field_world PathTables::moved_world() const {
           tangent::constant(plain_.air),
           nullptr,
           nullptr,
+          nullptr,
           nullptr};
 }
 

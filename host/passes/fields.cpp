@@ -28,6 +28,7 @@ gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows r
           {"WT_TARGETS", tables.targets.laws.empty() ? "0"
                          : tables.reflects_echoes    ? "2"
                                                      : "1"},
+          {"WT_FACETS", tables.targets.facets.empty() ? "0" : "1"},
           {"WT_LAYERS", tables.layered() ? "1" : "0"},
           {"WT_LOSSES", tables.loses() ? "1" : "0"}};
 }
@@ -66,7 +67,8 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
       antennas_(context.buffer(tables.antennas, "antennas")),
       foliages_(context.buffer(tables.foliages, "kinds of vegetation")),
       laws_(context.buffer(tables.targets.laws, "laws of targets")),
-      lobes_(context.buffer(tables.targets.lobes, "lobes of targets")) {
+      lobes_(context.buffer(tables.targets.lobes, "lobes of targets")),
+      facets_(context.buffer(tables.targets.facets, {"pieces of bodies", advice::pieces})) {
   if (apart_) listed_kernel_.emplace(context, listed_build_);
   make_room(context_, rows_, 1 << 12, "path rows");
   make_room(context_, vertices_, 1 << 14, "path vertex rows");
@@ -111,6 +113,7 @@ calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
           .targets = inputs.targets,
           .laws = laws_,
           .lobes = lobes_,
+          .facets = facets_,
           .listed = apart_ ? &listed_ : nullptr,
           .out = rows_,
           .out_vertices = vertices_,

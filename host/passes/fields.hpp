@@ -98,6 +98,7 @@ class Fields {
   gpu::Buffer<device::wt_foliage> foliages_;
   gpu::Buffer<device::wt_target_law> laws_;
   gpu::Buffer<device::wt_target_lobe> lobes_;
+  gpu::Buffer<device::wt_target_facet> facets_;
   gpu::Buffer<device::wt_field_end> ends_[2];  // transmitters, receivers
   std::vector<device::wt_field_end> end_records_[2];
   SharedList<EndState> end_states_[2];  // those that the records were made of

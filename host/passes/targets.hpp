@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "kernel_calls/targets.hpp"
+#include "passes/counters.hpp"
+#include "passes/device_scene.hpp"
 #include "passes/link_pairs.hpp"
 #include "passes/radio_ends.hpp"
 #include "passes/solved_list.hpp"
+#include "passes/step_tables.hpp"
 #include "passes/tuning.hpp"
 #include "wavetracer/device/records.h"
 #include "wavetracer/world_state.hpp"
@@ -22,7 +25,7 @@ class TargetRows {
   // Writes the points of a frame.
   void place(const WorldState& world);
   // Rows are ordered by links, then by points. Throws RuntimeError where they outgrow the buffers of the device.
-  SolvedList& operator()(const RadioEnds& ends);
+  SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends);
   const gpu::Buffer<wt_target_point>& points() const { return points_; }
   uint32_t count() const { return count_; }
 
@@ -34,6 +37,20 @@ class TargetRows {
   gpu::Buffer<wt_target_point> points_;
   LinkPairs links_;
   SolvedList solved_;
+};
+
+// target_bodies: paths have no mirrors, tiles and edges on bodies that are targets themselves.
+class TargetBodies {
+ public:
+  // is_body: not 0 for each instance whose body is a target; there is one.
+  TargetBodies(gpu::Context& context, const std::vector<uint32_t>& is_body);
+  // Marks solved paths with a step on such a body as obstructed.
+  void operator()(const DeviceScene& scene, SolvedList& solved, Counters& counters, const StepTables& steps);
+
+ private:
+  gpu::KernelOf<calls::targets::target_bodies> kernel_;
+  uint32_t group_;
+  gpu::Buffer<uint32_t> is_body_;
 };
 
 }  // namespace wavetracer

@@ -158,7 +158,8 @@ device::wt_field_world FieldFrame::world(const FieldTables& tables) const {
           tables.air,
           targets.data(),
           tables.targets.laws.data(),
-          tables.targets.lobes.data()};
+          tables.targets.lobes.data(),
+          tables.targets.facets.data()};
 }
 
 FieldFrame make_field_frame(const FieldTables& tables, const Scene& scene, std::span<const Scene> models,

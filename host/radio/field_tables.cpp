@@ -50,6 +50,18 @@ void add_cells(FieldTables& tables, const Scene& scene, double cell_m) {
   tables.cells = static_cast<uint32_t>(cells.size());
 }
 
+// Gives pieces of bodies the materials of their surfaces, which all instances of a model have in common.
+void set_materials(FieldTables& tables, std::span<const Instance> instances) {
+  for (const std::vector<TargetLaws::BodyLaws>& bodies : tables.targets.bodies)
+    for (size_t model = 0; model < bodies.size(); ++model) {
+      const auto instance = std::ranges::find(instances, model, &Instance::model);
+      if (instance == instances.end()) continue;
+      for (size_t i = 0; i < bodies[model].pieces.size(); ++i)
+        tables.targets.facets[tables.targets.laws[bodies[model].first_law + i].first_lobe].material =
+            tables.materials_of[instance->first_surface + bodies[model].pieces[i].surface];
+    }
+}
+
 bool has_corners(const Scene& scene) {
   return std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.exterior_rad < std::numbers::pi; });
 }
@@ -75,7 +87,10 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
   tables.foliages = foliages_at(tables.volumes, scene, config.radio.frequency_hz);
   tables.edge_ends = std::ranges::any_of(scene.wedges, [](const Wedge& wedge) { return wedge.free_ends != 0; });
   tables.corners = has_corners(scene) || std::ranges::any_of(models, has_corners);
-  if (config.trace.target) tables.targets = target_laws(config.target_models, config.target_parts);
+  if (config.trace.target) {
+    tables.targets = target_laws(config.target_models, config.target_parts, models);
+    set_materials(tables, instances);
+  }
   tables.reflects_echoes = config.trace.reflects_echoes();
   tables.scatters = config.trace.scattering;
   tables.reflects_scattered = config.trace.reflects_scattered();

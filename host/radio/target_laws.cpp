@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "radio/target_kinds.hpp"
 
@@ -50,22 +51,43 @@ void add_law(TargetLaws& to, std::span<const KindLobe> lobes, const std::array<d
   for (const KindLobe& lobe : lobes) to.lobes.push_back(record_of(lobe));
 }
 
+void add_body(TargetLaws& to, std::vector<TargetPiece> pieces) {
+  TargetLaws::BodyLaws body{.pieces = std::move(pieces), .first_law = static_cast<uint32_t>(to.laws.size())};
+  for (const TargetPiece& piece : body.pieces) {
+    to.laws.push_back(
+        {.k = {}, .cross = 0, .first_lobe = static_cast<uint32_t>(to.facets.size()), .lobe_count = WT_FACET_LAW});
+    to.facets.push_back(piece.facet);
+  }
+  to.bodies.back().push_back(std::move(body));
+}
+
+// Adds the laws of the model's own points, which are no pieces of a body.
+void add_points(TargetLaws& to, const TargetModelConfig& model, double xpr_db) {
+  if (model.custom()) {
+    for (size_t point = 0; point < points_of(model, {}).size(); ++point)
+      add_law(to, custom_lobes(model, point), model.bistatic_db, xpr_db);
+    return;
+  }
+  const KindLaw& law = kind_law(model.kind);
+  if (!law.points) add_law(to, law.lobes, law.k, xpr_db);
+  for (size_t i = 0; law.points && i < law.lobes.size(); ++i) add_law(to, law.lobes.subspan(i, 1), law.k, xpr_db);
+}
+
 }  // namespace
 
-TargetLaws target_laws(const std::vector<TargetModelConfig>& models, const std::vector<TargetPartConfig>& parts) {
+TargetLaws target_laws(const std::vector<TargetModelConfig>& models, const std::vector<TargetPartConfig>& parts,
+                       std::span<const Scene> vehicles) {
   constexpr double none = std::numeric_limits<double>::infinity();
   TargetLaws out;
   for (const TargetModelConfig& model : models) {
+    out.bodies.emplace_back();
+    if (model.body())
+      for (const Scene& vehicle : vehicles)
+        add_body(out, pieces_of_body(vehicle, model.piece_m.value_or(0.25), model.name));
     out.first.push_back(static_cast<uint32_t>(out.laws.size()));
-    const double xpr_db = model.xpr_db.value_or(model.custom() ? none : kind_law(model.kind).xpr_db);
-    if (model.custom()) {
-      for (size_t point = 0; point < points_of(model, {}).size(); ++point)
-        add_law(out, custom_lobes(model, point), model.bistatic_db, xpr_db);
-    } else {
-      const KindLaw& law = kind_law(model.kind);
-      if (!law.points) add_law(out, law.lobes, law.k, xpr_db);
-      for (size_t i = 0; law.points && i < law.lobes.size(); ++i) add_law(out, law.lobes.subspan(i, 1), law.k, xpr_db);
-    }
+    const bool own = model.custom() || model.body();
+    const double xpr_db = model.xpr_db.value_or(own ? none : kind_law(model.kind).xpr_db);
+    if (!model.body()) add_points(out, model, xpr_db);
     for (const TargetPartConfig& part : parts)
       if (part.model == model.name)
         add_law(out, std::array{KindLobe{"", 0, 0, 0, 0, part.rcs_dbsm, none, everywhere}}, {}, xpr_db);
@@ -78,6 +100,7 @@ std::vector<glm::dvec3> points_of(const TargetModelConfig& model, const std::opt
   for (const std::array<double, 3>& p : model.points_m) out.emplace_back(p[0], p[1], p[2]);
   if (!out.empty()) return out;
   if (model.custom()) return {glm::dvec3(0)};
+  if (model.body()) return {};
   glm::dvec3 size = size_m.value_or(kind_law(model.kind).size_m);
   if (model.size_m) size = {(*model.size_m)[0], (*model.size_m)[1], (*model.size_m)[2]};
   return kind_points(model.kind, size);

@@ -121,7 +121,10 @@ std::vector<wt_target_point> target_records(const WorldState& state) {
     }
     to.instance = from.instance;
     to.law = from.law;
-    to.present = from.present;
+    to.present = from.present ? WT_POINT_PRESENT | (from.lit_above ? WT_POINT_LIT_ABOVE : 0u) |
+                                    (from.lit_below ? WT_POINT_LIT_BELOW : 0u)
+                              : 0u;
+    to.surface = from.surface;
   }
   return out;
 }

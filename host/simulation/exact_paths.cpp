@@ -102,6 +102,9 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
   }
   if (trace.target) targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), depth.row);
+  if (trace.target)
+    if (const std::vector<uint32_t> bodies = body_instances(world.targets, world.fleet); !bodies.empty())
+      target_bodies.emplace(context, bodies);
   if (trace.target && trace.target_reflections > 0)
     target_chains = std::make_unique<TargetChains>(context, std::min(trace.target_reflections, trace.max_depth - 1),
                                                    limits_of_targets(trace), longest_wavelength_m);
@@ -115,6 +118,7 @@ void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, Sol
                             bool remember) {
   const StepTables steps{diffraction ? &diffraction->wedges.list().wedges : nullptr,
                          scatter ? &scatter->tiles().surfaces : nullptr, targets ? &targets->points() : nullptr};
+  if (target_bodies) (*target_bodies)(scene, solved, counters, steps);
   if (transmissions)
     (*transmissions)(scene, ends, solved, counters, steps);
   else

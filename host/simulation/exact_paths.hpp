@@ -51,6 +51,7 @@ struct ExactPaths {
   std::optional<ScatteredPaths> scattered;  // with trace.scattering_reflections
   std::optional<Crowns> crowns;
   std::optional<TargetRows> targets;
+  std::optional<TargetBodies> target_bodies;    // set if bodies of vehicles are targets
   std::unique_ptr<TargetChains> target_chains;  // with trace.target_reflections, else null
   std::optional<Occlusion> occlusion;           // this or the next one is set
   std::optional<Transmissions> transmissions;

@@ -152,8 +152,8 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes, sort, point_join
     tell();
   }
-  if (exact.crowns) see_scattered((*exact.crowns)(ends));    // crowns
-  if (exact.targets) see_scattered((*exact.targets)(ends));  // targets
+  if (exact.crowns) see_scattered((*exact.crowns)(ends));           // crowns
+  if (exact.targets) see_scattered((*exact.targets)(scene, ends));  // targets
   if (exact.target_chains) {
     chain_targets(exact, scene, ends, set, nodes, take).add_to(out);  // candidates, solve, targets, sort, point_join
     tell();

@@ -10,10 +10,13 @@
 namespace wavetracer {
 namespace {
 
+// A piece of a body is hidden by all other parts of the body.
 std::vector<EndState> as_receivers(const std::vector<TargetState>& targets) {
   std::vector<EndState> out;
   for (const TargetState& point : targets)
-    out.push_back({.position_m = point.position_m, .instance = point.instance, .present = point.present});
+    out.push_back({.position_m = point.position_m,
+                   .instance = point.surface == no_target_surface ? point.instance : no_instance,
+                   .present = point.present});
   return out;
 }
 
@@ -62,7 +65,7 @@ uint32_t TargetChains::list_nodes(const FoundSequences& found, uint32_t transmit
   return static_cast<uint32_t>(count);
 }
 
-void TargetChains::sort(SolvedList& ways, const RadioEnds& ends, const TargetRows& targets) {
+void TargetChains::sort(const DeviceScene& scene, SolvedList& ways, const RadioEnds& ends, const TargetRows& targets) {
   list_.rows = ways;
   list_.hidden = wt_point_key(targets.count(), 0);
   if (!list_.keys || list_.keys.size() < ways.headers.size()) {
@@ -74,6 +77,7 @@ void TargetChains::sort(SolvedList& ways, const RadioEnds& ends, const TargetRow
   rows_({ways.count, local_}, Stage::targets,
         calls::targets::target_rows{.points = targets.points(),
                                     .ends = ends.transmitters,
+                                    .surfaces = scene.exact_surfaces,
                                     .solved = list_.rows.headers,
                                     .vertices = list_.rows.vertices,
                                     .sequences = list_.rows.sequences,
@@ -141,7 +145,7 @@ JoinedCounts TargetChains::operator()(const DeviceScene& scene, const RadioEnds&
     ways = &edge_ways_->all.list();
   }
   if (ways->count == 0) return out;
-  sort(*ways, ends, targets);  // targets, sort, point_prefixes
+  sort(scene, *ways, ends, targets);  // targets, sort, point_prefixes
   by_parts(
       ways->count, ways->count, join_.most(),
       [&](uint32_t first, uint32_t end) { return join_(list_, first, end, ends); },  // point_join

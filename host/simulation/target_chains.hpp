@@ -62,7 +62,7 @@ class TargetChains {
   void add_edge_ways(const DeviceScene& scene, const FoundSequences& found, const TargetRows& targets,
                      const SeenEdges& edges, const CheckLegs& check_legs);
   // Makes open rows of the ways, and sorts them by their points.
-  void sort(SolvedList& ways, const RadioEnds& ends, const TargetRows& targets);
+  void sort(const DeviceScene& scene, SolvedList& ways, const RadioEnds& ends, const TargetRows& targets);
 
   gpu::Context& context_;
   uint32_t most_depth_, local_;

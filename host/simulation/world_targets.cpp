@@ -16,12 +16,23 @@
 namespace wavetracer {
 namespace {
 
+// pieces: those of its body, whose surfaces begin at first_surface; null where it has none.
 void add_target(Targets& to, Target target, const TargetModelConfig& model, const std::vector<TargetPartConfig>& parts,
-                const std::optional<glm::dvec3>& size_m, uint32_t law) {
+                const std::optional<glm::dvec3>& size_m, uint32_t law, const TargetLaws::BodyLaws* body = nullptr,
+                uint32_t first_surface = 0) {
   target.model = model.name;
   target.first_point = static_cast<uint32_t>(to.points.size());
   const auto number = static_cast<uint32_t>(to.all.size());
   for (const glm::dvec3& arm_m : points_of(model, size_m)) to.points.push_back({number, law++, arm_m});
+  for (size_t i = 0; body && i < body->pieces.size(); ++i) {
+    const TargetPiece& piece = body->pieces[i];
+    to.points.push_back({.target = number,
+                         .law = body->first_law + static_cast<uint32_t>(i),
+                         .arm_m = piece.centre_m,
+                         .surface = first_surface + piece.surface,
+                         .lit_above = piece.lit_above,
+                         .lit_below = piece.lit_below});
+  }
   for (const TargetPartConfig& part : parts) {
     if (part.model != model.name) continue;
     for (uint32_t point = 0; point < part.points; ++point)
@@ -63,6 +74,16 @@ void check_body(const Fleet& fleet, const WorldEnds& ends, uint32_t track, const
             model.name, fleet.trajectories.tracks[track].id));
 }
 
+const Instance& body_of_vehicle(const Fleet& fleet, uint32_t track, const TargetModelConfig& model) {
+  const uint32_t instance = fleet.instance_of_track[track];
+  if (instance == no_instance)
+    throw ConfigError(
+        fmt::format("[[target_model]] \"{}\" has kind = \"body\", but the vehicle \"{}\" has no body: give its "
+                    "[[vehicle_type]] a model, or choose other vehicles by on",
+                    model.name, fleet.trajectories.tracks[track].id));
+  return fleet.instances[instance];
+}
+
 void require_vehicles(const Config& config, const Trajectories& trajectories) {
   std::vector<std::string> names;
   for (const Track& track : trajectories.tracks) names.push_back(track.id);
@@ -82,7 +103,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
                      bool by_id) {
   Targets out;
   if (!config.trace.target) return out;
-  const TargetLaws laws = target_laws(config.target_models, config.target_parts);
+  const TargetLaws laws = target_laws(config.target_models, config.target_parts, fleet.models);
   const Trajectories& trajectories = fleet.trajectories;
   require_vehicles(config, trajectories);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
@@ -93,8 +114,10 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
       if (!matches(model.on, type.name) && !(by_id && matches(model.on, track.id))) continue;
       check_body(fleet, ends, k, model);
       const glm::dvec3 size_m{type.length_m, type.width_m, type.height_m};
+      const Instance* body = model.body() ? &body_of_vehicle(fleet, k, model) : nullptr;
       add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k}, model, config.target_parts,
-                 size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m]);
+                 size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m],
+                 body ? &laws.bodies[m][body->model] : nullptr, body ? body->first_surface : 0);
     }
   }
   for (const TargetConfig& standing : config.targets) {
@@ -107,6 +130,16 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
                laws.first[static_cast<size_t>(&model - config.target_models.data())]);
   }
   out.travels = travels_of(out, trajectories);
+  return out;
+}
+
+std::vector<uint32_t> body_instances(const Targets& targets, const Fleet& fleet) {
+  std::vector<uint32_t> out;
+  for (const TargetPoint& point : targets.points) {
+    if (point.surface == no_target_surface) continue;
+    out.resize(fleet.instances.size(), 0);
+    out[fleet.instance_of_track[*targets.all[point.target].track]] = 1;
+  }
   return out;
 }
 
@@ -133,7 +166,10 @@ std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
                    .velocity_m_s = velocity_at(pose, place.arm_m) + pose.orientation * place.velocity_m_s,
                    .instance = rides ? fleet.instance_of_track[*target.track] : no_instance,
                    .law = point.law,
-                   .present = !rides || vehicles[*target.track].present});
+                   .present = !rides || vehicles[*target.track].present,
+                   .surface = point.surface,
+                   .lit_above = point.lit_above,
+                   .lit_below = point.lit_below});
   }
   return out;
 }

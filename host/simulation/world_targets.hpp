@@ -28,6 +28,8 @@ struct TargetPoint {
   uint32_t target, law;
   glm::dvec3 arm_m{0};
   std::optional<PartPoint> part = {};
+  uint32_t surface = no_target_surface;  // the surface in the world of a piece of a body; see TargetState
+  bool lit_above = false, lit_below = false;
 
   // Its largest distance from the middle of the footprint.
   double reach_m() const;
@@ -42,9 +44,13 @@ struct Targets {
 };
 
 // ends: those of the world. by_id: see with_mounts. Throws ConfigError for a pattern that nothing has, and for a
-// vehicle with an antenna and without a body, from whose antenna nothing would keep its own points.
+// vehicle with an antenna and without a body, from whose antenna nothing would keep its own points, and for one without
+// a body whose body is the target.
 Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& ends, const glm::dvec3& origin_m,
                      bool by_id);
+
+// For each instance 1 if its body is a target itself, else 0; empty where none is.
+std::vector<uint32_t> body_instances(const Targets& targets, const Fleet& fleet);
 
 // The points at this time, where the vehicles are in these states, one for each track.
 std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,

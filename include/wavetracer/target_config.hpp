@@ -12,9 +12,10 @@
 
 namespace wavetracer {
 
-// Laws of 3GPP TR 38.901 V19, 7.9.2.1, or one of the user's own. -points: with a point on each side and the roof.
+// Laws of 3GPP TR 38.901 V19, 7.9.2.1, one of the user's own, or the facets of the vehicle's body. -points: with a
+// point on each side and the roof.
 using TargetKind = Choice<"custom", "person", "person-aspects", "uav-small", "uav-large", "vehicle", "vehicle-points",
-                          "agv", "agv-points">;
+                          "agv", "agv-points", "body">;
 
 struct TargetModelConfig {  // [[target_model]]
   std::string name;
@@ -29,7 +30,10 @@ struct TargetModelConfig {  // [[target_model]]
   std::optional<double> xpr_db = {};                 // not given: that of the kind
   std::optional<std::array<double, 3>> size_m = {};  // length, width, height; not given: that of the vehicle or kind
 
+  std::optional<double> piece_m = {};  // with kind = "body": largest edge of a piece; not given: 0.25
+
   bool custom() const { return kind == "custom"; }
+  bool body() const { return kind == "body"; }
 };
 
 // A wheel rolls with its vehicle; a limb swings as it walks.

@@ -33,6 +33,8 @@ struct EndState {
   bool present = true;
 };
 
+constexpr uint32_t no_target_surface = 0xFFFFFFFFu;
+
 // A point of a target of sensing.
 struct TargetState {
   glm::dvec3 position_m{0};
@@ -41,6 +43,10 @@ struct TargetState {
   uint32_t instance = no_instance;  // the vehicle that it belongs to, which hides nothing from it
   uint32_t law = 0;                 // its radar cross section: a law of FieldTables
   bool present = true;
+  // A piece of the vehicle's body: its surface in the world, and the sides of the surface that are lit. All other parts
+  // of the body may hide it.
+  uint32_t surface = no_target_surface;
+  bool lit_above = false, lit_below = false;
 };
 
 constexpr uint32_t no_end = 0xFFFFFFFFu;

@@ -26,8 +26,8 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                    const global wt_field_end* receivers, const global wt_antenna* antennas,
                    const global double* samples, const global wt_foliage* foliages, const global double* lengths_inside,
                    const global wt_target_point* targets, const global wt_target_law* laws,
-                   const global wt_target_lobe* lobes, global uint* listed, global wt_path_row* out,
-                   global wt_vertex_row* out_vertices, wt_fields_arguments args) {
+                   const global wt_target_lobe* lobes, const global wt_target_facet* facets, global uint* listed,
+                   global wt_path_row* out, global wt_vertex_row* out_vertices, wt_fields_arguments args) {
 #if WT_LISTED
   if (get_global_id(0) >= listed[0]) return;
   const uint place = listed[1 + get_global_id(0)];
@@ -61,7 +61,8 @@ kernel void fields(const global wt_solved* solved, const global double* vertices
                                 args.air,
                                 targets,
                                 laws,
-                                lobes};
+                                lobes,
+                                facets};
 #if WT_DIFFRACTS && !WT_CORNER_EDGES
   const wt_path path = wt_path_of(&list, rows[place]);
   if (listed && wt_passes_corner(&world, &path)) {

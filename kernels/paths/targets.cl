@@ -12,12 +12,23 @@ inline int carries(const global wt_target_point* point, double4 end) {
   return point->instance != WT_NONE && point->instance == wt_end_instance(end);
 }
 
+// Returns the side of its surface from which p sees the point: 1 above, 2 below; 0 where it does not, from the dark
+// side or along the surface. Other points have no sides, and are seen from everywhere.
+inline uint seen_side(const global wt_target_point* point, const global wt_exact_surface* surfaces, double3 p) {
+  if (point->surface == WT_NONE) return 3;
+  const double above = wt_above(surfaces + point->surface, p);
+  if (above > WT_ON_SURFACE_M) return point->present & WT_POINT_LIT_ABOVE ? 1 : 0;
+  if (above < -WT_ON_SURFACE_M) return point->present & WT_POINT_LIT_BELOW ? 2 : 0;
+  return 0;
+}
+
 // A work-item writes rows_per_item rows. links: transmitter and receiver; rows are ordered by links, then by points. No
 // ray found these rows, so every quarter of a launch counts as having found them. Rows of targets that are absent, or
-// whose vehicle carries an end, are marked as obstructed.
+// whose vehicle carries an end, are marked as obstructed, and so are those whose ends do not see one lit side of a
+// piece of a body.
 kernel void targets(const global uint2* links, const global wt_target_point* points, const global double4* transmitters,
-                    const global double4* receivers, global wt_solved* solved, global double* vertices,
-                    global uint* sequences, wt_targets_arguments args) {
+                    const global double4* receivers, const global wt_exact_surface* surfaces, global wt_solved* solved,
+                    global double* vertices, global uint* sequences, wt_targets_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
   if (begin >= args.row_count) return;
   const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
@@ -28,7 +39,9 @@ kernel void targets(const global uint2* links, const global wt_target_point* poi
     solved[row].transmitter = link.x;
     solved[row].receiver = link.y;
     solved[row].depth = 1;
-    solved[row].blocked = !point->present || carries(point, transmitters[link.x]) || carries(point, receivers[link.y]);
+    const double4 from = transmitters[link.x], to = receivers[link.y];
+    solved[row].blocked = !point->present || carries(point, from) || carries(point, to) ||
+                          !(seen_side(point, surfaces, from.xyz) & seen_side(point, surfaces, to.xyz));
     solved[row].node = WT_NONE;
     solved[row].quarters = WT_ALL_QUARTERS;
     const size_t at = (size_t)row * args.max_depth;
@@ -38,11 +51,12 @@ kernel void targets(const global uint2* links, const global wt_target_point* poi
 }
 
 // A work-item takes one row of solve, whose receiver is a point: the point becomes its last vertex. keys: wt_point_key
-// of the point; hidden, larger than all others, for a row that is obstructed, has no room for the point, or whose end
-// rides with the point.
-kernel void target_rows(const global wt_target_point* points, const global double4* ends, global wt_solved* solved,
-                        global double* vertices, global uint* sequences, global uint* keys, uint count, uint max_depth,
-                        uint most_depth, uint hidden) {
+// of the point and its side; hidden, larger than all others, for a row that is obstructed, has no room for the point,
+// does not see a lit side of it, or whose end rides with the point.
+kernel void target_rows(const global wt_target_point* points, const global double4* ends,
+                        const global wt_exact_surface* surfaces, global wt_solved* solved, global double* vertices,
+                        global uint* sequences, global uint* keys, uint count, uint max_depth, uint most_depth,
+                        uint hidden) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const uint number = solved[i].receiver, depth = solved[i].depth;
@@ -51,8 +65,31 @@ kernel void target_rows(const global wt_target_point* points, const global doubl
   if (solved[i].blocked || depth >= most_depth || !point->present || carries(point, ends[solved[i].transmitter]))
     return;
   const size_t at = (size_t)i * max_depth + depth;
+  const uint side = seen_side(point, surfaces, depth > 0 ? vload3(at - 1, vertices) : ends[solved[i].transmitter].xyz);
+  if (side == 0) return;
   vstore3((double3)(point->position[0], point->position[1], point->position[2]), at, vertices);
   sequences[at] = WT_STEP_TARGET | number;
   solved[i].depth = depth + 1;
-  keys[i] = wt_point_key(number, 0);
+  keys[i] = wt_point_key(number, side == 1);
+}
+
+// A work-item takes one row. Bodies that are targets themselves neither mirror waves nor scatter or diffract them in
+// other ways, since their facets send all of these: rows with such a step are marked as obstructed. is_body: not 0 for
+// each instance whose body is a target. wedges, surface_of_tile: null where steps name none; tiles from tile_count on
+// are cells of vegetation.
+kernel void target_bodies(const global wt_exact_surface* surfaces, const global wt_wedge* wedges,
+                          const global uint* surface_of_tile, const global uint* is_body, global wt_solved* solved,
+                          const global uint* sequences, const global wt_counters* counters, uint count,
+                          uint solved_counter, uint max_depth, uint tile_count) {
+  const uint i = get_global_id(0);
+  if (i >= wt_length(counters, solved_counter, count)) return;
+  for (uint k = 0; k < solved[i].depth; ++k) {
+    const uint step = sequences[(size_t)i * max_depth + k], number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
+    uint instance = WT_NONE;
+    if (kind == WT_STEP_REFLECTION) instance = surfaces[number].instance;
+    if (kind == WT_STEP_DIFFRACTION && wedges) instance = wedges[number].instance;
+    if (kind == WT_STEP_SCATTERING && surface_of_tile && number < tile_count)
+      instance = surfaces[surface_of_tile[number]].instance;
+    if (instance != WT_NONE && is_body[instance]) solved[i].blocked = 1;
+  }
 }

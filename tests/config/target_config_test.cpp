@@ -80,3 +80,18 @@ TEST_CASE("parts of targets: keys of their kinds, axes, models that there are no
   check_contains(error("radius_m = 0.3\naxis = [0, 0, 0]"), "turns about an axis that is upright or has no length");
   check_contains(error("radius_m = 0.3", "cat"), "target_part.model = \"cat\": there is no [[target_model]]");
 }
+
+TEST_CASE("bodies as targets: keys that they do not have, pieces, and places without a body") {
+  const auto error = [](const std::string& keys) { return error_of(scene + ends + model(keys)); };
+  CHECK(error("kind = \"body\"\non = \"passenger\"\npiece_m = 0.1") == "no error");
+  check_contains(error("kind = \"body\"\nrcs_dbsm = [3]"),
+                 "has kind = \"body\", whose facets and materials are those of the vehicle: remove rcs_dbsm");
+  check_contains(error("kind = \"body\"\nxpr_db = 3"), "remove xpr_db");
+  check_contains(error("kind = \"body\"\nsize_m = [3, 2, 1]"), "remove size_m");
+  check_contains(error("kind = \"body\"\npoints_m = [[3, 2, 1]]"), "remove points_m");
+  check_contains(error("kind = \"body\"\nlobes = [[0, 0, 40, 90, 40, 15, 20]]"), "remove lobes");
+  check_contains(error("kind = \"body\"\nbistatic_db = [1, 1, 1]"), "remove bistatic_db");
+  check_contains(error("kind = \"body\"\npiece_m = 0"), "piece_m");
+  check_contains(error("kind = \"agv\"\npiece_m = 0.1"), "has kind = \"agv\" and piece_m, which only a body has");
+  check_contains(error_of(scene + ends + model("kind = \"body\"") + at("car")), "but a [[target]] has no body");
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// targets: its rows against a double loop over links and points, with points that are absent and ends that ride with a
-// point; the points of a frame as records.
+// targets: its rows against a double loop over links and points, with points that are absent, ends that ride with a
+// point, the points of a frame as records; rows over bodies that are targets.
 #include "passes/targets.hpp"
 
 #include <doctest/doctest.h>
@@ -30,6 +30,14 @@ WorldState five_points() {
   return out;
 }
 
+// Two level triangles, 0 at z = 0.7 and 1 at z = 2, whose normals point upwards.
+DeviceScene two_floors() {
+  const auto level = [](double z) {
+    return Corners{glm::dvec3(-9, -9, z), glm::dvec3(20, -9, z), glm::dvec3(0, 20, z)};
+  };
+  return make_device_scene(context(), scene_of_triangles({level(0.7), level(2)}), false);
+}
+
 }  // namespace
 
 TEST_CASE("targets: a row for every link and every point") {
@@ -45,8 +53,9 @@ TEST_CASE("targets: a row for every link and every point") {
   const WorldState world = five_points();
   TargetRows targets(context(), 5, 2);
   targets.place(world);
-  targets(ends);  // it runs twice: nothing of the first run may remain
-  const SolvedList& list = targets(ends);
+  const DeviceScene scene = two_floors();
+  targets(scene, ends);  // it runs twice: nothing of the first run may remain
+  const SolvedList& list = targets(scene, ends);
   REQUIRE(list.count == links.size() * 5);
   const auto headers = list.headers.read(0, list.count);
   const auto steps = list.sequences.read(0, 2 * size_t{list.count});
@@ -71,8 +80,9 @@ TEST_CASE("targets: a row for every link and every point") {
 TEST_CASE("targets: no links, and other ones than before") {
   TargetRows targets(context(), 5, 1);
   targets.place(five_points());
-  CHECK(targets(make_radio_ends(context(), {EndState{}}, {EndState{}}, {})).count == 0);
-  const SolvedList& list = targets(make_radio_ends(context(), {EndState{}}, std::vector<EndState>(3), {{0, 2}}));
+  const DeviceScene scene = two_floors();
+  CHECK(targets(scene, make_radio_ends(context(), {EndState{}}, {EndState{}}, {})).count == 0);
+  const SolvedList& list = targets(scene, make_radio_ends(context(), {EndState{}}, std::vector<EndState>(3), {{0, 2}}));
   REQUIRE(list.count == 5);
   for (const wt_solved& row : list.headers.read(0, 5)) CHECK(row.receiver == 2);
 }
@@ -89,4 +99,45 @@ TEST_CASE("targets: records of points are turned and move as the points do") {
   CHECK(records[4].law == 14);
   CHECK(records[4].instance == 7);
   CHECK(records[2].present == 0);
+}
+
+TEST_CASE("target_bodies: rows with a mirror, an edge or a tile on a body are marked, others are not") {
+  // Surface 0 is static, surfaces 1 and 2 are those of instances 0 and 1; edge 0 and tile 0 are on instance 1.
+  std::vector<wt_exact_surface> surfaces(3);
+  surfaces[0].instance = WT_NONE;
+  surfaces[1].instance = 0;
+  surfaces[2].instance = 1;
+  std::vector<wt_wedge> edges(1);
+  edges[0].instance = 1;
+  DeviceScene scene = two_floors();
+  scene.exact_surfaces = context().buffer(surfaces, "surfaces");
+  const auto wedges = context().buffer(edges, "edges");
+  const auto tiles = context().buffer(std::vector<uint32_t>{2}, "tiles");
+  const std::vector<std::vector<uint32_t>> rows{{},
+                                                {0},
+                                                {1},
+                                                {2},
+                                                {0, 2},
+                                                {1, WT_STEP_TARGET | 2},
+                                                {WT_STEP_DIFFRACTION | 0},
+                                                {0, WT_STEP_SCATTERING | 0},
+                                                {WT_STEP_SCATTERING | 1},  // a cell
+                                                {WT_STEP_TRANSMISSION | 2}};
+  const std::vector<bool> wanted{false, false, false, true, true, false, true, true, false, false};
+  std::vector<wt_solved> headers(rows.size());
+  std::vector<uint32_t> steps(2 * rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    headers[i].depth = static_cast<uint32_t>(rows[i].size());
+    std::copy(rows[i].begin(), rows[i].end(), steps.begin() + static_cast<ptrdiff_t>(2 * i));
+  }
+  SolvedList list;
+  list.max_depth = 2;
+  list.count = static_cast<uint32_t>(rows.size());
+  list.headers = context().buffer(headers, "headers");
+  list.sequences = context().buffer(steps, "steps");
+  Counters counters(context());
+  TargetBodies bodies(context(), {0, 1});
+  bodies(scene, list, counters, StepTables{&wedges, &tiles, nullptr});
+  const auto marked = list.headers.read(0, list.count);
+  for (size_t i = 0; i < rows.size(); ++i) CHECK((marked[i].blocked != 0) == wanted[i]);
 }

@@ -135,6 +135,21 @@ TEST_CASE("fields on the device are the host's to the last bit: targets") {
   CHECK(kinds[reflection] > 100);
 }
 
+TEST_CASE("fields on the device are the host's to the last bit: bodies of vehicles that are targets") {
+  Config config = town(20000, 3);
+  let_vehicles_hear(config);
+  config.trace.target_reflections = 1;
+  TargetModelConfig body;
+  body.name = "body";
+  body.on = "*";
+  body.kind = "body";
+  body.piece_m = 2;
+  config.target_models = {body};
+  auto kinds = check_same(config, 2);
+  CHECK(kinds[target_point] > 300);
+  CHECK(kinds[reflection] > 300);
+}
+
 TEST_CASE("fields on the device are the host's to the last bit: behind crowns, several of one kind") {
   Config config = town(50000, 3);
   for (int i = 0; i < 6; ++i) {

@@ -82,6 +82,16 @@ typedef struct {
   wt_uint first_lobe, lobe_count;
 } wt_target_law;
 
+// With this in place of lobe_count, the law is that of a piece of a facet, and first_lobe is its number.
+#define WT_FACET_LAW 0xFFFFFFFFu
+
+// A flat triangle of a body that scatters by physical optics (facet.h).
+typedef struct {
+  double corners[9];  // from the point, in the axes of the target; counter-clockwise, seen from outside
+  wt_uint material;   // its record
+  wt_uint turned;     // not 0: the normal of its surface points inwards
+} wt_target_facet;
+
 // Patterns of antennas; the first four have the numbers of NamedAntenna (wavetracer/config.hpp).
 #define WT_PATTERN_ISOTROPIC 0u
 #define WT_PATTERN_SHORT_DIPOLE 1u

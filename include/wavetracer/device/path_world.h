@@ -16,6 +16,11 @@
 #define WT_TARGETS 2
 #endif
 
+// A device need not compile code for pieces of bodies where no target is one.
+#ifndef WT_FACETS
+#define WT_FACETS 1
+#endif
+
 #ifndef __OPENCL_VERSION__
 namespace wavetracer::device {
 #endif
@@ -46,6 +51,7 @@ typedef struct {
   const WT_GLOBAL wt_target_point* targets;  // points of targets, in the frame
   const WT_GLOBAL wt_target_law* laws;
   const WT_GLOBAL wt_target_lobe* lobes;
+  const WT_GLOBAL wt_target_facet* facets;
 } wt_field_world;
 
 // The rows of a frame in their order, so that a row can look at its neighbours; a place may have no row (WT_NO_ROW).

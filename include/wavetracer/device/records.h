@@ -99,6 +99,12 @@ typedef struct {
   wt_uint present;
 } wt_exact_instance;
 
+// Bits of wt_target_point::present. A point that is a piece of a surface is lit where it is seen from above its
+// surface, from below it, or from both.
+#define WT_POINT_PRESENT 1u
+#define WT_POINT_LIT_ABOVE 2u
+#define WT_POINT_LIT_BELOW 4u
+
 // A point of a target in a frame (host/simulation/world_targets.hpp), recentred.
 typedef struct {
   double rotation[9];  // from the axes of the target to those of the scene, row by row
@@ -106,8 +112,8 @@ typedef struct {
   double velocity[3];
   wt_uint instance;  // the vehicle that carries it, which hides nothing from it; WT_NONE without a body
   wt_uint law;       // its law, see wt_target_law
-  wt_uint present;
-  wt_uint padding;
+  wt_uint present;   // bits of WT_POINT_PRESENT; 0: absent
+  wt_uint surface;   // the surface that it is a piece of, all others of which may hide it; else WT_NONE
 } wt_target_point;
 
 // The step of a vertex of a solved path: one of up to eight kinds (wavetracer/interaction_kinds.hpp), and the number of

@@ -6,6 +6,7 @@
 #define WAVETRACER_DEVICE_TARGET_H
 #include "wavetracer/device/antenna.h"
 #include "wavetracer/device/path_world.h"
+#include "wavetracer/device/target_facet.h"
 #include "wavetracer/device/utd.h"
 
 #if WT_TARGETS
@@ -71,16 +72,25 @@ inline double wt_cross_section(const WT_GLOBAL wt_target_law* law, const WT_GLOB
 
 // The wave that point `number` sends on: the amplitude is sqrt(section / 4 pi), in metres as in wt_scatter. Both bases
 // belong to directions away from the point, so the matrix is the same for the way back (eq. 7.9.2-5 without random
-// phases). Another kind of point, with a matrix of its own, is another branch here.
-inline wt_wave_map wt_wave_of_point(const wt_field_world* world, wt_uint number, wt_double3 k_in, wt_double3 k_out) {
+// phases). before_m, after_m: the lengths of the path on both sides of the point. Another kind of point, with a matrix
+// of its own, is another branch here.
+inline wt_wave_map wt_wave_of_point(const wt_field_world* world, wt_uint number, wt_double3 k_in, wt_double3 k_out,
+                                    double before_m, double after_m) {
   const WT_GLOBAL wt_target_point* point = world->targets + number;
   const WT_GLOBAL wt_target_law* law = world->laws + point->law;
-  const double section_db =
-      wt_cross_section(law, world->lobes, wt_in_target(point->rotation, -k_in), wt_in_target(point->rotation, k_out));
-  const double same = wt_exp(section_db * 0.11512925464970228) / sqrt(4.0 * WT_PI);  // ln(10) / 20
   wt_wave_map wave;
   wave.from = wt_target_basis(point->rotation, -k_in);
   wave.to = wt_target_basis(point->rotation, k_out);
+#if WT_FACETS
+  if (law->lobe_count == WT_FACET_LAW) {
+    wave.matrix = wt_facet_wave(world, point, world->facets + law->first_lobe, k_in, k_out, before_m, after_m,
+                                wave.from, wave.to);
+    return wave;
+  }
+#endif
+  const double section_db =
+      wt_cross_section(law, world->lobes, wt_in_target(point->rotation, -k_in), wt_in_target(point->rotation, k_out));
+  const double same = wt_exp(section_db * 0.11512925464970228) / sqrt(4.0 * WT_PI);  // ln(10) / 20
   wave.matrix.m[0] = wave.matrix.m[3] = wt_real(same);
   wave.matrix.m[1] = wave.matrix.m[2] = wt_real(same * law->cross);
   return wave;
