@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_drive measures frames of moving worlds: a hundred vehicles in munich that all talk to each other, a thousand in
-// a generated city, links between
-// fixed antennas among moving cars compared with Sionna RT, placing instances, and memory over a thousand frames. The
-// machine must be quiet. "error" is 1 - the power recall against cold frames of many more rays; for memory it is the
-// growth in MiB.
+// bench_drive measures frames of moving worlds: a hundred vehicles in munich that all talk to each other, and then are
+// targets of sensing as well, a thousand in a generated city, links between fixed antennas among moving cars compared
+// with Sionna RT, placing instances, and memory over a thousand frames. The machine must be quiet. "error" is 1 - the
+// power recall against cold frames of many more rays; for memory it is the growth in MiB.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "continuous.hpp"
@@ -16,7 +14,9 @@
 #include "gpu/gpu.hpp"
 #include "json_line.hpp"
 #include "motion/vehicle_types.hpp"
+#include "resident.hpp"
 #include "scene/load.hpp"
+#include "sensing.hpp"
 #include "street.hpp"
 #include "street_traffic.hpp"
 #include "top_level_times.hpp"
@@ -40,7 +40,7 @@ constexpr size_t sionna_gpu_cars = 100, sionna_cpu_cars = 20;
 
 struct Options {
   std::string device, shared = WAVETRACER_SHARED;
-  std::vector<std::string> cases{"drive", "city", "continuous", "links", "top-level", "memory"};
+  std::vector<std::string> cases{"drive", "city", "continuous", "sensing", "links", "top-level", "memory"};
   uint32_t frames = 30, memory_frames = 1000;
   double step_s = 0.04;
   size_t vehicles = 100, runs = 21;
@@ -121,6 +121,13 @@ void run_continuous(const Options& given, const std::string& command) {
                        config, every_s, options.device, command);
 }
 
+void run_sensing(const Options& options, const std::string& command) {
+  Config config = talking_vehicles(options);
+  config.trace.max_depth = options.depth.front();
+  config.trace.rays = *std::max_element(options.rays.begin(), options.rays.end());
+  print_sensing(fmt::format("munich, {} vehicles", options.vehicles), config, options.frames, options.device, command);
+}
+
 void run_drive(const Options& options, const std::string& command) {
   Drive drive{.config = talking_vehicles(options), .frames = options.frames};
   const uint64_t most_rays = *std::max_element(options.rays.begin(), options.rays.end());
@@ -189,14 +196,6 @@ void run_links(const Options& options, const std::string& command) {
       options.gpu ? std::optional(sionna_10x100_gpu_s) : std::nullopt);
 }
 
-// Returns the resident memory of this process, as Linux counts it.
-double resident_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) * 1024;
-  throw RuntimeError("/proc/self/status has no VmRSS: the case \"memory\" needs Linux");
-}
-
 void run_memory(const Options& options, const std::string& command) {
   constexpr uint32_t settled = 10;
   constexpr double memory_step_s = 0.1;
@@ -256,6 +255,7 @@ int run(Options options, const std::string& command) {
       if (name == "drive") run_drive(options, command);
       if (name == "city") run_city(options, command);
       if (name == "continuous") run_continuous(options, command);
+      if (name == "sensing") run_sensing(options, command);
       if (name == "links") run_links(options, command);
       if (name == "top-level") print_top_level_times(options.device, options.runs, command);
       if (name == "memory") run_memory(options, command);
@@ -276,8 +276,8 @@ int main(int argc, char** argv) {
   bench::Options options;
   app.add_option("--device", options.device, "as for wavetracer run");
   app.add_option("--shared", options.shared, "folder that holds scenes/munich/munich.xml");
-  app.add_option("--cases", options.cases, "some of drive, city, continuous, links, top-level, memory")
-      ->check(CLI::IsMember({"drive", "city", "continuous", "links", "top-level", "memory"}));
+  app.add_option("--cases", options.cases, "some of drive, city, continuous, sensing, links, top-level, memory")
+      ->check(CLI::IsMember({"drive", "city", "continuous", "sensing", "links", "top-level", "memory"}));
   app.add_option("--frames", options.frames, "frames of a drive, 0.04 s apart")->check(CLI::Range(2, 1000));
   app.add_option("--vehicles", options.vehicles, "vehicles of the case drive")->check(CLI::Range(2, 10000));
   app.add_option("--city-vehicles", options.city_vehicles, "vehicles of the case city")->check(CLI::Range(2, 10000));

@@ -106,11 +106,11 @@ std::string path_line(const Totals& totals) {
   return fmt::format("paths      {}{}\n", grouped(totals.counts.paths), kinds);
 }
 
-// Says how many paths trace.scattering_floor_db has left out; empty if there are none.
-std::string weak_line(const Run& run, const FrameCounts& n) {
+// Says how many paths the floors of scattering and of targets have left out; empty if there are none.
+std::string weak_line(const FrameCounts& n) {
   if (n.weak == 0) return "";
-  return fmt::format("left out   {} paths that scatter and are reflected, each below trace.scattering_floor_db = {}\n",
-                     grouped(n.weak), *run.config.trace.scattering_floor_db);
+  return fmt::format("left out   {} paths that scatter, each below trace.scattering_floor_db or target_floor_db\n",
+                     grouped(n.weak));
 }
 
 // Says in how many frames it is not known what rays have missed, and why; empty if there are none.
@@ -291,7 +291,7 @@ std::string report(const Run& run, const Results& results, bool verbose) {
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);
   if (verbose) out += tracing_lines(run, totals);
-  out += path_line(totals) + weak_line(run, totals.counts) + left_out_line(run, totals) + missed_line(run, totals) +
+  out += path_line(totals) + weak_line(totals.counts) + left_out_line(run, totals) + missed_line(run, totals) +
          certificate_line(totals) + late_line(run, totals) + link_lines(results.links, totals.frames > 1) +
          grid_lines(results.links) + compile_line(run) + frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";

@@ -129,6 +129,12 @@ bool has_targets(const Config& config) {
 
 void check_companions(const Config& config, std::vector<Contradiction>& out) {
   const TraceConfig& trace = config.trace;
+  if (trace.target_floor_db && !has_targets(config))
+    out.push_back(
+        {{"trace.target_floor_db"},
+         fmt::format("trace.target_floor_db = {} leaves out paths over targets, and there are none: remove it, "
+                     "or add a [[target]], or a [[target_model]] with on",
+                     *trace.target_floor_db)});
   if (!trace.target || !has_targets(config)) return;
   const auto refuse = [&](std::vector<std::string> keys, const std::string& what) {
     keys.push_back(config.targets.empty() ? "target_model.0" : "target.0");

@@ -202,6 +202,17 @@ Table trace_table() {
                "after it, may be a diffraction at an edge, from which the path goes straight to the target, or on "
                "which it comes straight from it. Corners do not diffract there. Each edge that an end sees is tried "
                "with each point of a target."},
+          {.name = "target_floor_db",
+           .slot = t(&TraceConfig::target_floor_db),
+           .unit = "dB",
+           .range = {-400, 0},
+           .doc =
+               "Only with targets: the path gain between isotropic antennas, without their own gains, below which a path "
+               "over a target may be left out. The program compares an upper bound with it, the radar equation with the "
+               "largest cross section of the point and perfect reflections, so no stronger path is lost, and weaker ones "
+               "may be kept. With many targets and target_reflections it saves most of their time. The entry weak of "
+               "summary.json is the number of paths that are left out after their ways were found. Not given: none is "
+               "left out."},
           {.name = "directions",
            .slot = t(&TraceConfig::directions),
            .doc = "Launch directions. horizon: dense at the slopes that paths between these ends can have, "

@@ -40,7 +40,8 @@ Json stage_seconds(const Run& run, const Totals& totals, double write_seconds) {
 Json rate(uint64_t count, double whole) { return whole > 0 ? Json(static_cast<double>(count) / whole) : Json(nullptr); }
 
 Json counts(const Totals& totals, const TraceConfig& trace) {
-  const bool leaves_out = trace.reflects_scattered() && trace.scattering_floor_db;
+  const bool leaves_out =
+      (trace.reflects_scattered() && trace.scattering_floor_db) || (trace.target && trace.target_floor_db);
   Json json;
   for (const auto& [name, count, optional] : frame_count_names)
     if (!optional || leaves_out) json[name] = totals.counts.*count;

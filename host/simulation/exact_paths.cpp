@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "radio/scattering.hpp"
 #include "radio/world_records.hpp"
@@ -43,12 +44,6 @@ JoinedPoints limits_of(const TraceConfig& trace) {
           .row_depth = tracing_depth(trace).row};
 }
 
-JoinedPoints limits_of_targets(const TraceConfig& trace) {
-  JoinedPoints out = limits_of(trace);
-  if (trace.target_diffraction) out.diffractions = trace.max_diffractions;
-  return out;
-}
-
 JoinedPoints joined_points(const Scene& scene, const World& world, const TileTable& tiles, const TraceConfig& trace,
                            double longest_wavelength_m) {
   constexpr double rounding = 1e-9;
@@ -63,6 +58,19 @@ JoinedPoints joined_points(const Scene& scene, const World& world, const TileTab
         power_of_tile(of.materials[of.surfaces[tile.surface].material], tile.area_m2, longest_wavelength_m));
   }
   return out;
+}
+
+// Bounds of the gains of paths over each point.
+std::vector<double> powers_of(const Targets& targets, double longest_wavelength_m) {
+  std::vector<double> out;
+  for (const TargetPoint& point : targets.points) out.push_back(point.power(longest_wavelength_m));
+  return out;
+}
+
+// Gain below which a path over a target may be left out; 0: none is.
+double target_floor(const TraceConfig& trace) {
+  constexpr double rounding = 1e-9;
+  return trace.target_floor_db ? std::pow(10.0, *trace.target_floor_db / 10) * (1 - rounding) : 0;
 }
 
 }  // namespace
@@ -101,17 +109,28 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
     if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
   }
-  if (trace.target) targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), depth.row);
-  if (trace.target)
-    if (const std::vector<uint32_t> bodies = body_instances(world.targets, world.fleet); !bodies.empty())
-      target_bodies.emplace(context, bodies);
-  if (trace.target && trace.target_reflections > 0)
-    target_chains = std::make_unique<TargetChains>(context, std::min(trace.target_reflections, trace.max_depth - 1),
-                                                   limits_of_targets(trace), longest_wavelength_m);
+  if (trace.target) add_targets(context, world, trace, longest_wavelength_m);
   if (trace.transmission)
     transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth), trace.max_depth);
   else
     occlusion.emplace(context, device_scene);
+}
+
+void ExactPaths::add_targets(gpu::Context& context, const World& world, const TraceConfig& trace,
+                             double longest_wavelength_m) {
+  const double floor = target_floor(trace);
+  const std::vector<double> powers = floor > 0 ? powers_of(world.targets, longest_wavelength_m) : std::vector<double>{};
+  const std::vector<uint32_t> bodies = body_instances(world.targets, world.fleet);
+  if (!bodies.empty()) target_bodies.emplace(context, bodies);
+  targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), tracing_depth(trace).row,
+                  TargetLimits{.floor = floor, .powers = powers, .sides = !bodies.empty()});
+  if (trace.target_reflections == 0) return;
+  JoinedPoints limits = limits_of(trace);
+  limits.floor = floor;
+  limits.powers = powers;
+  if (trace.target_diffraction) limits.diffractions = trace.max_diffractions;
+  target_chains = std::make_unique<TargetChains>(context, std::min(trace.target_reflections, trace.max_depth - 1),
+                                                 std::move(limits), longest_wavelength_m);
 }
 
 void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,

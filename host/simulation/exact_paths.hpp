@@ -56,6 +56,9 @@ struct ExactPaths {
   std::optional<Occlusion> occlusion;           // this or the next one is set
   std::optional<Transmissions> transmissions;
   Visible visible;
+
+ private:
+  void add_targets(gpu::Context& context, const World& world, const TraceConfig& trace, double longest_wavelength_m);
 };
 
 }  // namespace wavetracer

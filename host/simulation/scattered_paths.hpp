@@ -47,7 +47,7 @@ struct ScatteredPaths {
 // Counts of joined paths.
 struct JoinedCounts {
   uint64_t paths = 0;
-  uint64_t weak = 0;  // those that were left out, because they are surely below trace.scattering_floor_db
+  uint64_t weak = 0;  // those that were left out, because they are surely below a floor
 
   void add_to(Uncounted& counts) const {
     counts.candidates += paths;

@@ -99,6 +99,18 @@ JoinedCounts chain_targets(ExactPaths& exact, const DeviceScene& scene, const Ra
       take);
 }
 
+// Makes all paths over targets. see: takes rows whose legs have not been tested; take: as for join_tiles; tell: is
+// called after each kind.
+template <class See, class Take, class Tell>
+void solve_targets(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, uint32_t nodes,
+                   const See& see, const Take& take, const Tell& tell, Uncounted& out) {
+  see((*exact.targets)(scene, ends));  // targets
+  out.weak += exact.targets->weak();
+  if (!exact.target_chains) return;
+  chain_targets(exact, scene, ends, set, nodes, take).add_to(out);  // candidates, solve, targets, sort, point_join
+  tell();
+}
+
 }  // namespace
 
 Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
@@ -152,12 +164,8 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
     join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes, sort, point_join
     tell();
   }
-  if (exact.crowns) see_scattered((*exact.crowns)(ends));           // crowns
-  if (exact.targets) see_scattered((*exact.targets)(scene, ends));  // targets
-  if (exact.target_chains) {
-    chain_targets(exact, scene, ends, set, nodes, take).add_to(out);  // candidates, solve, targets, sort, point_join
-    tell();
-  }
+  if (exact.crowns) see_scattered((*exact.crowns)(ends));  // crowns
+  if (exact.targets) solve_targets(exact, scene, ends, set, nodes, see_scattered, take, tell, out);
   out.rays = std::move(heard);
   return out;
 }

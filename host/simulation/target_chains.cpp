@@ -3,6 +3,9 @@
 #include "simulation/target_chains.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
@@ -20,11 +23,28 @@ std::vector<EndState> as_receivers(const std::vector<TargetState>& targets) {
   return out;
 }
 
-std::vector<Link> present_pairs(const std::vector<EndState>& ends, const std::vector<EndState>& points) {
+// The pairs of an end and a point that may have a path above the floor. No way between them is shorter than the
+// straight one, and none on the other side of the point is shorter than that to the nearest end. A floor of 0 takes
+// all.
+std::vector<Link> strong_pairs(const std::vector<EndState>& ends, const std::vector<EndState>& points,
+                               const JoinedPoints& limits) {
+  const double most_of_edges = std::pow(WT_MOST_OF_EDGE, std::min(limits.diffractions, 2u));
+  std::vector<double> farthest_m2(points.size(), std::numeric_limits<double>::infinity());
+  const auto square = [&](uint32_t end, uint32_t point) {
+    const glm::dvec3 way = ends[end].position_m - points[point].position_m;
+    return glm::dot(way, way);
+  };
+  for (uint32_t point = 0; point < points.size() && limits.floor > 0; ++point) {
+    double nearest_m2 = std::numeric_limits<double>::infinity();
+    for (uint32_t end = 0; end < ends.size(); ++end)
+      if (ends[end].present) nearest_m2 = std::min(nearest_m2, square(end, point));
+    farthest_m2[point] = most_of_edges * limits.powers[point] / (limits.floor * nearest_m2);
+  }
   std::vector<Link> out;
   for (uint32_t end = 0; end < ends.size(); ++end)
     for (uint32_t point = 0; point < points.size(); ++point)
-      if (ends[end].present && points[point].present) out.push_back({end, point});
+      if (ends[end].present && points[point].present && !(square(end, point) > farthest_m2[point]))
+        out.push_back({end, point});
   return out;
 }
 
@@ -33,6 +53,7 @@ std::vector<Link> present_pairs(const std::vector<EndState>& ends, const std::ve
 TargetChains::TargetChains(gpu::Context& context, uint32_t interactions, const JoinedPoints& limits,
                            double longest_wavelength_m)
     : context_(context),
+      limits_(limits),
       most_depth_(limits.max_depth),
       local_(tuning_of(context.info()).exact.group),
       counters_(context),
@@ -51,7 +72,7 @@ TargetChains::TargetChains(gpu::Context& context, uint32_t interactions, const J
 void TargetChains::place(const std::vector<EndState>& launching, const std::vector<TargetState>& targets) {
   const std::vector<EndState> points = as_receivers(targets);
   set_places(context_, ends_, launching, points, {});
-  set_links(context_, ends_, points, present_pairs(launching, points));
+  set_links(context_, ends_, points, strong_pairs(launching, points, limits_));
 }
 
 uint32_t TargetChains::list_nodes(const FoundSequences& found, uint32_t transmitters) {
@@ -152,6 +173,7 @@ JoinedCounts TargetChains::operator()(const DeviceScene& scene, const RadioEnds&
       [&](uint32_t joined) {
         take(join_.list());
         out.paths += joined;
+        out.weak += join_.weak();
       },
       [](uint32_t) {}, [&](uint32_t paths) { join_.refuse(paths); });
   return out;

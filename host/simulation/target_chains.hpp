@@ -35,7 +35,8 @@ struct SeenEdges {
 class TargetChains {
  public:
   // interactions: the most before a target and after it. With limits.diffractions, one of those on either side may be
-  // an edge; longest_wavelength_m: see WedgeSolve.
+  // an edge; longest_wavelength_m: see WedgeSolve. With a floor, ends do not look for points from which their paths are
+  // surely below it, whatever the other end.
   TargetChains(gpu::Context& context, uint32_t interactions, const JoinedPoints& limits, double longest_wavelength_m);
 
   bool takes_edges() const { return edge_ways_.has_value(); }
@@ -65,6 +66,7 @@ class TargetChains {
   void sort(const DeviceScene& scene, SolvedList& ways, const RadioEnds& ends, const TargetRows& targets);
 
   gpu::Context& context_;
+  JoinedPoints limits_;
   uint32_t most_depth_, local_;
   RadioEnds ends_;  // the ends that launch, and the points as receivers
   gpu::Buffer<uint32_t> nodes_;

@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <numbers>
 
 #include "radio/antenna.hpp"
 #include "radio/target_laws.hpp"
 #include "simulation/name_pattern.hpp"
+#include "wavetracer/device/vector.h"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -41,6 +45,20 @@ void add_target(Targets& to, Target target, const TargetModelConfig& model, cons
   }
   target.point_count = static_cast<uint32_t>(to.points.size()) - target.first_point;
   to.all.push_back(std::move(target));
+}
+
+// Sets the bounds of what the point sends.
+void bound(TargetPoint& point, const TargetLaws& laws) {
+  const device::wt_target_law& law = laws.laws[point.law];
+  if (law.lobe_count == WT_FACET_LAW) {
+    const auto corner = [&](int k) { return device::wt_vector(laws.facets[law.first_lobe].corners + 3 * k); };
+    point.area_m2 = 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    return;
+  }
+  double most_db = -std::numeric_limits<double>::infinity();
+  for (uint32_t lobe = law.first_lobe; lobe < law.first_lobe + law.lobe_count; ++lobe)
+    most_db = std::max(most_db, laws.lobes[lobe].peak_db);
+  point.section_m2 = std::pow(10.0, most_db / 10) * (1 + law.cross) * (1 + law.cross);
 }
 
 // The ways of the vehicles with parts.
@@ -129,6 +147,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
     add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, config.target_parts, {},
                laws.first[static_cast<size_t>(&model - config.target_models.data())]);
   }
+  for (TargetPoint& point : out.points) bound(point, laws);
   out.travels = travels_of(out, trajectories);
   return out;
 }
@@ -141,6 +160,13 @@ std::vector<uint32_t> body_instances(const Targets& targets, const Fleet& fleet)
     out[fleet.instance_of_track[*targets.all[point.target].track]] = 1;
   }
   return out;
+}
+
+// The matrix of a facet (facet.h) has entries of 4 at most, so a piece of area A sends a wave of at most
+// 4 sqrt(2) A / (2 wavelength) on, whatever the polarization; its gain does not depend on the wavelength.
+double TargetPoint::power(double wavelength_m) const {
+  const double at_1_m = 1 / std::pow(4 * std::numbers::pi, 3);
+  return at_1_m * (wavelength_m * wavelength_m * section_m2 + 32 * std::numbers::pi * area_m2 * area_m2);
 }
 
 double TargetPoint::reach_m() const { return part ? glm::length(part->pivot_m) + part->arm_m : glm::length(arm_m); }

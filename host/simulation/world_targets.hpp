@@ -31,6 +31,11 @@ struct TargetPoint {
   uint32_t surface = no_target_surface;  // the surface in the world of a piece of a body; see TargetState
   bool lit_above = false, lit_below = false;
 
+  // A bound of its radar cross section, and the area of a piece of a body instead.
+  double section_m2 = 0, area_m2 = 0;
+
+  // A bound of the gain between isotropic antennas of a path over it whose parts before and after it are 1 m long.
+  double power(double wavelength_m) const;
   // Its largest distance from the middle of the footprint.
   double reach_m() const;
 };

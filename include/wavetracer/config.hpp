@@ -223,6 +223,7 @@ struct TraceConfig {
   std::optional<double> scattering_floor_db = {};        // gain below which such paths are left out; not given: none is
   uint32_t target_reflections = 0;                       // most before a target and after it; 0: it is seen directly
   bool target_diffraction = false;                       // one of the interactions on either side may be an edge
+  std::optional<double> target_floor_db = {};  // gain below which paths over targets are left out; else none is
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;

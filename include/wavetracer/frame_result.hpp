@@ -33,7 +33,7 @@ struct FrameCounts {
   uint64_t solved = 0;      // candidates whose points lie in their surfaces
   uint64_t paths = 0;       // visible, distinct
   uint64_t receptions = 0;  // segments that passed a receiver, with trace.reception = "sphere"
-  uint64_t weak = 0;        // paths left out, because they are surely weaker than trace.scattering_floor_db
+  uint64_t weak = 0;        // paths left out, because they are surely below a floor of scattering or targets
 };
 
 // The counts with their names in files, in the order of files. An optional one may be missing there.

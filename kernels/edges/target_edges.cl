@@ -16,9 +16,9 @@ inline int may_diffract_to(const global wt_target_point* point, const global wt_
 // receiver of a candidate is the number of its point. args.max_depth: the most interactions of a way, its edge
 // included.
 kernel void target_edges(const global uint* keys, const global wt_wedge_prefix* prefixes,
-                         const global wt_target_point* points, const global wt_wedge* wedges,
-                         const global wt_surface* surfaces, global wt_wedge_candidate* out,
-                         global wt_counters* counters, wt_wedge_join_arguments args) {
+                         const global wt_target_point* points, const global ushort* links,
+                         const global wt_wedge* wedges, const global wt_surface* surfaces,
+                         global wt_wedge_candidate* out, global wt_counters* counters, wt_wedge_join_arguments args) {
   const uint i = args.first + get_global_id(0) / args.lanes, lane = get_global_id(0) % args.lanes;
   if (i >= args.end || keys[i] == WT_NONE) return;
   const global wt_wedge_prefix* a = prefixes + i;
@@ -31,6 +31,7 @@ kernel void target_edges(const global uint* keys, const global wt_wedge_prefix* 
   batch.count = 0;
   for (uint j = lane; j < args.count; j += args.lanes) {
     double3 at;
+    if (!(links[(size_t)a->end * args.groups + j / 16] >> j % 16 & 1)) continue;
     if (!may_diffract_to(points + j, w, &at)) continue;
     const float3 p = (float3)((float)points[j].position[0], (float)points[j].position[1], (float)points[j].position[2]);
     const wt_edge_onlooker to = {p, (float)at.x, (float)wt_from_edge(at), 0, WT_NONE};

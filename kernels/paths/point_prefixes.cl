@@ -180,7 +180,7 @@ kernel void place_points(const global uint* keys, const global uint* order, cons
     transmissions += (sequences[at] & WT_STEP_KIND) == WT_STEP_TRANSMISSION;
     diffractions += (sequences[at] & WT_STEP_KIND) == WT_STEP_DIFFRACTION;
   }
-  sorted[i].spread = 1.0 / (length_m * length_m);
+  sorted[i].spread = (diffractions > 0 ? WT_MOST_OF_EDGE : 1.0) / (length_m * length_m);
   sorted[i].row = row;
   sorted[i].end = solved[row].transmitter;
   sorted[i].depth = depth;

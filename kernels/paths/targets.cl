@@ -4,6 +4,7 @@
 // rows of them, which end at the point, and their sort keys.
 #include "lib/count.clh"
 #include "lib/images.clh"
+#include "lib/prefetch.clh"
 #include "wavetracer/device/points.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -22,32 +23,58 @@ inline uint seen_side(const global wt_target_point* point, const global wt_exact
   return 0;
 }
 
-// A work-item writes rows_per_item rows. links: transmitter and receiver; rows are ordered by links, then by points. No
+// Is the path by the point surely weaker than the floor? power: a bound of its gain if both of its parts are 1 m long.
+inline int is_weak(const global wt_target_point* point, double power, double floor, double3 from, double3 to) {
+  const double3 p = (double3)(point->position[0], point->position[1], point->position[2]);
+  const double3 before = p - from, after = p - to;
+  return power < floor * (wt_dot(before, before) * wt_dot(after, after));
+}
+
+// A work-item takes rows_per_item rows. links: transmitter and receiver; rows are ordered by links, then by points. No
 // ray found these rows, so every quarter of a launch counts as having found them. Rows of targets that are absent, or
 // whose vehicle carries an end, are marked as obstructed, and so are those whose ends do not see one lit side of a
 // piece of a body.
-kernel void targets(const global uint2* links, const global wt_target_point* points, const global double4* transmitters,
-                    const global double4* receivers, const global wt_exact_surface* surfaces, global wt_solved* solved,
-                    global double* vertices, global uint* sequences, wt_targets_arguments args) {
+// counts: null, or then rows that would be marked are left out, and others written wherever there is room: their number
+// is added to its first word, and to the others, with a carry, that of paths below the floor. powers: for each point,
+// see is_weak; null without a floor.
+kernel void targets(const global uint2* links, const global wt_target_point* points, const global double* powers,
+                    const global double4* transmitters, const global double4* receivers,
+                    const global wt_exact_surface* surfaces, global wt_solved* solved, global double* vertices,
+                    global uint* sequences, global uint* counts, wt_targets_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
   if (begin >= args.row_count) return;
   const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
+  uint weak = 0;
   for (uint row = (uint)begin; row < end; ++row) {
     const uint2 link = links[row / args.points];
     const uint number = row % args.points;
     const global wt_target_point* point = points + number;
-    solved[row].transmitter = link.x;
-    solved[row].receiver = link.y;
-    solved[row].depth = 1;
     const double4 from = transmitters[link.x], to = receivers[link.y];
-    solved[row].blocked = !point->present || carries(point, from) || carries(point, to) ||
-                          !(seen_side(point, surfaces, from.xyz) & seen_side(point, surfaces, to.xyz));
-    solved[row].node = WT_NONE;
-    solved[row].quarters = WT_ALL_QUARTERS;
-    const size_t at = (size_t)row * args.max_depth;
+    const uint blocked = !point->present || carries(point, from) || carries(point, to) ||
+                         !(seen_side(point, surfaces, from.xyz) & seen_side(point, surfaces, to.xyz));
+    uint slot = row;
+    if (counts) {
+      if (blocked) continue;
+      if (powers && is_weak(point, powers[number], args.floor, from.xyz, to.xyz)) {
+        ++weak;
+        continue;
+      }
+      slot = wt_take_places(counts, 1);
+      if (slot >= args.capacity) continue;
+    }
+    solved[slot].transmitter = link.x;
+    solved[slot].receiver = link.y;
+    solved[slot].depth = 1;
+    solved[slot].blocked = blocked;
+    solved[slot].node = WT_NONE;
+    solved[slot].quarters = WT_ALL_QUARTERS;
+    const size_t at = (size_t)slot * args.max_depth;
     vstore3((double3)(point->position[0], point->position[1], point->position[2]), at, vertices);
     sequences[at] = WT_STEP_TARGET | number;
   }
+  if (weak == 0) return;
+  const uint before = atomic_add(counts + 1, weak);
+  if (before + weak < before) atomic_inc(counts + 2);
 }
 
 // A work-item takes one row of solve, whose receiver is a point: the point becomes its last vertex. keys: wt_point_key

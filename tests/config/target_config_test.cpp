@@ -81,7 +81,7 @@ TEST_CASE("parts of targets: keys of their kinds, axes, models that there are no
   check_contains(error("radius_m = 0.3", "cat"), "target_part.model = \"cat\": there is no [[target_model]]");
 }
 
-TEST_CASE("bodies as targets: keys that they do not have, pieces, and places without a body") {
+TEST_CASE("bodies as targets: keys that they do not have, pieces, and places without a body; the floor of targets") {
   const auto error = [](const std::string& keys) { return error_of(scene + ends + model(keys)); };
   CHECK(error("kind = \"body\"\non = \"passenger\"\npiece_m = 0.1") == "no error");
   check_contains(error("kind = \"body\"\nrcs_dbsm = [3]"),
@@ -94,4 +94,7 @@ TEST_CASE("bodies as targets: keys that they do not have, pieces, and places wit
   check_contains(error("kind = \"body\"\npiece_m = 0"), "piece_m");
   check_contains(error("kind = \"agv\"\npiece_m = 0.1"), "has kind = \"agv\" and piece_m, which only a body has");
   check_contains(error_of(scene + ends + model("kind = \"body\"") + at("car")), "but a [[target]] has no body");
+  const std::string floor = "trace.target_floor_db = -150\n";
+  check_contains(error_of(scene + floor + ends), "trace.target_floor_db = -150 leaves out paths over targets");
+  CHECK(error_of(scene + floor + ends + model("kind = \"agv\"") + at("car")) == "no error");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // targets: its rows against a double loop over links and points, with points that are absent, ends that ride with a
-// point, the points of a frame as records; rows over bodies that are targets.
+// point, lit sides and a floor; the points of a frame as records; rows over bodies that are targets.
 #include "passes/targets.hpp"
 
 #include <doctest/doctest.h>
@@ -99,6 +99,52 @@ TEST_CASE("targets: records of points are turned and move as the points do") {
   CHECK(records[4].law == 14);
   CHECK(records[4].instance == 7);
   CHECK(records[2].present == 0);
+}
+
+TEST_CASE("targets: with a floor and with sides only rows that may be seen are written, and weak ones are counted") {
+  Random random(7);
+  std::vector<EndState> transmitters(40), receivers(70);
+  for (std::vector<EndState>* ends : {&transmitters, &receivers})
+    for (EndState& end : *ends) end.position_m = random.in_cube(6);
+  receivers[3].instance = 7;
+  std::vector<Link> links;
+  for (uint32_t t = 0; t < transmitters.size(); ++t)
+    for (uint32_t r = 0; r < receivers.size(); ++r) links.push_back({t, r});
+  WorldState world = five_points();
+  world.targets[0].surface = 0;  // lit from above alone
+  world.targets[0].lit_above = true;
+  world.targets[1].surface = 1;  // from both sides
+  world.targets[1].lit_above = world.targets[1].lit_below = true;
+  const std::vector<double> powers{3, 2, 1, 0.5, 4};
+  constexpr double floor = 2e-3;
+  TargetRows targets(context(), 5, 1, TargetLimits{.floor = floor, .powers = powers, .sides = true});
+  targets.place(world);
+  const SolvedList& list = targets(two_floors(), make_radio_ends(context(), transmitters, receivers, links));
+  std::set<std::tuple<uint32_t, uint32_t, uint32_t>> rows, wanted;
+  uint64_t weak = 0;
+  const auto headers = list.headers.read(0, list.count);
+  const auto steps = list.sequences.read(0, list.count);
+  for (size_t i = 0; i < headers.size(); ++i) {
+    CHECK(headers[i].blocked == 0);
+    CHECK(rows.insert({headers[i].transmitter, headers[i].receiver, steps[i] & ~WT_STEP_KIND}).second);
+  }
+  for (const auto& [tx, rx] : links)
+    for (uint32_t point = 0; point < 5; ++point) {
+      const glm::dvec3 a = transmitters[tx].position_m, b = receivers[rx].position_m;
+      const double height_m = point == 0 ? 0.7 : 2;
+      const bool up = a.z > height_m, same = up == (b.z > height_m);
+      if (point == 2 || (point > 2 && rx == 3) || (point < 2 && !same) || (point == 0 && !up)) continue;
+      const glm::dvec3 p = world.targets[point].position_m;
+      const double gain = powers[point] / std::pow(glm::distance(a, p) * glm::distance(b, p), 2);
+      if (gain < floor)
+        ++weak;
+      else
+        wanted.insert({tx, rx, point});
+    }
+  CHECK(rows == wanted);
+  CHECK(targets.weak() == weak);
+  CHECK(weak > 1000);
+  CHECK(rows.size() > 1000);
 }
 
 TEST_CASE("target_bodies: rows with a mirror, an edge or a tile on a body are marked, others are not") {

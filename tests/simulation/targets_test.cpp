@@ -257,3 +257,43 @@ TEST_CASE("without targets nothing changes; sums of links count what the paths s
   REQUIRE(sums.summed);
   CHECK(sums.summed->kinds[5] == 8);
 }
+
+TEST_CASE("a floor leaves out weak paths over targets alone, with mirrors as well, and counts them") {
+  const SceneFile file(
+      std::vector<Quad>{{{0, -200, -40}, {0, 400, 0}, {0, 0, 80}}, {{-1, -200, -5}, {400, 0, 0}, {0, 400, 0}}});
+  Config config = radar_world(file, {{3, 1, 1}, {50, -20, 2}}, {{4, -2, 2}, {90, 60, 3}}, 4);
+  config.trace.target_reflections = 1;
+  for (int i = 0; i < 24; ++i) {
+    TargetModelConfig model;
+    model.rcs_dbsm = {-10.0 + i};
+    model.xpr_db = 12;
+    add_target(config, model, {5 + 7.0 * i, 60 * std::sin(i), 0.5 + 0.1 * i});
+  }
+  const FrameResult all = run(config);
+  CHECK(all.counts.weak == 0);
+  constexpr double floor_db = -150;
+  config.trace.target_floor_db = floor_db;
+  const FrameResult some = run(config);
+  const auto key = [](const Paths& paths, size_t i) {
+    return std::tuple(paths.tx[i], paths.rx[i], paths.delay_s[i], paths.gain_db[i], paths.doppler_hz[i]);
+  };
+  std::set<std::tuple<uint32_t, uint32_t, double, double, double>> kept;
+  for (size_t i = 0; i < some.paths.size(); ++i) kept.insert(key(some.paths, i));
+  CHECK(kept.size() == some.paths.size());
+  size_t left_out = 0, stays = 0, matched = 0;
+  for (size_t i = 0; i < all.paths.size(); ++i) {
+    const bool found = kept.contains(key(all.paths, i));
+    matched += found;
+    // Both ends have two ports, so the gain is the sum of four powers; a bound is that of one in each polarization.
+    if (all.paths.target[i] == no_target || all.paths.gain_db[i] >= floor_db + 10 * std::log10(2)) {
+      CHECK(found);
+      ++stays;
+    }
+    left_out += !found;
+  }
+  CHECK(matched == some.paths.size());
+  CHECK(stays > 50);
+  CHECK(left_out > 100);
+  CHECK(some.counts.weak > 0);
+  CHECK(some.counts.weak <= left_out);
+}

@@ -9,9 +9,13 @@
 // Tiles of a surface that follow each other are near each other. So many of them are a block, with one box around it.
 #define WT_TILE_BLOCK 64u
 
+// The most power that an edge diffracts, over that of the wave on a mirror of the same length: the wave of an edge has
+// four terms, each of at most half of the amplitude.
+#define WT_MOST_OF_EDGE 4.0
+
 // A prefix of an end that sees a point: a tile. Its vertices are a row of solved paths that ends at the tile.
 typedef struct {
-  double spread;  // 1 / the square of its unfolded length
+  double spread;  // 1 / the square of its unfolded length, times WT_MOST_OF_EDGE over an edge
   wt_uint row;
   wt_uint end;            // a place in the list of ends (radio_ends.hpp)
   wt_uint depth;          // the number of vertices; the tile is one
@@ -57,10 +61,13 @@ typedef struct {
 
 // Paths over points of targets (kernels/paths/targets.cl).
 typedef struct {
+  double floor;  // paths that are surely weaker are left out; only with powers of points
   wt_uint row_count;
   wt_uint rows_per_item;
   wt_uint points;
   wt_uint max_depth;
+  wt_uint capacity;  // room for rows where rows that are surely hidden are left out
+  wt_uint padding;
 } wt_targets_arguments;
 
 #endif
