@@ -33,7 +33,7 @@ glm::dvec3 direction_of(double azimuth_deg, double elevation_deg) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
-std::string cross_section_table(const Body& body, const RadarOptions& options) {
+std::string cross_section_table(const ScatteringBody& body, const RadarOptions& options) {
   const double first = options.azimuths_deg[0], last = options.azimuths_deg[1], step = options.azimuths_deg[2];
   if (!(step > 0) || !(last >= first) || !((last - first) / step < 1e6))
     throw ConfigError(
@@ -47,21 +47,21 @@ std::string cross_section_table(const Body& body, const RadarOptions& options) {
     const glm::dvec3 receiver = direction_of(azimuth, options.elevation_deg);
     const glm::dvec3 transmitter =
         direction_of(options.transmitter_azimuth_deg.value_or(azimuth), options.elevation_deg);
-    const auto sections = cross_sections_m2(body, transmitter, receiver, options.frequency_hz, options.optics);
+    const auto sections = body.cross_sections_m2(transmitter, receiver, options.frequency_hz, options.optics);
     const auto db = [&](size_t k) { return std::round(1e4 * 10 * std::log10(sections[k])) / 1e4; };
     table.add(azimuth, db(0), db(1), db(2), db(3));
   }
   return table.text();
 }
 
-std::string echo_table(const Body& body, const RadarOptions& options) {
+std::string echo_table(const ScatteringBody& body, const RadarOptions& options) {
   const auto place = [](const std::vector<double>& p) { return glm::dvec3(p[0], p[1], p[2]); };
   const glm::dvec3 transmitter = place(options.transmitter_m), receiver = place(options.receiver_m);
   Csv table({"bounces", "delay_s", "theta_theta_re", "theta_theta_im", "theta_phi_re", "theta_phi_im", "phi_theta_re",
              "phi_theta_im", "phi_phi_re", "phi_phi_im", "first_x_m", "first_y_m", "first_z_m", "last_x_m", "last_y_m",
              "last_z_m", "facets"});
   const double at_1_m = speed_of_light_m_s / options.frequency_hz / (4 * M_PI);
-  for (const Echo& echo : scattered(body, transmitter, receiver, options.frequency_hz, options.optics)) {
+  for (const Echo& echo : body.scattered(transmitter, receiver, options.frequency_hz, options.optics)) {
     std::array<std::complex<double>, 4> a = echo.matrix;
     for (std::complex<double>& value : a) value *= at_1_m;
     const glm::dvec3 first = echo.vertices.front(), last = echo.vertices.back();
@@ -81,7 +81,7 @@ void print_radar(const RadarOptions& options) {
   config.up = UpAxis::named(options.up);
   config.default_material = options.default_material;
   const Scene scene = load_scene_file(options.file, config, {}, options.frequency_hz);
-  const Body body = body_of(scene, options.frequency_hz);
+  const ScatteringBody body(body_of(scene, options.frequency_hz));
   std::cout << (options.transmitter_m.empty() ? cross_section_table(body, options) : echo_table(body, options));
 }
 

@@ -19,9 +19,30 @@ Polygon above_all(Polygon polygon, const std::vector<Plane>& planes, double tole
 }
 
 SeenFacet seen_facet(const Polygon& corners) {
-  SeenFacet seen{plane_of(corners), centroid(corners), 0};
-  for (const glm::dvec3 p : corners) seen.radius_m = std::max(seen.radius_m, glm::length(p - seen.centre));
+  SeenFacet seen{plane_of(corners), {centroid(corners), 0}};
+  double& radius_m = seen.sphere.radius_m;
+  for (const glm::dvec3 p : corners) radius_m = std::max(radius_m, glm::length(p - seen.sphere.centre));
   return seen;
+}
+
+// Cones about both spheres: false if they have no direction from the source in common, or the nearer one is behind. It
+// may be true for nothing.
+bool may_hide(const glm::dvec3& source, const Sphere& near, const Sphere& far) {
+  const glm::dvec3 to_near = near.centre - source, to_far = far.centre - source;
+  const double near_m = glm::length(to_near), far_m = glm::length(to_far);
+  if (near_m - near.radius_m > far_m + far.radius_m) return false;
+  if (near_m <= near.radius_m || far_m <= far.radius_m) return true;
+  // Angles are those of sines, and the distance between both lines of sight is at least that of the nearer sphere.
+  const double angle = std::asin(near.radius_m / near_m) + std::asin(far.radius_m / far_m);
+  const double between = std::atan2(glm::length(glm::cross(to_near, to_far)), glm::dot(to_near, to_far));
+  return between <= angle * (1 + 1e-9) + 1e-12;
+}
+
+// False if the sphere is on the dark side of one of the beam's bounds.
+bool reaches(const Beam& beam, const Sphere& sphere, double tolerance_m) {
+  return std::ranges::all_of(beam.bounds, [&](const Plane& bound) {
+    return height_over(bound, sphere.centre) >= -sphere.radius_m - tolerance_m;
+  });
 }
 
 }  // namespace
@@ -37,6 +58,9 @@ LitParts::LitParts(const Body& body) : body_(body), closed_(is_closed(body)) {
   }
   size_m_ = glm::length(upper - lower);
   tolerance_m_ = 1e-9 * size_m_;
+  std::vector<Sphere> spheres;
+  for (const SeenFacet& seen : facets_) spheres.push_back(seen.sphere);
+  tree_ = FacetTree(spheres);
 }
 
 Plane LitParts::towards(glm::dvec3 source, uint32_t facet) const {
@@ -50,27 +74,24 @@ bool LitParts::lit_side(const Beam& beam, uint32_t facet) const {
   return closed_ ? height > tolerance_m_ : std::abs(height) > tolerance_m_;
 }
 
-// Cones about the spheres of both facets: false if they have no direction from the source in common, or the blocker is
-// behind. It may be true for nothing.
-bool LitParts::may_hide(const Beam& beam, uint32_t blocker, uint32_t facet) const {
-  const SeenFacet &near = facets_[blocker], &far = facets_[facet];
-  const glm::dvec3 to_near = near.centre - beam.source, to_far = far.centre - beam.source;
-  const double near_m = glm::length(to_near), far_m = glm::length(to_far);
-  if (near_m - near.radius_m > far_m + far.radius_m) return false;
-  if (near_m <= near.radius_m || far_m <= far.radius_m) return true;
-  // Angles are those of sines, and the distance between both lines of sight is at least that of the nearer sphere.
-  const double angle = std::asin(near.radius_m / near_m) + std::asin(far.radius_m / far_m);
-  const double between = std::atan2(glm::length(glm::cross(to_near, to_far)), glm::dot(to_near, to_far));
-  return between <= angle * (1 + 1e-9) + 1e-12;
-}
-
 // False if the facet is on the dark side of one of the beam's bounds.
 bool LitParts::may_light(const Beam& beam, uint32_t facet) const {
   if (!lit_side(beam, facet) || (!beam.mirrors.empty() && beam.mirrors.back() == facet)) return false;
-  const SeenFacet& seen = facets_[facet];
-  return std::ranges::all_of(beam.bounds, [&](const Plane& bound) {
-    return height_over(bound, seen.centre) >= -seen.radius_m - tolerance_m_;
+  return reaches(beam, facets_[facet].sphere, tolerance_m_);
+}
+
+std::vector<uint32_t> LitParts::hiders(const Beam& beam, uint32_t facet) const {
+  std::vector<uint32_t> out;
+  const Sphere& far = facets_[facet].sphere;
+  const auto may = [&](const Sphere& sphere) {
+    return reaches(beam, sphere, tolerance_m_) && may_hide(beam.source, sphere, far);
+  };
+  tree_.visit(may, [&](uint32_t blocker) {
+    if (blocker != facet && may_light(beam, blocker) && may_hide(beam.source, facets_[blocker].sphere, far))
+      out.push_back(blocker);
   });
+  std::ranges::sort(out);
+  return out;
 }
 
 std::vector<Polygon> LitParts::operator()(const Beam& beam, uint32_t facet) const {
@@ -79,8 +100,8 @@ std::vector<Polygon> LitParts::operator()(const Beam& beam, uint32_t facet) cons
   if (reached.empty()) return {};
   std::vector<Polygon> lit{std::move(reached)};
   const Plane side = towards(beam.source, facet);
-  for (uint32_t blocker = 0; blocker < facets_.size() && !lit.empty(); ++blocker) {
-    if (blocker == facet || !may_light(beam, blocker) || !may_hide(beam, blocker, facet)) continue;
+  for (const uint32_t blocker : hiders(beam, facet)) {
+    if (lit.empty()) break;
     Polygon between = part_above(body_.facets[blocker].corners, side, tolerance_m_);
     if (!between.empty() && !beam.bounds.empty()) between = part_above(between, beam.bounds.back(), tolerance_m_);
     if (!between.empty()) subtract(lit, pyramid(beam.source, between, tolerance_m_), tolerance_m_);

@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "bodies/facet_tree.hpp"
 #include "bodies/polygons.hpp"
 
 namespace wavetracer {
 
-// A facet, ready for questions of visibility.
+// A facet, ready for questions of visibility, with a sphere about it.
 struct SeenFacet {
   Plane plane;
-  glm::dvec3 centre;  // the centre of a sphere about it
-  double radius_m;
+  Sphere sphere;
 };
 
 // Waves that spread from one point: a source, or its image in the last of the facets that reflected them, which they
@@ -25,7 +25,7 @@ struct Beam {
   std::vector<Plane> bounds;
 };
 
-// Keeps a reference to the body. Tests of each facet against each other one take time with the square of their number.
+// Keeps a reference to the body. A tree of spheres finds the few facets that may hide one.
 class LitParts {
  public:
   explicit LitParts(const Body& body);
@@ -42,12 +42,14 @@ class LitParts {
  private:
   bool may_light(const Beam& beam, uint32_t facet) const;
   bool lit_side(const Beam& beam, uint32_t facet) const;
-  bool may_hide(const Beam& beam, uint32_t blocker, uint32_t facet) const;
+  // The facets that may hide this one from the beam, in ascending order.
+  std::vector<uint32_t> hiders(const Beam& beam, uint32_t facet) const;
 
   const Body& body_;
   bool closed_;
   double size_m_ = 0, tolerance_m_ = 0;
   std::vector<SeenFacet> facets_;
+  FacetTree tree_;
 };
 
 }  // namespace wavetracer

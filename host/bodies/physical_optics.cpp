@@ -104,25 +104,54 @@ void turn_back(Echo& echo) {
   std::swap(echo.matrix[1], echo.matrix[2]);
 }
 
+const Body& checked(const Body& body) {
+  check_body(body);
+  return body;
+}
+
 }  // namespace
 
-std::vector<Echo> scattered(const Body& body, glm::dvec3 transmitter, glm::dvec3 receiver, double frequency_hz,
-                            const PhysicalOptics& options) {
-  check_body(body);
+ScatteringBody::ScatteringBody(Body body) : body_(std::move(body)), lit_(checked(body_)) {
+  lower_m_ = upper_m_ = body_.facets[0].corners[0];
+  for (const Facet& facet : body_.facets)
+    for (const glm::dvec3& corner : facet.corners) {
+      lower_m_ = glm::min(lower_m_, corner);
+      upper_m_ = glm::max(upper_m_, corner);
+    }
+}
+
+std::vector<Echo> ScatteringBody::scattered(glm::dvec3 transmitter, glm::dvec3 receiver, double frequency_hz,
+                                            const PhysicalOptics& options) const {
   check_options(options, frequency_hz);
-  check_end(body, "transmitter", transmitter);
-  check_end(body, "receiver", receiver);
-  const LitParts lit(body);
+  check_end(body_, "transmitter", transmitter);
+  check_end(body_, "receiver", receiver);
   const double wavelength_m = speed_of_light_m_s / frequency_hz;
-  std::vector<Echo> echoes = one_way(body, lit, transmitter, receiver, wavelength_m, options);
+  std::vector<Echo> echoes = one_way(body_, lit_, transmitter, receiver, wavelength_m, options);
   if (options.reciprocal) {
-    std::vector<Echo> back = one_way(body, lit, receiver, transmitter, wavelength_m, options);
+    std::vector<Echo> back = one_way(body_, lit_, receiver, transmitter, wavelength_m, options);
     for (Echo& echo : back) turn_back(echo);
     echoes.insert(echoes.end(), std::make_move_iterator(back.begin()), std::make_move_iterator(back.end()));
     for (Echo& echo : echoes)
       for (std::complex<double>& m : echo.matrix) m *= 0.5;
   }
   return echoes;
+}
+
+std::array<double, 4> ScatteringBody::cross_sections_m2(glm::dvec3 to_transmitter, glm::dvec3 to_receiver,
+                                                        double frequency_hz, const PhysicalOptics& options) const {
+  const glm::dvec3 middle = (lower_m_ + upper_m_) / 2.0, size = upper_m_ - lower_m_;
+  // The phase of the far field is right to 2 pi / 800 over the body.
+  const double far_m = std::max(1e6, 100 * glm::dot(size, size) * frequency_hz / speed_of_light_m_s);
+  const Sum sum = sum_of(
+      scattered(middle + to_transmitter * far_m, middle + to_receiver * far_m, frequency_hz, options), frequency_hz);
+  std::array<double, 4> out;
+  for (size_t i = 0; i < 4; ++i) out[i] = 4 * WT_PI * std::norm(sum[i] * far_m * far_m);
+  return out;
+}
+
+std::vector<Echo> scattered(const Body& body, glm::dvec3 transmitter, glm::dvec3 receiver, double frequency_hz,
+                            const PhysicalOptics& options) {
+  return ScatteringBody(body).scattered(transmitter, receiver, frequency_hz, options);
 }
 
 Sum sum_of(const std::vector<Echo>& echoes, double frequency_hz) {
@@ -136,19 +165,7 @@ Sum sum_of(const std::vector<Echo>& echoes, double frequency_hz) {
 
 std::array<double, 4> cross_sections_m2(const Body& body, glm::dvec3 to_transmitter, glm::dvec3 to_receiver,
                                         double frequency_hz, const PhysicalOptics& options) {
-  check_body(body);
-  glm::dvec3 low = body.facets[0].corners[0], high = low;
-  for (const Facet& facet : body.facets)
-    for (const glm::dvec3& corner : facet.corners) low = glm::min(low, corner), high = glm::max(high, corner);
-  const glm::dvec3 middle = (low + high) / 2.0, size = high - low;
-  // The phase of the far field is right to 2 pi / 800 over the body.
-  const double far_m = std::max(1e6, 100 * glm::dot(size, size) * frequency_hz / speed_of_light_m_s);
-  const Sum sum =
-      sum_of(scattered(body, middle + to_transmitter * far_m, middle + to_receiver * far_m, frequency_hz, options),
-             frequency_hz);
-  std::array<double, 4> out;
-  for (size_t i = 0; i < 4; ++i) out[i] = 4 * WT_PI * std::norm(sum[i] * far_m * far_m);
-  return out;
+  return ScatteringBody(body).cross_sections_m2(to_transmitter, to_receiver, frequency_hz, options);
 }
 
 }  // namespace wavetracer

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bodies/body.hpp"
+#include "bodies/lit_parts.hpp"
 
 namespace wavetracer {
 
@@ -35,6 +36,27 @@ struct Echo {
   // receiver to where it comes from; these are the directions by the centre, and both ends are short dipoles along
   // these vectors for all of the part. A path in free space of length L would have 1 / L here. Unit: 1/m.
   std::array<std::complex<double>, 4> matrix{};
+};
+
+// A body that is asked more than once: its facets are checked, and what visibility needs is made of them, when it is
+// made.
+class ScatteringBody {
+ public:
+  // Throws InputError for a body that check_body refuses.
+  explicit ScatteringBody(Body body);
+  ScatteringBody(const ScatteringBody&) = delete;
+  ScatteringBody& operator=(const ScatteringBody&) = delete;
+
+  // See the functions of these names below.
+  std::vector<Echo> scattered(glm::dvec3 transmitter, glm::dvec3 receiver, double frequency_hz,
+                              const PhysicalOptics& options = {}) const;
+  std::array<double, 4> cross_sections_m2(glm::dvec3 to_transmitter, glm::dvec3 to_receiver, double frequency_hz,
+                                          const PhysicalOptics& options = {}) const;
+
+ private:
+  Body body_;
+  LitParts lit_;
+  glm::dvec3 lower_m_, upper_m_;
 };
 
 // The echoes of the body, in the order of the number of bounces and then of facets. Ends are points off the body, in
