@@ -16,14 +16,15 @@ TargetEdges::TargetEdges(gpu::Context& context, uint32_t interactions, double wa
       end_detour_m_(static_cast<float>(WT_END_DETOUR * wavelength_m)) {}
 
 uint32_t TargetEdges::operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first,
-                                 uint32_t end, const WedgeList& wedges, const TargetRows& targets,
-                                 WedgeCandidates& into, Counters& counters) {
+                                 uint32_t end, const WedgeList& wedges, const RadioEnds& ends,
+                                 const TargetRows& targets, WedgeCandidates& into, Counters& counters) {
   const size_t items = size_t{end - first} * lanes_;
   return into.fill(counters, Stage::targets, [&] {
     kernel_({items, group_}, Stage::targets,
             calls::target_edges::target_edges{.keys = prefixes.keys,
                                               .prefixes = prefixes.sorted,
                                               .points = targets.points(),
+                                              .links = ends.links,
                                               .wedges = wedges.wedges,
                                               .surfaces = scene.surfaces,
                                               .out = into.list(),
@@ -33,7 +34,7 @@ uint32_t TargetEdges::operator()(const DeviceScene& scene, const WedgePrefixList
                                                                               .end = end,
                                                                               .lanes = lanes_,
                                                                               .transmitter_count = 0,
-                                                                              .groups = 0,
+                                                                              .groups = ends.receiver_capacity / 16,
                                                                               .max_depth = interactions_,
                                                                               .capacity = into.capacity(),
                                                                               .end_detour_m = end_detour_m_,

@@ -17,10 +17,12 @@ class TargetEdges {
   // interactions: the most of a way, its edge included. wavelength_m: the longest one, for ways over free ends of
   // edges.
   TargetEdges(gpu::Context& context, uint32_t interactions, double wavelength_m);
-  // prefixes: sorted by their keys; those from first to end - 1 are taken. The receiver of a candidate is the number of
-  // its point. Returns the number of candidates, as WedgeCandidates::fill() does.
+  // prefixes: sorted by their keys; those from first to end - 1 are taken. ends: those that launch, with the points as
+  // receivers, and with the links that are wanted. The receiver of a candidate is the number of its point. Returns the
+  // number of candidates, as WedgeCandidates::fill() does.
   uint32_t operator()(const DeviceScene& scene, const WedgePrefixList& prefixes, uint32_t first, uint32_t end,
-                      const WedgeList& wedges, const TargetRows& targets, WedgeCandidates& into, Counters& counters);
+                      const WedgeList& wedges, const RadioEnds& ends, const TargetRows& targets, WedgeCandidates& into,
+                      Counters& counters);
 
  private:
   gpu::KernelOf<calls::target_edges::target_edges> kernel_;

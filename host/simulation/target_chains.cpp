@@ -137,7 +137,7 @@ void TargetChains::add_edge_ways(const DeviceScene& scene, const FoundSequences&
   by_parts(
       edges.prefixes.count, edges.prefixes.count, edges.candidates.most(),
       [&](uint32_t first, uint32_t end) {
-        return edge_ways_->pass(scene, edges.prefixes, first, end, edges.wedges, targets, edges.candidates,
+        return edge_ways_->pass(scene, edges.prefixes, first, end, edges.wedges, ends_, targets, edges.candidates,
                                 counters_);  // target_edges
       },
       [&](uint32_t candidates) {

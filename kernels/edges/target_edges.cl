@@ -13,8 +13,8 @@ inline int may_diffract_to(const global wt_target_point* point, const global wt_
 }
 
 // `lanes` work-items take each prefix of a block, in the order of their wedges, and share the args.count points. The
-// receiver of a candidate is the number of its point. args.max_depth: the most interactions of a way, its edge
-// included.
+// receiver of a candidate is the number of its point. links: the ends that look for each point. args.max_depth: the
+// most interactions of a way, its edge included.
 kernel void target_edges(const global uint* keys, const global wt_wedge_prefix* prefixes,
                          const global wt_target_point* points, const global ushort* links,
                          const global wt_wedge* wedges, const global wt_surface* surfaces,

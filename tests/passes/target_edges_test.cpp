@@ -36,7 +36,9 @@ Tried try_all(const JoinWorld& world, const WorldState& points, uint32_t interac
   const DeviceScene scene = make_device_scene(context(), world.scene, false, 40);
   std::vector<EndState> tx;
   for (const glm::dvec3& p : world.transmitters) tx.push_back({.position_m = p});
-  const RadioEnds ends = make_radio_ends(context(), tx, {EndState{}}, {{0, 0}});
+  // End 1 does not look for point 3.
+  const RadioEnds ends = make_radio_ends(context(), tx, std::vector<EndState>(points.targets.size()),
+                                         {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 1}, {1, 2}});
   const Wedges wedges(context(), world.scene, {}, {}, true);
   Sequences set(context(), 1 << 15);
   enter(set, scene, all_sequences(2, static_cast<uint32_t>(world.quads.size()), 3), 3);
@@ -55,7 +57,7 @@ Tried try_all(const JoinWorld& world, const WorldState& points, uint32_t interac
   Tried out;
   for (uint32_t k = 0; k < parts; ++k) {
     if (k > 0) set.counters().restart(&wt_counters::wedge_candidates, 0, Stage::targets);
-    const uint32_t count = pass(scene, list, list.count * k / parts, list.count * (k + 1) / parts, wedges.list(),
+    const uint32_t count = pass(scene, list, list.count * k / parts, list.count * (k + 1) / parts, wedges.list(), ends,
                                 targets, candidates, set.counters());
     for (const wt_wedge_candidate& c : count ? candidates.list().read(0, count) : std::vector<wt_wedge_candidate>{}) {
       CHECK((c.back == WT_ROOT && c.wedges[1] == WT_NONE));
@@ -71,7 +73,7 @@ Tried try_all(const JoinWorld& world, const WorldState& points, uint32_t interac
     const Sequence from = sequence_of(table, sorted[i].node);
     for (uint32_t p = 0; p < points.targets.size(); ++p) {
       ++out.pairs;
-      if (!points.targets[p].present || reference::is_corner(wedge)) continue;
+      if ((from.transmitter == 1 && p == 3) || !points.targets[p].present || reference::is_corner(wedge)) continue;
       const glm::dvec3 at = points.targets[p].position_m;
       glm::dvec3 image = world.end(from.transmitter);
       for (const uint32_t s : from.surfaces) image = mirrored_by(world.scene.surfaces[s], image);
@@ -98,6 +100,7 @@ TEST_CASE("target_edges: all ways that solve, for every depth and in parts, and 
       CHECK(tried.found.size() < tried.pairs / 2);
       for (const Way& way : tried.found) {
         CHECK(way.point != 2);
+        CHECK((way.from.transmitter == 0 || way.point != 3));
         CHECK(way.from.surfaces.size() < interactions);
         CHECK_FALSE(reference::is_corner(world.scene.wedges[way.wedge]));
       }

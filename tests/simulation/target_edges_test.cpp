@@ -3,6 +3,7 @@
 // target compute, between an antenna and one in the place of the point; and there is one for each pair of ways.
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "simulation/bends.hpp"
 #include "simulation/radar_world.hpp"
@@ -159,4 +160,31 @@ TEST_CASE("edges beside a target: the way back has the same paths, and rays find
         CHECK(std::abs(there[i].second[p] - back[i].second[q]) <= 1e-9 * size);
     }
   }
+}
+
+TEST_CASE("edges beside a target: the floor leaves out weaker paths alone") {
+  const SceneFile file(two_boxes());
+  Config config = edges_config(file, {-11.3, -5.7, 1.6}, {11.9, 3.3, 1.9}, 5, 2);
+  TargetModelConfig model;
+  model.rcs_dbsm = {4};
+  add_target(config, model, {-1.5, 4.2, 1.3});
+  config.trace.target_reflections = 2;
+  config.trace.target_diffraction = true;
+  std::vector<Way> all = ways_of(run(config).paths);
+  std::erase_if(all, [](const Way& way) { return way.kinds.find('T') == std::string::npos; });
+  std::ranges::sort(all, std::greater(), [](const Way& way) { return size_of(way.a); });
+  const double floor_db = 20 * std::log10(size_of(all[all.size() / 3].a));
+  config.trace.target_floor_db = floor_db;
+  std::set<std::string> left;
+  for (const Way& way : ways_of(run(config).paths)) left.insert(way.steps);
+  size_t strong = 0, weak = 0;
+  for (const Way& way : all) {
+    // The gain of a path is at most the sum of the squares of its matrix, and at least half of it for some antennas.
+    const bool above = 20 * std::log10(size_of(way.a)) > floor_db + 3.01;
+    strong += above;
+    weak += !left.contains(way.steps);
+    if (above) CHECK(left.contains(way.steps));
+  }
+  CHECK(strong > 3);
+  CHECK(weak > 0);
 }
