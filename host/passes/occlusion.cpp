@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/paths/occlusion.cl.
-// First legs are tested first, then all others.
+// First legs are tested first, then all others. On CPUs a work-item tests the legs of 16 paths, one number after the
+// other, where nothing moves: packets do not go through the trees of instances.
 #include "passes/occlusion.hpp"
 #include <algorithm>
 #include <string>
@@ -9,52 +10,66 @@
 namespace wavetracer {
 namespace {
 
+constexpr uint32_t paths_together = 16;  // WT_SHARING
+
+bool in_packets(const gpu::DeviceInfo& device, const DeviceScene& scene) {
+  return device.cpu && !scene.definitions.contains("WT_INSTANCES");
+}
+
 gpu::Definitions build_of(const gpu::DeviceInfo& device, const DeviceScene& scene) {
   gpu::Definitions out = scene.definitions;
   if (const uint32_t most = path_tuning_of(device).leg_registers; most > 0)
     out["-cl-nv-maxrregcount"] = std::to_string(most);
+  if (in_packets(device, scene)) out["WT_PACKETS"] = "1";
   return out;
 }
 
 }  // namespace
 
 Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
-    : work_(tuning_of(context.info()).exact), kernel_(context, build_of(context.info(), scene)) {}
+    : work_(tuning_of(context.info()).exact),
+      packets_(in_packets(context.info(), scene)),
+      kernel_(context, build_of(context.info(), scene)) {}
 
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {
-  const auto test = [&](uint32_t first_leg, size_t legs) {
-    const gpu::Range paths_by_legs({solved.count, legs, 1}, {work_.group, 1, 1}, 2);
-    kernel_(paths_by_legs, Stage::occlusion,
-            calls::occlusion::occlusion{.nodes = scene.leg_nodes(),
-                                        .triangles = scene.leg_leaves(),
-                                        .moving = scene.moving,
-                                        .transmitters = ends.transmitters,
-                                        .receivers = ends.receivers,
-                                        .surfaces = scene.exact_surfaces,
-                                        .corners = scene.exact_triangles,
-                                        .solved = solved.headers,
-                                        .vertices = solved.vertices,
-                                        .sequences = solved.sequences,
-                                        .wedges = steps.wedges,
-                                        .surface_of_tile = steps.surface_of_tile,
-                                        .targets = steps.targets,
-                                        .blockers = blockers ? &blockers->places : nullptr,
-                                        .counters = counters.buffer(),
-                                        .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,
-                                                                  .extent_m = scene.extent_m,
-                                                                  .solved_count = solved.count,
-                                                                  .solved_counter = solved.counter,
-                                                                  .max_depth = solved.max_depth,
-                                                                  .most = 0,
-                                                                  .deepest = 0,
-                                                                  .blocker_mask = Blockers::mask,
-                                                                  .tile_count = steps.tile_count(),
-                                                                  .first_leg = first_leg,
-                                                                  .open = solved.open}});
+  const auto test = [&](uint32_t first_leg, const gpu::Range& range) {
+    calls::occlusion::occlusion call{.nodes = scene.leg_nodes(),
+                                     .triangles = scene.leg_leaves(),
+                                     .moving = scene.moving,
+                                     .transmitters = ends.transmitters,
+                                     .receivers = ends.receivers,
+                                     .surfaces = scene.exact_surfaces,
+                                     .corners = scene.exact_triangles,
+                                     .solved = solved.headers,
+                                     .vertices = solved.vertices,
+                                     .sequences = solved.sequences,
+                                     .wedges = steps.wedges,
+                                     .surface_of_tile = steps.surface_of_tile,
+                                     .targets = steps.targets,
+                                     .blockers = blockers ? &blockers->places : nullptr,
+                                     .counters = counters.buffer(),
+                                     .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,
+                                                               .extent_m = scene.extent_m,
+                                                               .solved_count = solved.count,
+                                                               .solved_counter = solved.counter,
+                                                               .max_depth = solved.max_depth,
+                                                               .most = 0,
+                                                               .deepest = 0,
+                                                               .blocker_mask = Blockers::mask,
+                                                               .tile_count = steps.tile_count(),
+                                                               .first_leg = first_leg,
+                                                               .open = solved.open}};
+    if (packets_) {
+      call.packet_nodes = scene.packet_nodes2;
+      call.packet_triangles = scene.triangles2;
+    }
+    kernel_(range, Stage::occlusion, call);
   };
-  test(0, 1);
-  test(1, std::min(solved.max_depth, solved.deepest));
+  if (packets_) return test(0, {(size_t{solved.count} + paths_together - 1) / paths_together, 1});
+  const auto legs = [&](size_t count) { return gpu::Range({solved.count, count, 1}, {work_.group, 1, 1}, 2); };
+  test(0, legs(1));
+  test(1, legs(std::min(solved.max_depth, solved.deepest)));
 }
 
 }  // namespace wavetracer

@@ -22,6 +22,7 @@ class Occlusion {
 
  private:
   Work work_;
+  bool packets_;
   gpu::KernelOf<calls::occlusion::occlusion> kernel_;
 };
 

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// occlusion: finds solved paths with an obstructed leg. A work-item takes one leg; legs from args.first_leg on are
-// ordered by their number first, then by path, so that neighbours traverse alike; lib/legs.clh has the rule. First legs
-// have a launch of their own: paths over one tile follow each other and share their first leg, which is tested once,
-// and later legs of a hidden path need no test. Consumes solved paths; sets wt_solved::blocked. wedges,
+// occlusion: finds solved paths with an obstructed leg; lib/legs.clh has the rule. A work-item takes one leg; legs from
+// args.first_leg on are ordered by their number first, then by path, so that neighbours traverse alike. First legs have
+// a launch of their own: paths over one tile follow each other and share their first leg, which is tested once, and
+// later legs of a hidden path need no test. With WT_PACKETS a work-item takes all legs of 16 paths, those of one number
+// together (lib/leg_packet.clh); the result is the same. Consumes solved paths; sets wt_solved::blocked. wedges,
 // surface_of_tile, targets: see lib/leg.clh. Open rows end at their last vertex. blockers: if given, the triangle that
 // hides a path is stored there.
 #include "lib/blockers.clh"
 #include "lib/count.clh"
+#ifdef WT_PACKETS
+#include "lib/leg_packet.clh"
+#define WT_PACKET_ARGUMENTS const global wt_bvh2_node *packet_nodes, const global wt_bvh2_triangle *packet_triangles,
+#else
+#define WT_PACKET_ARGUMENTS
+#endif
 #include "wavetracer/device/arguments.h"
 
 // At most this many paths share a test.
@@ -20,30 +27,64 @@ inline int wt_shares_first_leg(const global wt_solved* solved, const global uint
          solved[i].transmitter == solved[i - 1].transmitter;
 }
 
-kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
-                      const global double4* transmitters, const global double4* receivers,
-                      const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
-                      const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
-                      const global uint* surface_of_tile, const global wt_target_point* targets, global uint* blockers,
-                      const global wt_counters* counters, wt_legs_arguments args) {
-  const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);
-  const uint count = wt_length(counters, args.solved_counter, args.solved_count);
-  if (i >= count || leg + args.open > solved[i].depth) return;
-  if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
-  // Most paths are obstructed, and a leg that was found obstructed saves the later ones. A leg tested too early to see
-  // that does no harm. First legs are always tested, since others wait for the answer.
-  if (leg > 0 && wt_load_relaxed_u32(&solved[i].blocked)) return;
-  const size_t row = (size_t)i * args.max_depth;
-  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count, targets};
-  wt_leg l;
-  wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers, &l);
-  uint place;
-  if (!wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &place))
-    return;
+// Path i, and those that share its first leg, are hidden by the triangle at this place.
+inline void hide(global wt_solved* solved, const global uint* sequences, uint i, uint count, uint leg, uint place,
+                 global uint* blockers, wt_legs_arguments args) {
   uint k = i;
   do {
     atomic_or(&solved[k].blocked, 1u);
     wt_remember_blocker(blockers, args.blocker_mask, solved[k].node, solved[k].receiver, leg, place);
     ++k;
   } while (leg == 0 && k < count && wt_shares_first_leg(solved, sequences, args.max_depth, k));
+}
+
+kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
+                      const global double4* transmitters, const global double4* receivers,
+                      const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
+                      const global double* vertices, const global uint* sequences, const global wt_wedge* wedges,
+                      const global uint* surface_of_tile, const global wt_target_point* targets, global uint* blockers,
+                      const global wt_counters* counters, WT_PACKET_ARGUMENTS wt_legs_arguments args) {
+  const uint count = wt_length(counters, args.solved_counter, args.solved_count);
+  const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count, targets};
+#ifdef WT_PACKETS
+  const uint first = WT_SHARING * get_global_id(0), end = min(first + WT_SHARING, count);
+  wt_leg_block block;
+  for (uint leg = 0, some = first < end; some; ++leg) {
+    some = 0;
+    for (uint i = first; i < first + WT_SHARING; ++i) {
+      int* verdict = block.verdicts + (i - first);
+      *verdict = WT_LEG_LEFT_OUT;
+      if (i >= end || leg + args.open > solved[i].depth || (leg > 0 && solved[i].blocked)) continue;
+      some = 1;
+      if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) continue;
+      const size_t row = (size_t)i * args.max_depth;
+      wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers,
+                block.legs + (i - first));
+      *verdict = blockers ? WT_LEG_UNSURE : WT_LEG_FREE;
+    }
+    if (some && !blockers)
+      wt_test_leg_block(packet_nodes, packet_triangles, args.triangle_slots, args.extent_m, surfaces, &block);
+    for (uint i = first; i < end; ++i) {
+      const int verdict = block.verdicts[i - first];
+      uint place = WT_NONE;
+      if (verdict == WT_LEG_HIDDEN ||
+          (verdict == WT_LEG_UNSURE && wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving,
+                                                     surfaces, corners, block.legs + (i - first), &place)))
+        hide(solved, sequences, i, count, leg, place, blockers, args);
+    }
+  }
+#else
+  const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);
+  if (i >= count || leg + args.open > solved[i].depth) return;
+  if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) return;
+  // Most paths are obstructed, and a leg that was found obstructed saves the later ones. A leg tested too early to see
+  // that does no harm. First legs are always tested, since others wait for the answer.
+  if (leg > 0 && wt_load_relaxed_u32(&solved[i].blocked)) return;
+  const size_t row = (size_t)i * args.max_depth;
+  wt_leg l;
+  wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers, &l);
+  uint place;
+  if (wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &place))
+    hide(solved, sequences, i, count, leg, place, blockers, args);
+#endif
 }
