@@ -1,21 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/paths/solve.cl.
-// One candidate per work-item.
+// One candidate per work-item, or a run of them on CPUs, whose rows are near each other then.
 #include "passes/solve.hpp"
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
+namespace {
+
+// CPUs: candidates of a work-item, and the largest depth whose points it keeps until it knows their places.
+constexpr uint32_t together = 16, deepest_together = 8;
+
+uint32_t candidates_of_item(const gpu::DeviceInfo& device, uint32_t max_depth) {
+  return device.cpu && max_depth <= deepest_together ? together : 1;
+}
+
+gpu::Definitions build_of(const gpu::DeviceInfo& device, uint32_t max_depth, bool remembers) {
+  gpu::Definitions out;
+  if (remembers) out["WT_BLOCKERS"] = "1";
+  if (const uint32_t candidates = candidates_of_item(device, max_depth); candidates > 1) {
+    out["WT_TOGETHER"] = std::to_string(candidates) + "u";
+    out["WT_ROOM"] = std::to_string(max_depth) + "u";
+  }
+  return out;
+}
+
+}  // namespace
 
 Solve::Solve(gpu::Context& context, uint32_t max_depth, bool remembers)
     : context_(context),
       work_(tuning_of(context.info()).exact),
       remembers_(remembers),
-      kernel_(context, remembers ? gpu::Definitions{{"WT_BLOCKERS", "1"}} : gpu::Definitions{}) {
+      kernel_(context, build_of(context.info(), std::max(max_depth, 1u), remembers)) {
+  work_.per_item = candidates_of_item(context.info(), std::max(max_depth, 1u));
+  if (work_.per_item > 1) work_.group = 1;
   solved_.max_depth = std::max(max_depth, 1u);
   solved_.counter = counter_word(&wt_counters::solved);
   solved_.reserve(context, 1 << 14);

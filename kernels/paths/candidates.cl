@@ -22,30 +22,40 @@ inline uint bits_of(int8 m) {
 
 inline uint lowest_bit(uint bits) { return popcount((bits & (~bits + 1)) - 1u); }
 
-// Receivers that wait for the last test, which is made for eight at once.
+// Candidates that are written together: runs of one sequence, whose paths are near each other (lib/leg_packet.clh).
+#define TOGETHER 256u
+
+// Receivers that wait for the last test, which is made for eight at once, and those that have passed it.
 typedef struct {
   double x[8], y[8], z[8];
   uint receiver[8];
-  uint count;
+  uint count, passed_count;
+  uint passed[TOGETHER];
 } waiting_receivers;
 
-// Makes candidates of those that pass the last test. Places from `count` on are tested, too, but not used.
+// Makes candidates of the receivers that have passed the last test.
+inline void write_passed(waiting_receivers* w, uint node, global wt_candidate* out, global wt_counters* counters,
+                         uint capacity) {
+  const uint first = w->passed_count ? atomic_add(&counters->candidates, w->passed_count) : 0u;
+  for (uint k = 0; k < w->passed_count && first + k < capacity; ++k) {
+    out[first + k].node = node;
+    out[first + k].receiver = w->passed[k];
+  }
+  w->passed_count = 0;
+}
+
+// Makes the last test. Places from `count` on are tested, too, but not used.
 inline void test_waiting(waiting_receivers* w, const wt_followed* s, const global wt_exact_surface* exact,
                          const global wt_surface* surfaces, uint node, global wt_candidate* out,
                          global wt_counters* counters, uint capacity) {
   char keep[8];
   vstore8(wt_in_boxes8(s, exact, surfaces, vload8(0, w->x), vload8(0, w->y), vload8(0, w->z)), 0, keep);
-  uint kept = 0;
   for (uint k = 0; k < w->count; ++k) {
-    w->receiver[kept] = w->receiver[k];
-    kept += keep[k] != 0;
+    w->passed[w->passed_count] = w->receiver[k];
+    w->passed_count += keep[k] != 0;
   }
   w->count = 0;
-  const uint first = kept ? atomic_add(&counters->candidates, kept) : 0u;
-  for (uint k = 0; k < kept && first + k < capacity; ++k) {
-    out[first + k].node = node;
-    out[first + k].receiver = w->receiver[k];
-  }
+  if (w->passed_count + 8 >= TOGETHER) write_passed(w, node, out, counters, capacity);
 }
 
 // The places of a group that pass the first test, a bit each. places: the first; three planes of `stride`.
@@ -75,7 +85,7 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
   if (s.depth > 0) wt_begin_beam(&s, &beam);
   for (uint k = 0; k < mirrors; ++k) wt_mirror_sides(&s, exact, surfaces, s.depth - 1 - k, &beam);
   waiting_receivers waiting;
-  waiting.count = 0;
+  waiting.count = waiting.passed_count = 0;
   const global ushort* wanted = links + (size_t)s.transmitter * groups;
   for (uint first_area = 0; 16 * first_area < groups; first_area += 8) {
     uint near_areas = groups > WT_FEW_GROUPS ? 0xFFu : 1u;
@@ -102,6 +112,7 @@ kernel void candidates(const global ulong* table, const global uint* nodes, cons
     }
   }
   if (waiting.count > 0) test_waiting(&waiting, &s, exact, surfaces, nodes[i], out, counters, args.capacity);
+  write_passed(&waiting, nodes[i], out, counters, args.capacity);
 }
 #else
 #include "lib/receiver_walk.clh"

@@ -6,6 +6,7 @@
 #include "lib/blockers.clh"
 #endif
 #include "lib/reflections.clh"
+#include "lib/reflections8.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -35,9 +36,38 @@ inline void prefetch_blocker(const global uint* blockers, uint mask, const globa
   wt_prefetch(blockers + wt_blocker_slot(candidate->node, candidate->receiver, mask));
 }
 #define WT_BLOCKER_ARGUMENTS const global WT_LEAF *leaves, const global uint *blockers,
+#define WT_BLOCKERS_GIVEN leaves, blockers,
 #else
 #define WT_BLOCKER_ARGUMENTS
+#define WT_BLOCKERS_GIVEN
 #endif
+
+// Candidates of a work-item, and the most reflections of a path. CPUs solve eight candidates of one sequence at once.
+#ifndef WT_TOGETHER
+#define WT_TOGETHER 1u
+#define WT_ROOM WT_MAX_DEPTH
+#endif
+
+// The sequence of a candidate.
+typedef struct {
+  uint node, depth, transmitter;
+  uint chain[WT_MAX_DEPTH];
+  double3 images[WT_MAX_DEPTH + 1];  // of the transmitter in the surfaces
+} followed_sequence;
+
+// Rows that are found: the candidate of each and its points, axis by axis.
+typedef struct {
+  uint count, candidate[WT_TOGETHER];
+  double points[WT_ROOM][3][WT_TOGETHER];
+} found_rows;
+
+inline void follow(const global ulong* table, const global double4* transmitters,
+                   const global wt_exact_surface* surfaces, uint node, followed_sequence* s) {
+  s->node = node;
+  s->depth = wt_chain(table, node, s->chain, &s->transmitter);
+  s->images[0] = transmitters[s->transmitter].xyz;
+  for (uint k = 0; k < s->depth; ++k) s->images[k + 1] = wt_reflected(surfaces + s->chain[k], s->images[k]);
+}
 
 // Begins to read the chains of the candidates that follow candidate i.
 inline void prefetch_chains(const global ulong* table, const global wt_candidate* candidates, uint i, uint count) {
@@ -45,50 +75,141 @@ inline void prefetch_chains(const global ulong* table, const global wt_candidate
     wt_chain_prefetch(table, candidates[i + (WT_AHEAD >> step)].node, step);
 }
 
+// Adds candidate i, unless it has no path, or what hid its path before still does.
+inline void find_row(const followed_sequence* s, const global double4* transmitters, const global double4* receivers,
+                     const global wt_exact_surface* surfaces, const global double* triangles,
+                     const global wt_exact_instance* instances, const global wt_candidate* candidates, uint i,
+                     global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args, found_rows* rows) {
+  const double4 to = receivers[candidates[i].receiver];
+  // The vehicle that carries an antenna does not reflect for it, as it hides nothing from it.
+  if (s->depth > 0) {
+    const uint first = surfaces[s->chain[0]].instance, last = surfaces[s->chain[s->depth - 1]].instance;
+    if ((first != WT_NONE && first == wt_end_instance(transmitters[s->transmitter])) ||
+        (last != WT_NONE && last == wt_end_instance(to)))
+      return;
+  }
+  double3 points[WT_ROOM];
+  if (!wt_reflection_points(surfaces, triangles, instances, s->chain, s->depth, s->images, to.xyz, points)) return;
+#ifdef WT_BLOCKERS
+  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, triangles, s->chain, s->depth, s->node,
+             candidates[i].receiver, transmitters[s->transmitter], to, points)) {
+    atomic_inc(&counters->hidden);
+    return;
+  }
+#endif
+  for (uint k = 0; k < s->depth; ++k) {
+    rows->points[k][0][rows->count] = points[k].x;
+    rows->points[k][1][rows->count] = points[k].y;
+    rows->points[k][2][rows->count] = points[k].z;
+  }
+  rows->candidate[rows->count++] = i;
+}
+
+#if WT_TOGETHER > 1
+// Adds those of candidates first to first + 7, all of this sequence, that have a path. Where points are so close that
+// wt_reflection_points looks at them more closely, or surfaces move, candidates are left to find_row. Returns these,
+// a bit each.
+inline uint find_rows8(const followed_sequence* s, const global double4* receivers,
+                       const global wt_exact_surface* surfaces, const global double* triangles,
+                       const global wt_candidate* candidates, uint first, found_rows* rows) {
+  for (uint k = 0; k < s->depth; ++k)
+    if (surfaces[s->chain[k]].instance != WT_NONE) return 0xFFu;
+  double to[3][8];
+  for (uint lane = 0; lane < 8; ++lane) {
+    const double4 receiver = receivers[candidates[first + lane].receiver];
+    to[0][lane] = receiver.x;
+    to[1][lane] = receiver.y;
+    to[2][lane] = receiver.z;
+  }
+  wt_points8 points[WT_ROOM];
+  const wt_points8 ends = {vload8(0, to[0]), vload8(0, to[1]), vload8(0, to[2])};
+  long8 close = 0;
+  const long8 kept = wt_reflection_points8(surfaces, triangles, s->chain, s->depth, s->images, ends, points, &close);
+  char keep[8], leave[8];
+  vstore8(convert_char8(kept & ~close), 0, keep);
+  vstore8(convert_char8(close), 0, leave);
+  double xyz[3][8];
+  uint place[8], left = 0, count = rows->count;
+  for (uint lane = 0; lane < 8; ++lane) {
+    place[lane] = count;
+    if (leave[lane]) left |= 1u << lane;
+    if (keep[lane]) rows->candidate[count++] = first + lane;
+  }
+  for (uint k = 0; k < s->depth; ++k) {
+    vstore8(points[k].x, 0, xyz[0]);
+    vstore8(points[k].y, 0, xyz[1]);
+    vstore8(points[k].z, 0, xyz[2]);
+    for (uint axis = 0; axis < 3; ++axis)
+      for (uint lane = 0; lane < 8; ++lane)
+        if (keep[lane]) rows->points[k][axis][place[lane]] = xyz[axis][lane];
+  }
+  rows->count = count;
+  return left;
+}
+
+inline int is_run(const global wt_candidate* candidates, uint first, uint end) {
+  if (first + 8 > end) return 0;
+  int one = 1;
+  for (uint lane = 1; lane < 8; ++lane) one &= candidates[first + lane].node == candidates[first].node;
+  return one;
+}
+#endif
+
+// Writes the rows that were found to places that follow each other.
+inline void write_rows(const global ulong* table, const global uint* quarters, const global double4* transmitters,
+                       const global wt_exact_surface* surfaces, const global wt_candidate* candidates,
+                       const found_rows* rows, followed_sequence* s, global wt_solved* solved, global double* vertices,
+                       global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
+  const uint first = rows->count > 0 ? atomic_add(&counters->solved, rows->count) : 0;
+  for (uint n = 0; n < rows->count && first + n < args.capacity; ++n) {
+    const uint slot = first + n;
+    const wt_candidate candidate = candidates[rows->candidate[n]];
+    if (candidate.node != s->node) follow(table, transmitters, surfaces, candidate.node, s);
+    solved[slot].transmitter = s->transmitter;
+    solved[slot].receiver = candidate.receiver;
+    solved[slot].depth = s->depth;
+    solved[slot].blocked = 0;
+    solved[slot].node = candidate.node;
+    solved[slot].quarters = wt_found_by(quarters, candidate.node);
+    for (uint k = 0; k < s->depth; ++k) {
+      const size_t at = (size_t)slot * args.max_depth + k;
+      for (uint axis = 0; axis < 3; ++axis) vertices[3 * at + axis] = rows->points[k][axis][n];
+      sequences[at] = s->chain[k];
+    }
+  }
+}
+
+// A work-item takes WT_TOGETHER candidates that follow each other, so that their paths follow each other, too.
 kernel void solve(const global ulong* table, const global uint* quarters, const global double4* transmitters,
                   const global double4* receivers, const global wt_exact_surface* surfaces,
                   const global double* triangles, const global wt_exact_instance* instances,
                   const global wt_candidate* candidates, global wt_solved* solved, global double* vertices,
                   global uint* sequences, global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args) {
-  const uint i = get_global_id(0), count = min(args.candidate_count, counters->candidates);
-  if (i >= count) return;
-  prefetch_chains(table, candidates, i, count);
+  const uint count = min(args.candidate_count, counters->candidates), begin = WT_TOGETHER * get_global_id(0);
+  if (begin >= count) return;
+  const uint end = min(begin + WT_TOGETHER, count);
+  followed_sequence s;
+  found_rows rows;
+  rows.count = 0;
+  for (uint i = begin; i < end;) {
+    prefetch_chains(table, candidates, i, count);
 #ifdef WT_BLOCKERS
-  if (i + WT_AHEAD < count) prefetch_blocker(blockers, args.blocker_mask, candidates + i + WT_AHEAD);
+    if (i + WT_AHEAD < count) prefetch_blocker(blockers, args.blocker_mask, candidates + i + WT_AHEAD);
 #endif
-  uint chain[WT_MAX_DEPTH], transmitter;
-  const uint depth = wt_chain(table, candidates[i].node, chain, &transmitter);
-  // The vehicle that carries an antenna does not reflect for it, as it hides nothing from it.
-  if (depth > 0) {
-    const uint first = surfaces[chain[0]].instance, last = surfaces[chain[depth - 1]].instance;
-    if ((first != WT_NONE && first == wt_end_instance(transmitters[transmitter])) ||
-        (last != WT_NONE && last == wt_end_instance(receivers[candidates[i].receiver])))
-      return;
-  }
-  double3 images[WT_MAX_DEPTH + 1], points[WT_MAX_DEPTH];
-  images[0] = transmitters[transmitter].xyz;
-  for (uint k = 0; k < depth; ++k) images[k + 1] = wt_reflected(surfaces + chain[k], images[k]);
-  const double3 to = receivers[candidates[i].receiver].xyz;
-  if (!wt_reflection_points(surfaces, triangles, instances, chain, depth, images, to, points)) return;
-#ifdef WT_BLOCKERS
-  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, triangles, chain, depth,
-             candidates[i].node, candidates[i].receiver, transmitters[transmitter], receivers[candidates[i].receiver],
-             points)) {
-    atomic_inc(&counters->hidden);
-    return;
-  }
+    if (i == begin || candidates[i].node != s.node) follow(table, transmitters, surfaces, candidates[i].node, &s);
+    uint left = 1u;
+#if WT_TOGETHER > 1 && !defined(WT_BLOCKERS)
+    const int run = is_run(candidates, i, end);
+    if (run) left = find_rows8(&s, receivers, surfaces, triangles, candidates, i, &rows);
+#else
+    const int run = 0;
 #endif
-  const uint slot = atomic_inc(&counters->solved);
-  if (slot >= args.capacity) return;
-  solved[slot].transmitter = transmitter;
-  solved[slot].receiver = candidates[i].receiver;
-  solved[slot].depth = depth;
-  solved[slot].blocked = 0;
-  solved[slot].node = candidates[i].node;
-  solved[slot].quarters = wt_found_by(quarters, candidates[i].node);
-  for (uint k = 0; k < depth; ++k) {
-    const size_t at = (size_t)slot * args.max_depth + k;
-    vstore3(points[k], at, vertices);
-    sequences[at] = chain[k];
+    for (uint k = 0; left; ++k, left >>= 1)
+      if (left & 1u)
+        find_row(&s, transmitters, receivers, surfaces, triangles, instances, candidates, i + k, counters,
+                 WT_BLOCKERS_GIVEN args, &rows);
+    i += run ? 8 : 1;
   }
+  write_rows(table, quarters, transmitters, surfaces, candidates, &rows, &s, solved, vertices, sequences, counters,
+             args);
 }
