@@ -10,7 +10,7 @@
 namespace wavetracer {
 namespace {
 
-constexpr uint32_t paths_together = 16;  // WT_SHARING
+constexpr uint32_t paths_together = 128;  // WT_SHARING x BLOCKS
 
 bool in_packets(const gpu::DeviceInfo& device, const DeviceScene& scene) {
   return device.cpu && !scene.definitions.contains("WT_INSTANCES");

@@ -22,8 +22,7 @@ inline uint bits_of(int8 m) {
 
 inline uint lowest_bit(uint bits) { return popcount((bits & (~bits + 1)) - 1u); }
 
-// Candidates that are written together: runs of one sequence, whose paths are near each other (lib/leg_packet.clh).
-#define TOGETHER 256u
+#define TOGETHER 256u  // candidates that are written together: their paths are near each other (lib/leg_packet.clh)
 
 // Receivers that wait for the last test, which is made for eight at once, and those that have passed it.
 typedef struct {

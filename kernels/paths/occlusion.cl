@@ -38,6 +38,63 @@ inline void hide(global wt_solved* solved, const global uint* sequences, uint i,
   } while (leg == 0 && k < count && wt_shares_first_leg(solved, sequences, args.max_depth, k));
 }
 
+#ifdef WT_PACKETS
+// Blocks of 16 paths that a work-item takes, one after the other; what hid a leg of one hides those of the next. Longer
+// paths share the last entry.
+#define BLOCKS 8u
+#define PACKET_LEGS 8u
+
+// All legs of the 16 paths from `first` on. Where blockers remember what hid paths, each leg is tested alone, since the
+// tree of packets has other places.
+inline void test_paths(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
+                       const global double4* transmitters, const global double4* receivers,
+                       const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
+                       const global double* vertices, const global uint* sequences, const wt_step_tables* tables,
+                       global uint* blockers, const global wt_bvh2_node* packet_nodes,
+                       const global wt_bvh2_triangle* packet_triangles, uint first, uint count, wt_last_hider* last,
+                       wt_legs_arguments args) {
+  const uint end = min(first + WT_SHARING, count);
+  wt_leg_source source = {tables, transmitters, receivers, solved, vertices, sequences, first, args.max_depth, 0};
+  wt_leg_block block;
+  wt_clear_block(&block);
+  for (uint leg = 0, some = 1, packed = 0; some; ++leg) {
+    some = packed = 0;
+    source.number = leg;
+    const uint begin_side = wt_begin_side(leg);
+    for (uint i = first, lane = 0; lane < WT_SHARING; ++i, ++lane) {
+      block.verdicts[lane] = WT_LEG_LEFT_OUT;
+      if (i >= end || leg + args.open > solved[i].depth || (leg > 0 && solved[i].blocked)) continue;
+      some = 1;
+      const size_t row = (size_t)i * args.max_depth;
+      const int from_mirror = leg == 0 || block.mirrors[lane];
+      if (leg == 0)
+        wt_set_stop(&block, begin_side, lane, surfaces, solved + i, 0, vertices + 3 * row, sequences + row,
+                    transmitters, receivers);
+      block.mirrors[lane] = wt_set_stop(&block, 1 - begin_side, lane, surfaces, solved + i, leg + 1, vertices + 3 * row,
+                                        sequences + row, transmitters, receivers);
+      block.plain[lane] = from_mirror && block.mirrors[lane];
+      if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) continue;
+      block.verdicts[lane] = blockers ? WT_LEG_UNSURE : WT_LEG_FREE;
+      packed |= block.verdicts[lane] == WT_LEG_FREE;
+    }
+    if (packed)
+      wt_test_leg_block(packet_nodes, packet_triangles, args.triangle_slots, args.extent_m, &source,
+                        last + min(leg, PACKET_LEGS - 1u), &block);
+    for (uint i = first, lane = 0; i < end; ++i, ++lane) {
+      uint place = WT_NONE;
+      int hidden = block.verdicts[lane] == WT_LEG_HIDDEN;
+      if (block.verdicts[lane] == WT_LEG_UNSURE) {
+        wt_leg l;
+        wt_leg_of_lane(&source, lane, &l);
+        hidden =
+            wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving, surfaces, corners, &l, &place);
+      }
+      if (hidden) hide(solved, sequences, i, count, leg, place, blockers, args);
+    }
+  }
+}
+#endif
+
 kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                       const global double4* transmitters, const global double4* receivers,
                       const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
@@ -47,31 +104,13 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
   const uint count = wt_length(counters, args.solved_counter, args.solved_count);
   const wt_step_tables tables = {surfaces, wedges, surface_of_tile, args.tile_count, targets};
 #ifdef WT_PACKETS
-  const uint first = WT_SHARING * get_global_id(0), end = min(first + WT_SHARING, count);
-  wt_leg_block block;
-  for (uint leg = 0, some = first < end; some; ++leg) {
-    some = 0;
-    for (uint i = first; i < first + WT_SHARING; ++i) {
-      int* verdict = block.verdicts + (i - first);
-      *verdict = WT_LEG_LEFT_OUT;
-      if (i >= end || leg + args.open > solved[i].depth || (leg > 0 && solved[i].blocked)) continue;
-      some = 1;
-      if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) continue;
-      const size_t row = (size_t)i * args.max_depth;
-      wt_leg_of(&tables, solved + i, leg, vertices + 3 * row, sequences + row, transmitters, receivers,
-                block.legs + (i - first));
-      *verdict = blockers ? WT_LEG_UNSURE : WT_LEG_FREE;
-    }
-    if (some && !blockers)
-      wt_test_leg_block(packet_nodes, packet_triangles, args.triangle_slots, args.extent_m, surfaces, &block);
-    for (uint i = first; i < end; ++i) {
-      const int verdict = block.verdicts[i - first];
-      uint place = WT_NONE;
-      if (verdict == WT_LEG_HIDDEN ||
-          (verdict == WT_LEG_UNSURE && wt_obstructed(nodes, triangles, args.triangle_slots, args.extent_m, moving,
-                                                     surfaces, corners, block.legs + (i - first), &place)))
-        hide(solved, sequences, i, count, leg, place, blockers, args);
-    }
+  wt_last_hider last[PACKET_LEGS];
+  for (uint leg = 0; leg < PACKET_LEGS; ++leg) last[leg].place = WT_NONE;
+  for (uint block = 0; block < BLOCKS; ++block) {
+    const uint first = WT_SHARING * (BLOCKS * get_global_id(0) + block);
+    if (first >= count) return;
+    test_paths(nodes, triangles, moving, transmitters, receivers, surfaces, corners, solved, vertices, sequences,
+               &tables, blockers, packet_nodes, packet_triangles, first, count, last, args);
   }
 #else
   const uint i = get_global_id(0), leg = args.first_leg + get_global_id(1);

@@ -5,8 +5,8 @@
 #ifdef WT_BLOCKERS
 #include "lib/blockers.clh"
 #endif
+#include "lib/found_rows.clh"
 #include "lib/reflections.clh"
-#include "lib/reflections8.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -42,44 +42,11 @@ inline void prefetch_blocker(const global uint* blockers, uint mask, const globa
 #define WT_BLOCKERS_GIVEN
 #endif
 
-// Candidates of a work-item, and the most reflections of a path. CPUs solve eight candidates of one sequence at once.
-#ifndef WT_TOGETHER
-#define WT_TOGETHER 1u
-#define WT_ROOM WT_MAX_DEPTH
-#endif
-
-// The sequence of a candidate.
-typedef struct {
-  uint node, depth, transmitter;
-  uint chain[WT_MAX_DEPTH];
-  double3 images[WT_MAX_DEPTH + 1];  // of the transmitter in the surfaces
-} followed_sequence;
-
-// Rows that are found: the candidate of each and its points, axis by axis.
-typedef struct {
-  uint count, candidate[WT_TOGETHER];
-  double points[WT_ROOM][3][WT_TOGETHER];
-} found_rows;
-
-inline void follow(const global ulong* table, const global double4* transmitters,
-                   const global wt_exact_surface* surfaces, uint node, followed_sequence* s) {
-  s->node = node;
-  s->depth = wt_chain(table, node, s->chain, &s->transmitter);
-  s->images[0] = transmitters[s->transmitter].xyz;
-  for (uint k = 0; k < s->depth; ++k) s->images[k + 1] = wt_reflected(surfaces + s->chain[k], s->images[k]);
-}
-
-// Begins to read the chains of the candidates that follow candidate i.
-inline void prefetch_chains(const global ulong* table, const global wt_candidate* candidates, uint i, uint count) {
-  for (uint step = 0; WT_AHEAD > 1 && step < 3 && i + (WT_AHEAD >> step) < count; ++step)
-    wt_chain_prefetch(table, candidates[i + (WT_AHEAD >> step)].node, step);
-}
-
 // Adds candidate i, unless it has no path, or what hid its path before still does.
-inline void find_row(const followed_sequence* s, const global double4* transmitters, const global double4* receivers,
+inline void find_row(const wt_followed_sequence* s, const global double4* transmitters, const global double4* receivers,
                      const global wt_exact_surface* surfaces, const global double* triangles,
                      const global wt_exact_instance* instances, const global wt_candidate* candidates, uint i,
-                     global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args, found_rows* rows) {
+                     global wt_counters* counters, WT_BLOCKER_ARGUMENTS wt_solve_arguments args, wt_found_rows* rows) {
   const double4 to = receivers[candidates[i].receiver];
   // The vehicle that carries an antenna does not reflect for it, as it hides nothing from it.
   if (s->depth > 0) {
@@ -105,66 +72,17 @@ inline void find_row(const followed_sequence* s, const global double4* transmitt
   rows->candidate[rows->count++] = i;
 }
 
-#if WT_TOGETHER > 1
-// Adds those of candidates first to first + 7, all of this sequence, that have a path. Where points are so close that
-// wt_reflection_points looks at them more closely, or surfaces move, candidates are left to find_row. Returns these,
-// a bit each.
-inline uint find_rows8(const followed_sequence* s, const global double4* receivers,
-                       const global wt_exact_surface* surfaces, const global double* triangles,
-                       const global wt_candidate* candidates, uint first, found_rows* rows) {
-  for (uint k = 0; k < s->depth; ++k)
-    if (surfaces[s->chain[k]].instance != WT_NONE) return 0xFFu;
-  double to[3][8];
-  for (uint lane = 0; lane < 8; ++lane) {
-    const double4 receiver = receivers[candidates[first + lane].receiver];
-    to[0][lane] = receiver.x;
-    to[1][lane] = receiver.y;
-    to[2][lane] = receiver.z;
-  }
-  wt_points8 points[WT_ROOM];
-  const wt_points8 ends = {vload8(0, to[0]), vload8(0, to[1]), vload8(0, to[2])};
-  long8 close = 0;
-  const long8 kept = wt_reflection_points8(surfaces, triangles, s->chain, s->depth, s->images, ends, points, &close);
-  char keep[8], leave[8];
-  vstore8(convert_char8(kept & ~close), 0, keep);
-  vstore8(convert_char8(close), 0, leave);
-  double xyz[3][8];
-  uint place[8], left = 0, count = rows->count;
-  for (uint lane = 0; lane < 8; ++lane) {
-    place[lane] = count;
-    if (leave[lane]) left |= 1u << lane;
-    if (keep[lane]) rows->candidate[count++] = first + lane;
-  }
-  for (uint k = 0; k < s->depth; ++k) {
-    vstore8(points[k].x, 0, xyz[0]);
-    vstore8(points[k].y, 0, xyz[1]);
-    vstore8(points[k].z, 0, xyz[2]);
-    for (uint axis = 0; axis < 3; ++axis)
-      for (uint lane = 0; lane < 8; ++lane)
-        if (keep[lane]) rows->points[k][axis][place[lane]] = xyz[axis][lane];
-  }
-  rows->count = count;
-  return left;
-}
-
-inline int is_run(const global wt_candidate* candidates, uint first, uint end) {
-  if (first + 8 > end) return 0;
-  int one = 1;
-  for (uint lane = 1; lane < 8; ++lane) one &= candidates[first + lane].node == candidates[first].node;
-  return one;
-}
-#endif
-
 // Writes the rows that were found to places that follow each other.
 inline void write_rows(const global ulong* table, const global uint* quarters, const global double4* transmitters,
                        const global wt_exact_surface* surfaces, const global wt_candidate* candidates,
-                       const found_rows* rows, followed_sequence* s, global wt_solved* solved, global double* vertices,
-                       global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
+                       const wt_found_rows* rows, wt_followed_sequence* s, global wt_solved* solved,
+                       global double* vertices, global uint* sequences, global wt_counters* counters,
+                       wt_solve_arguments args) {
   const uint first = rows->count > 0 ? atomic_add(&counters->solved, rows->count) : 0;
   for (uint n = 0; n < rows->count && first + n < args.capacity; ++n) {
     const uint slot = first + n;
     const wt_candidate candidate = candidates[rows->candidate[n]];
-    if (candidate.node != s->node) follow(table, transmitters, surfaces, candidate.node, s);
+    if (candidate.node != s->node) wt_follow(table, transmitters, surfaces, candidate.node, s);
     solved[slot].transmitter = s->transmitter;
     solved[slot].receiver = candidate.receiver;
     solved[slot].depth = s->depth;
@@ -188,19 +106,19 @@ kernel void solve(const global ulong* table, const global uint* quarters, const 
   const uint count = min(args.candidate_count, counters->candidates), begin = WT_TOGETHER * get_global_id(0);
   if (begin >= count) return;
   const uint end = min(begin + WT_TOGETHER, count);
-  followed_sequence s;
-  found_rows rows;
+  wt_followed_sequence s;
+  wt_found_rows rows;
   rows.count = 0;
   for (uint i = begin; i < end;) {
     prefetch_chains(table, candidates, i, count);
 #ifdef WT_BLOCKERS
     if (i + WT_AHEAD < count) prefetch_blocker(blockers, args.blocker_mask, candidates + i + WT_AHEAD);
 #endif
-    if (i == begin || candidates[i].node != s.node) follow(table, transmitters, surfaces, candidates[i].node, &s);
+    if (i == begin || candidates[i].node != s.node) wt_follow(table, transmitters, surfaces, candidates[i].node, &s);
     uint left = 1u;
 #if WT_TOGETHER > 1 && !defined(WT_BLOCKERS)
-    const int run = is_run(candidates, i, end);
-    if (run) left = find_rows8(&s, receivers, surfaces, triangles, candidates, i, &rows);
+    const int run = wt_is_run(candidates, i, end);
+    if (run) left = wt_find_rows8(&s, receivers, surfaces, triangles, candidates, i, &rows);
 #else
     const int run = 0;
 #endif

@@ -145,3 +145,87 @@ TEST_CASE("a vertex is on the surfaces that its step names, and on no other surf
     expected.insert(expected.end(), part.begin(), part.end());
   CHECK(blocked == expected);
 }
+
+namespace {
+
+// Boxes in rows that touch each other, on a ground of patches, at `at`.
+std::vector<Quad> terraces(const glm::dvec3& at) {
+  std::vector<Quad> quads;
+  for (int x = -2; x < 2; ++x)
+    for (int y = -2; y < 2; ++y) quads.push_back({at + glm::dvec3{30 * x, 30 * y, 0}, {30, 0, 0}, {0, 30, 0}});
+  for (int i = 0; i < 6; ++i)
+    for (const double y : {-12.0, 6.0}) {
+      const glm::dvec3 low{8 * i - 24, y, 0}, high = low + glm::dvec3{8, 6, 4 + i % 3};
+      const std::vector<Quad> box = reference::box_walls(at + low, at + high);
+      quads.insert(quads.end(), box.begin(), box.end());
+    }
+  return quads;
+}
+
+// Lines of sight and reflections at the ground from one place to a grid whose lines run along walls, rims and roofs;
+// then some that are bent at an edge, or scattered at the ground.
+std::vector<PathRow> rows_past_terraces(const glm::dvec3& at, const glm::dvec3& from, double step_m) {
+  std::vector<PathRow> rows;
+  for (double x = -28; x <= 28; x += step_m)
+    for (double y = -16; y <= 16; y += step_m)
+      for (const double z : {0.0, 1.5, 4.0, 5.0}) {
+        const glm::dvec3 to{x, y, z};
+        rows.push_back({at + from, at + to, {}, {}});
+        const double share = from.z + z > 0 ? from.z / (from.z + z) : 0.5;
+        glm::dvec3 p = from + share * (to - from);
+        p.z = 0;
+        const auto patch = static_cast<uint32_t>(4 * std::floor((p.x + 60) / 30) + std::floor((p.y + 60) / 30));
+        const glm::dvec3 corner{-24, -6, 4};
+        rows.push_back({at + from, at + to, {WT_STEP_REFLECTION | patch}, {at + p}});
+        rows.push_back({at + from, at + to, {WT_STEP_DIFFRACTION | 0u}, {at + corner + glm::dvec3{2, 0, 0}}});
+        rows.push_back({at + from, at + to, {WT_STEP_SCATTERING | patch}, {at + glm::dvec3{p.x, p.y, 0}}});
+      }
+  return rows;
+}
+
+// Tests all rows together, and each alone. Returns how many are blocked.
+size_t check_rows_alone(const std::vector<Quad>& quads, const glm::dvec3& at, const std::vector<PathRow>& rows,
+                        double reach_m) {
+  const DeviceScene uploaded = make_device_scene(context(), reference::scene_of_quads(quads), false, reach_m);
+  wt_wedge wedge{};  // an edge of the first box, along x
+  for (int axis = 0; axis < 3; ++axis) wedge.start[axis] = at[axis] + glm::dvec3{-24, -6, 4}[axis];
+  wedge.along[0] = 1;
+  wedge.face[2] = -1;
+  wedge.normal[1] = 1;
+  wedge.length = 8;
+  wedge.cosine = 0, wedge.sine = -1, wedge.exterior = 1.5 * 3.14159265358979;
+  wedge.surfaces[0] = 16 + 3, wedge.surfaces[1] = 16 + 5;
+  const gpu::Buffer<wt_wedge> wedges = context().buffer(std::vector{wedge}, "wedges");
+  std::vector<uint32_t> patches(16);
+  for (uint32_t i = 0; i < patches.size(); ++i) patches[i] = i;
+  const gpu::Buffer<uint32_t> tiles = context().buffer(patches, "tiles");
+  Occlusion occlusion(context(), uploaded);
+  Counters counters(context());
+  SolvedList list = upload_rows(rows, 1);
+  occlusion(uploaded, ends_of(rows), list, counters, nullptr, {&wedges, &tiles});
+  const std::vector<PathRow> together = download_rows(list);
+  size_t blocked = 0, wrong = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    SolvedList one = upload_rows({rows[i]}, 1);
+    occlusion(uploaded, ends_of({rows[i]}), one, counters, nullptr, {&wedges, &tiles});
+    wrong += download_rows(one)[0].blocked != together[i].blocked;
+    blocked += together[i].blocked;
+  }
+  CHECK(wrong == 0);
+  return blocked;
+}
+
+}  // namespace
+
+TEST_CASE("legs that are tested together are free exactly where each is free alone") {
+  const double step_m = as_many(2, 8);
+  for (const glm::dvec3& at : {glm::dvec3{0, 0, 0}, glm::dvec3{1700, -2300, 12}})  // float32 decides, or double
+    for (const glm::dvec3& from : {glm::dvec3{-20, 1, 1.5}, glm::dvec3{3.1, -3.3, 9}, glm::dvec3{-24, -6, 4}}) {
+      CAPTURE(at.x);
+      CAPTURE(from.x);
+      const std::vector<PathRow> rows = rows_past_terraces(at, from, step_m);
+      const size_t blocked = check_rows_alone(terraces(at), at, rows, 3000 * (at.x != 0) + 60);
+      CHECK(blocked > rows.size() / 10);
+      CHECK(blocked < rows.size() * 9 / 10);
+    }
+}

@@ -191,3 +191,49 @@ TEST_CASE("near the corner of a house, and beside it by what float32 rounds: no 
     CHECK(echoes({ground, wall, next}, {1, 1, 1.5}, 3) == std::vector<size_t>{1});
   }
 }
+
+namespace {
+
+// Solves all receivers together, and each alone: the points must be the same to the last bit. Returns their number.
+size_t check_alone(const std::vector<Quad>& quads, const glm::dvec3& transmitter,
+                   const std::vector<glm::dvec3>& receivers, uint32_t max_depth) {
+  const auto sequences = all_sequences(1, static_cast<uint32_t>(quads.size()), max_depth);
+  const Scene scene = reference::scene_of_quads(quads);
+  const Exact together(scene, {transmitter}, receivers, sequences, max_depth);
+  std::vector<SolvedPath> alone;
+  for (uint32_t i = 0; i < receivers.size(); ++i)
+    for (SolvedPath path : Exact(scene, {transmitter}, {receivers[i]}, sequences, max_depth).solved) {
+      path.receiver = i;
+      alone.push_back(path);
+    }
+  std::sort(alone.begin(), alone.end(), [](const SolvedPath& a, const SolvedPath& b) {
+    return std::tie(a.sequence, a.receiver) < std::tie(b.sequence, b.receiver);
+  });
+  REQUIRE(together.solved.size() == alone.size());
+  size_t wrong = 0;
+  for (size_t i = 0; i < alone.size(); ++i) {
+    const SolvedPath &a = together.solved[i], &b = alone[i];
+    wrong += a.sequence != b.sequence || a.receiver != b.receiver || a.points != b.points || a.blocked != b.blocked;
+  }
+  CHECK(wrong == 0);
+  return alone.size();
+}
+
+}  // namespace
+
+TEST_CASE("receivers that are solved together have the points that each has alone, also in corners") {
+  std::vector<glm::dvec3> receivers;
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 5; ++y) receivers.push_back({-30 + 8 * x, -30 + 13 * y, 2});
+  CHECK(check_alone(random_town(3, 5), {-33, -31, 4}, receivers, 2) > 2 * receivers.size());
+  // Beside the antenna itself the foot of a wall and the corner of a room reflect in one point, or nearly so.
+  const Quad ground{{-20, -20, 0}, {40, 0, 0}, {0, 40, 0}};
+  const Quad back_x{{2, 3, 0}, {-6, 0, 0}, {0, 0, 5}}, along_y{{2, 3, 0}, {0, 6, 0}, {0, 0, 5}};
+  const glm::dvec3 antenna{1, 1, 1.5};
+  std::vector<glm::dvec3> beside;
+  for (const double off : {0.0, 1e-10, 1e-9, 1e-8, 1e-6, 1e-4, 1e-3, 0.1})
+    for (const glm::dvec3& way : {glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 1}}) beside.push_back(antenna + off * way);
+  const Quad back_y{{2, 3, 0}, {0, -6, 0}, {0, 0, 5}};
+  CHECK(check_alone({ground, back_x, back_y}, antenna, beside, 3) > 3 * beside.size());
+  CHECK(check_alone({ground, back_x, along_y}, antenna, beside, 3) > beside.size());
+}
