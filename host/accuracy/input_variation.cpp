@@ -25,6 +25,7 @@ Config varied_config(const std::string& file, const std::vector<std::string>& se
                       "give trajectories instead of them");
   config.cache.kind = "none";
   config.output.waypoints = 0;
+  config.radars.clear();
   return config;
 }
 

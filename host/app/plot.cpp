@@ -58,6 +58,10 @@ void add_plot(CLI::App& program) {
       "--layer", options->choice.layer,
       "Layer to draw, for --what coverage, such as sinr_db or best_server (`wavetracer help coverage`); "
       "received power if the run has a link budget, else path gain, if not given");
+  command->add_option(
+      "--radar", options->choice.radar,
+      "Name of a [[radar]], for --what range-doppler and micro-doppler; the first one if not given. --tx and "
+      "--rx name its ends; the first link if not given");
   command->add_option("--frame", options->frame,
                       "Number of the frame for figures that show one frame; if not given, "
                       "the frame of the strongest link, and the first frame for coverage and rays");

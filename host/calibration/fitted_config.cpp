@@ -68,6 +68,7 @@ Config config_of_places(const std::string& file, const std::vector<std::string>&
   Config config = parse_config(read_file(file) + "\n[[receiver]]\nname = \"measured places\"\nposition_m = [0, 0, 0]\n",
                                file, sets);
   config.receivers.edit().pop_back();
+  config.radars.clear();  // measured places have none
   config.text = echoed_config(config);
   return config;
 }

@@ -280,6 +280,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_names("parked", "name", config.parked, &ParkedConfig::name, {}, out);
   check_names("target_model", "name", config.target_models, &TargetModelConfig::name, {}, out);
   check_names("target", "name", config.targets, &TargetConfig::name, {}, out);
+  check_names("radar", "name", config.radars, &RadarConfig::name, {}, out);
   check_names("array", "name", config.arrays, &ArrayConfig::name, {}, out);
   check_materials(config.materials, out);
   check_arrays(config, out);
@@ -287,6 +288,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_degrees(config, out);
   check_grids(config, out);
   check_targets(config, out);
+  check_radars(config, out);
   return out;
 }
 

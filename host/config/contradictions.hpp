@@ -29,6 +29,9 @@ void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
 // Defined in target_checks.cpp.
 void check_targets(const Config& config, std::vector<Contradiction>& out);
 
+// Defined in radar_checks.cpp.
+void check_radars(const Config& config, std::vector<Contradiction>& out);
+
 // Defined in grid_checks.cpp.
 void check_grids(const Config& config, std::vector<Contradiction>& out);
 

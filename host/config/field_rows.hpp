@@ -109,6 +109,9 @@ Table target_table();
 // Defined in target_part_fields.cpp.
 Table target_part_table();
 
+// Defined in radar_fields.cpp.
+Table radar_table();
+
 // Defined in trace_fields.cpp: the search for paths.
 Table trace_table();
 

@@ -125,6 +125,7 @@ const std::vector<Table>& tables() {
       target_model_table(),
       target_part_table(),
       target_table(),
+      radar_table(),
       track_table(),
       parked_table(),
       live_vehicle_table(),

@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> output_names{"paths.h5",     "waypoints.h5", "cache_entries.h5",
-                                                       "responses.h5", "beams.h5",     "carriers.h5",
-                                                       "links.csv",    "summary.json", "view.html"};
+constexpr std::array<std::string_view, 10> output_names{
+    "paths.h5",    "waypoints.h5", "cache_entries.h5", "responses.h5", "beams.h5",
+    "carriers.h5", "radar.h5",     "links.csv",        "summary.json", "view.html"};
 constexpr std::string_view manifest_prefix = "manifest.", shard_prefix = "frames_", record_file = "run.json",
                            merged_name = "merged.json", job_file = "job.json";
 

@@ -48,8 +48,8 @@ Run make_run(const Simulation& simulation, uint64_t frames_asked, const std::str
   summary.inputs = inputs_of(simulation);
   summary.frames_asked = frames_asked;
   summary.warnings = simulation.warnings();
-  return {simulation.config(), simulation.scene(), simulation.instances(),
-          simulation.models(), std::move(summary), simulation.targets()};
+  return {simulation.config(), simulation.scene(),   simulation.instances(), simulation.models(),
+          std::move(summary),  simulation.targets(), simulation.radar_axes()};
 }
 
 }  // namespace wavetracer

@@ -49,6 +49,9 @@ std::string encode_run_record(const Run& run) {
   json["cache_entries"] = run.config.output.cache_entries;
   json["responses"] = run.config.response.bandwidth_hz.has_value();
   json["beams"] = has_beams(run.config);
+  json["radars"] = Json::array();
+  for (const RadarConfig& radar : run.config.radars)
+    json["radars"].push_back({{"name", radar.name}, {"cube", radar.cube}});
   json["carriers"] = run.config.radio.frequencies_hz.size();
   json["compression"] = run.config.output.compression;
   json["cache"] = {{"kind", run.config.cache.kind.word()}, {"key", run.config.cache.key.word()}};
@@ -72,6 +75,11 @@ namespace {
 void restore_element_outputs(const Json& json, Config& config) {
   if (json.value("responses", false)) config.response.bandwidth_hz = 1;
   if (json.value("beams", false)) config.arrays.emplace_back().codebook = "dft";
+  if (json.contains("radars"))
+    for (const Json& radar : json.at("radars")) {
+      config.radars.emplace_back().name = radar.at("name").get<std::string>();
+      config.radars.back().cube = radar.at("cube").get<bool>();
+    }
   if (json.contains("carriers") && whole_at<uint64_t>(json, "carriers") > 1) config.radio.frequencies_hz = {1, 2};
 }
 

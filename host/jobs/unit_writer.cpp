@@ -13,14 +13,24 @@ namespace {
 
 constexpr size_t most_waiting_bytes = size_t{1} << 26;
 
+size_t bytes_of(const RadarRows& rows) {
+  size_t out = 0;
+  for (const RadarRow& row : rows)
+    out += row.cube.size() * sizeof row.cube[0] + row.power_dbm.size() * sizeof row.power_dbm[0];
+  return out;
+}
+
 // Estimates the memory of a frame.
 size_t bytes_of(const FrameResult& frame) {
   constexpr size_t path = 180, vertex = 33, waypoint = 53, entry = 36, beam = 24, fields = 80;
   const WorldState& world = frame.world;
-  return frame.paths.size() * path + frame.paths.vertex_position_m.size() * vertex + frame.waypoints.size() * waypoint +
-         frame.cache_entries.size() * entry + frame.responses.h.size() * sizeof frame.responses.h[0] +
-         frame.beams.size() * beam + frame.carriers.size() * frame.paths.size() * fields +
-         world.links.size() * sizeof(Link) + world.instances.size() * sizeof(Placement) +
+  size_t radars = 0;
+  for (const RadarRows& radar : frame.radars) radars += bytes_of(radar);
+  return radars + frame.paths.size() * path + frame.paths.vertex_position_m.size() * vertex +
+         frame.waypoints.size() * waypoint + frame.cache_entries.size() * entry +
+         frame.responses.h.size() * sizeof frame.responses.h[0] + frame.beams.size() * beam +
+         frame.carriers.size() * frame.paths.size() * fields + world.links.size() * sizeof(Link) +
+         world.instances.size() * sizeof(Placement) +
          (world.transmitters.size() + world.receivers.size()) * sizeof(EndState);
 }
 

@@ -3,7 +3,6 @@
 // would be a waste. Paths and links must be sorted by transmitter and receiver, as Paths promises.
 #include "live/answer.hpp"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "base/stopwatch.hpp"
 #include "live/channel_columns.hpp"
+#include "live/json_line.hpp"
 #include "radio/links.hpp"
 #include "wavetracer/version.hpp"
 
@@ -18,45 +18,6 @@ namespace wavetracer::live {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Writes any text as a JSON string; bytes that are not UTF-8 become U+FFFD.
-std::string text_of(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-class Line {
- public:
-  void raw(std::string_view text) { out_.append(text); }
-  void number(double value) {
-    if (std::isfinite(value))
-      fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value);
-    else
-      raw("null");
-  }
-  void integer(uint64_t value) { fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value); }
-  void text(std::string_view value) { raw(text_of(value)); }
-  // Writes "key": with the comma before it.
-  void key(std::string_view name) {
-    raw(",\"");
-    raw(name);
-    raw("\":");
-  }
-  // Writes [item(0), item(1), ...].
-  template <class Item>
-  void list(size_t first, size_t end, const Item& item) {
-    raw("[");
-    for (size_t i = first; i < end; ++i) {
-      if (i > first) raw(",");
-      item(i);
-    }
-    raw("]");
-  }
-  std::string take() && {
-    raw("\n");
-    return fmt::to_string(out_);
-  }
-
- private:
-  fmt::memory_buffer out_;
-};
 
 void write_paths(Line& line, const Paths& paths, size_t first, size_t end) {
   const auto column = [&](const char* name, const std::vector<double>& values) {
@@ -177,6 +138,19 @@ void write_certificate(Line& line, const Certificate& of) {
 
 Json vector_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+Json radars_of(const Simulation& simulation) {
+  const std::vector<RadarConfig>& radars = simulation.config().radars;
+  const std::vector<RadarAxes> axes = simulation.radar_axes();
+  Json out = Json::array();
+  for (size_t i = 0; i < radars.size(); ++i)
+    out.push_back({{"radar", radars[i].name},
+                   {"rx_antennas", axes[i].rx_antennas},
+                   {"tx_antennas", axes[i].tx_antennas},
+                   {"chirps", radars[i].chirps},
+                   {"samples", radars[i].samples}});
+  return out;
+}
+
 }  // namespace
 
 std::string world_line(const Simulation& simulation) {
@@ -209,6 +183,7 @@ std::string world_line(const Simulation& simulation) {
     places += type.count;
   }
   out["types"] = std::move(types);
+  if (!config.radars.empty()) out["radars"] = radars_of(simulation);
   // Fixed ends come before the mounted ones of the first place.
   const auto standing = [&](const std::vector<RadioEnd>& ends, bool (*has)(MountRole)) {
     size_t mounted = 0;
@@ -230,7 +205,7 @@ std::string world_line(const Simulation& simulation) {
 }
 
 std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, const AnswerForm& form, uint64_t skipped,
-                          const FrameTimes& times, double frequency_hz) {
+                          const FrameTimes& times, const RadarAnswer& radars) {
   Stopwatch watch;
   const FrameResult& result = frame.result;
   const Paths& paths = result.paths;
@@ -246,15 +221,17 @@ std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, con
   line.integer(paths.rx_ports);
   line.key("tx_ports");
   line.integer(paths.tx_ports);
-  const std::vector<LinkFigures> figures = link_figures(paths, result.frame, result.world.links, frequency_hz);
+  const std::vector<LinkFigures> figures =
+      link_figures(paths, result.frame, result.world.links, radars.config.radio.frequency_hz);
   std::string columns;
   if (form.encoding == Encoding::cbor) {
-    columns = channel_columns(frame, figures, form.detail);
+    columns = channel_columns(frame, figures, form.detail, radars);
     line.key("bytes");
     line.integer(columns.size());
   } else {
     line.key("links");
     write_links(line, frame, figures, form.detail);
+    if (!radars.rows.empty()) write_radars(line, frame, radars);
   }
   if (result.missed.frames > 0) write_missed(line, estimate_missed(result.missed));
   if (result.missed.unknown > 0) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "live/message.hpp"
+#include "live/radar_answer.hpp"
 #include "wavetracer/simulation.hpp"
 
 namespace wavetracer::live {
@@ -23,10 +24,9 @@ struct AnswerForm {
   Encoding encoding = Encoding::json;
 };
 // With Encoding::cbor the line has "bytes" instead of "links", and that number of bytes of channel_columns() follows
-// it. skipped: frames of a free-running client since its last answer that newer ones replaced. frequency_hz: of the
-// carrier.
+// it. skipped: frames of a free-running client since its last answer that newer ones replaced.
 std::string channels_line(const FrameMessage& asked, const LiveFrame& frame, const AnswerForm& form, uint64_t skipped,
-                          const FrameTimes& times, double frequency_hz);
+                          const FrameTimes& times, const RadarAnswer& radars);
 
 // fatal: the connection ends after it.
 std::string error_line(std::string_view code, std::string_view text, std::optional<uint64_t> frame, bool fatal);

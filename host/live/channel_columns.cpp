@@ -115,16 +115,48 @@ void write_vertices(Cbor& out, const LiveFrame& frame) {
   out.column("vehicle", paths.vertex_instance);
 }
 
+void write_radar_row(Cbor& out, const LiveFrame& frame, const RadarAnswer& radars, size_t radar, const RadarRow& row) {
+  const RadarAxes& axes = radars.axes[radar];
+  const auto text = [&](std::string_view key, std::string_view value) {
+    out.text(key);
+    out.text(value);
+  };
+  const auto numbers = [&](std::string_view key, const std::vector<double>& values) { out.column(key, values); };
+  out.head(Major::map, radars.cubes ? 10 : 6);
+  text("radar", radars.config.radars[radar].name);
+  text("tx", frame.transmitters[row.link.tx]);
+  text("rx", frame.receivers[row.link.rx]);
+  numbers("frequency_hz", {radars.config.radio.frequency_hz});
+  numbers("left_out", {static_cast<double>(row.left_out)});
+  out.text("detections");
+  out.head(Major::map, detection_keys.size());
+  for (const DetectionKey& key : detection_keys) numbers(key.name, row.detections.*key.column);
+  if (!radars.cubes) return;
+  numbers("antennas", {static_cast<double>(axes.rx_antennas), static_cast<double>(axes.tx_antennas)});
+  numbers("delay_s", axes.delay_s);
+  numbers("doppler_hz", axes.doppler_hz);
+  // A complex number is its real and its imaginary part.
+  out.column("cube", reinterpret_cast<const double*>(row.cube.data()), 2 * row.cube.size());
+}
+
 }  // namespace
 
-std::string channel_columns(const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail) {
+std::string channel_columns(const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail,
+                            const RadarAnswer& radars) {
   Cbor out;
-  out.head(Major::map, detail == Detail::links ? 3 : detail == Detail::paths ? 4 : 6);
+  const uint64_t keys = detail == Detail::links ? 3 : detail == Detail::paths ? 4 : 6;
+  out.head(Major::map, keys + (radars.rows.empty() ? 0 : 1));
   out.texts("transmitters", frame.transmitters);
   out.texts("receivers", frame.receivers);
   write_links(out, figures);
   if (detail != Detail::links) write_paths(out, frame.result.paths);
   if (detail == Detail::vertices) write_vertices(out, frame);
+  if (!radars.rows.empty()) {
+    out.text("radars");
+    out.head(Major::array, radars.row_count());
+    for (size_t radar = 0; radar < radars.rows.size(); ++radar)
+      for (const RadarRow& row : radars.rows[radar]) write_radar_row(out, frame, radars, radar, row);
+  }
   return std::move(out).take();
 }
 

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "live/message.hpp"
+#include "live/radar_answer.hpp"
 #include "radio/links.hpp"
 #include "wavetracer/live.hpp"
 
 namespace wavetracer::live {
 
 // figures: figures of the frame's links, in their order.
-std::string channel_columns(const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail);
+std::string channel_columns(const LiveFrame& frame, const std::vector<LinkFigures>& figures, Detail detail,
+                            const RadarAnswer& radars);
 
 }  // namespace wavetracer::live

@@ -107,14 +107,19 @@ Detail detail_of(const Object& object) {
   return static_cast<Detail>(object.choice("detail", {"links", "paths", "vertices"}));
 }
 
+RadarDetail radar_of(const Object& object) {
+  return static_cast<RadarDetail>(object.choice("radar", {"none", "detections", "cubes"}));
+}
+
 Hello hello_of(const json& value) {
-  const Object object(value, "hello", {"message", "protocol", "token", "mode", "detail", "encoding"});
+  const Object object(value, "hello", {"message", "protocol", "token", "mode", "detail", "encoding", "radar"});
   Hello out;
   out.protocol = object.count("protocol", max_frame);
   if (object.has("token")) out.token = object.text("token", max_token_bytes);
   if (object.has("mode")) out.free_running = object.choice("mode", {"step", "free"}) == 1;
   if (object.has("detail")) out.detail = detail_of(object);
   if (object.has("encoding")) out.encoding = static_cast<Encoding>(object.choice("encoding", {"json", "cbor"}));
+  if (object.has("radar")) out.radar = radar_of(object);
   return out;
 }
 
@@ -147,13 +152,14 @@ LivePose pose_of(const json& value) {
 }
 
 FrameMessage frame_of(const json& value) {
-  const Object object(value, "frame", {"message", "frame", "time_s", "vehicles", "cold", "detail"});
+  const Object object(value, "frame", {"message", "frame", "time_s", "vehicles", "cold", "detail", "radar"});
   FrameMessage out;
   out.frame = object.count("frame", max_frame);
   try {
     out.time_s = object.number("time_s", max_time_s);
     out.cold = object.flag("cold");
     if (object.has("detail")) out.detail = detail_of(object);
+    if (object.has("radar")) out.radar = radar_of(object);
     const json& vehicles = object.at("vehicles");
     if (!vehicles.is_array()) refuse("bad_value", "frame: \"vehicles\" must be an array");
     for (const json& vehicle : vehicles) out.vehicles.push_back(pose_of(vehicle));
@@ -165,13 +171,14 @@ FrameMessage frame_of(const json& value) {
 }
 
 FrameMessage instant_of(const json& value) {
-  const Object object(value, "at", {"message", "frame", "time_s", "detail"});
+  const Object object(value, "at", {"message", "frame", "time_s", "detail", "radar"});
   FrameMessage out;
   out.between = true;
   out.frame = object.count("frame", max_frame);
   try {
     out.time_s = object.number("time_s", max_time_s);
     if (object.has("detail")) out.detail = detail_of(object);
+    if (object.has("radar")) out.radar = radar_of(object);
   } catch (ProtocolError& error) {
     error.frame = out.frame;
     throw;

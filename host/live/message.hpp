@@ -21,21 +21,27 @@ enum class Detail { links, paths, vertices };
 // The encoding of channels in an answer: in its line, or as columns in bytes that follow it (live/channel_columns.hpp).
 enum class Encoding { json, cbor };
 
+// Answers say nothing of the radars of the configuration, or give their detections, or their cubes, too.
+enum class RadarDetail { none, detections, cubes };
+
 struct Hello {
   uint64_t protocol = 0;
   std::string token;
   bool free_running = false;  // "mode": "free"
   Detail detail = Detail::links;
   Encoding encoding = Encoding::json;
+  RadarDetail radar = RadarDetail::none;
 };
 
 struct FrameMessage {
   uint64_t frame = 0;  // the client's own number, which the answer repeats
   double time_s = 0;
   std::vector<LivePose> vehicles;
-  bool cold = false;             // forget the results of earlier frames
-  bool between = false;          // "at": the frame has no poses, but a time between those of the last two frames
-  std::optional<Detail> detail;  // replaces that of hello
+  bool cold = false;     // forget the results of earlier frames
+  bool between = false;  // "at": the frame has no poses, but a time between those of the last two frames
+  // They replace those of hello.
+  std::optional<Detail> detail;
+  std::optional<RadarDetail> radar = {};
 };
 
 struct Bye {};

@@ -20,6 +20,9 @@ constexpr unsigned most_errors = 100;    // errors of a client before it is drop
 constexpr size_t most_turned_away = 16;  // clients that are told at once why they cannot stay
 constexpr size_t short_bytes = 16384;    // lines up to this length are read in less than a millisecond
 
+constexpr const char* no_radar =
+    "the configuration of this server has no [[radar]]: add one, or leave \"radar\" out of the message";
+
 size_t count_of(const std::vector<LiveType>& types) {
   size_t out = 0;
   for (const LiveType& type : types) out += type.count;
@@ -33,6 +36,7 @@ bool is_guest(const Client& client) { return !client.ending() && !client.gone() 
 
 Server::Server(Simulation& simulation, const Listener& listener, std::string token, Log log, FrameSolved solved)
     : limits_(simulation.config().live),
+      radars_(!simulation.config().radars.empty()),
       listener_(listener),
       token_(std::move(token)),
       world_line_(world_line(simulation)),
@@ -185,7 +189,13 @@ void Server::handle(Client& client, ReadLine line, Clock::time_point now) {
   } else if (!client.hello) {
     end(client, "hello_first", "the first message must be hello", now);
   } else {
-    queue(client, std::move(std::get<FrameMessage>(message)), line.received);
+    auto& asked = std::get<FrameMessage>(message);
+    if (!radars_ && asked.radar.value_or(RadarDetail::none) != RadarDetail::none) {
+      ProtocolError error("no_radar", no_radar);
+      error.frame = asked.frame;
+      return refuse(client, error, now);
+    }
+    queue(client, std::move(asked), line.received);
   }
 }
 
@@ -200,6 +210,7 @@ void Server::greet(Client& client, Hello hello, Clock::time_point now) {
   if (const size_t guests = count(is_guest); guests >= limits_.max_clients)
     return end(client, "too_many_clients", fmt::format("{} clients are connected already (live.max_clients)", guests),
                now);
+  if (!radars_ && hello.radar != RadarDetail::none) return end(client, "no_radar", no_radar, now);
   client.hello = std::move(hello);
   client.hello->token.clear();
   client.say(world_line_, now);
@@ -271,7 +282,8 @@ void Server::give_next() {
   client.solving = true;
   last_served_ = client.number();
   const Detail detail = frame.message.detail.value_or(client.hello->detail);
-  solver_.give({client.number(), std::move(frame.message), detail, client.hello->encoding,
+  const RadarDetail radar = frame.message.radar.value_or(client.hello->radar);
+  solver_.give({client.number(), std::move(frame.message), detail, client.hello->encoding, radar,
                 std::exchange(client.skipped, 0), frame.received, client.traffic});
 }
 

@@ -59,6 +59,7 @@ class Server {
   void turn_away(Client& client, std::string_view code, const std::string& text, Clock::time_point now);
 
   const LiveConfig& limits_;
+  bool radars_;  // the configuration has some
   const Listener& listener_;
   std::string token_, world_line_;
   size_t places_ = 0;

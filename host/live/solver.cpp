@@ -10,7 +10,7 @@
 namespace wavetracer::live {
 
 Solve solve_with(Simulation& simulation, FrameSolved solved) {
-  return [&simulation, solved = std::move(solved)](const Job& job, bool afresh) {
+  return [&simulation, solved = std::move(solved), axes = simulation.radar_axes()](const Job& job, bool afresh) {
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
     const FrameMessage& message = job.message;
     const Clock::time_point start = Clock::now();
@@ -18,9 +18,11 @@ Solve solve_with(Simulation& simulation, FrameSolved solved) {
     LiveFrame frame = message.between ? simulation.run_between(*job.traffic, message.time_s)
                                       : simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
     if (solved) solved(simulation, frame);
+    const std::vector<RadarRows> heard =
+        job.radar == RadarDetail::none ? std::vector<RadarRows>() : simulation.radars(frame.result);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
-    const double frequency_hz = simulation.config().radio.frequency_hz;
-    std::string line = channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, frequency_hz);
+    const RadarAnswer radars{simulation.config(), axes, heard, job.radar == RadarDetail::cubes};
+    std::string line = channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, radars);
     simulation.give_back(frame.result);
     return line;
   };

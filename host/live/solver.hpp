@@ -24,6 +24,7 @@ struct Job {
   FrameMessage message;
   Detail detail = Detail::links;
   Encoding encoding = Encoding::json;
+  RadarDetail radar = RadarDetail::none;
   uint64_t skipped = 0;
   Clock::time_point received;
   std::shared_ptr<LiveTraffic> traffic;  // the client's

@@ -64,14 +64,18 @@ void copy_dataset(const File& from, const std::string& path, const File& to) {
 
 void copy_head(const H5Output& output, const File& from, const File& to) {
   copy_attributes(from.id(), to.id());
+  const auto grows = [&](const std::string& path) {
+    return std::ranges::find(output.growing_groups, path) != output.growing_groups.end();
+  };
   for (const std::string& name : from.members("/")) {
     const std::string path = "/" + name;
-    if (std::ranges::find(output.growing_groups, path) != output.growing_groups.end()) continue;
+    if (grows(path)) continue;
     const Id group(H5Gopen2(from.id(), path.c_str(), H5P_DEFAULT), H5Gclose, "find group " + path),
         copy(H5Gcreate2(to.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
              "create group " + path);
     copy_attributes(group, copy);
-    for (const std::string& member : from.members(path)) copy_dataset(from, path + "/" + member, to);
+    for (const std::string& member : from.members(path))
+      if (const std::string inner = path + "/" + member; !grows(inner)) copy_dataset(from, inner, to);
   }
 }
 

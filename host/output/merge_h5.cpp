@@ -17,7 +17,7 @@ namespace {
 using hdf5::Column;
 using hdf5::Extent;
 using hdf5::File;
-using Groups = std::span<const char* const>;
+using Groups = std::vector<std::string>;
 
 // Groups that are the same in all blocks of one frame; each block has its own rows of the others.
 constexpr std::array<std::string_view, 2> shared_groups{"/frames", "/poses"};
@@ -110,7 +110,7 @@ void GrowingParts::add(const std::filesystem::path& part) {
   reading_part(part, [&] {
     const File file = File::open_to_read(part);
     if (parts_.empty()) {
-      for (const std::string path : names_) groups_.push_back(empty_group(path, file));
+      for (const std::string& path : names_) groups_.push_back(empty_group(path, file));
       first_ = run_of(file);
     } else {
       check_run(run_of(file), first_);
@@ -123,7 +123,7 @@ void GrowingParts::add(const std::filesystem::path& part) {
   parts_.push_back(part);
 }
 
-std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts, Groups groups,
+std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts, const Groups& groups,
                                             const BeginPart& begin) {
   GrowingParts grown(groups);
   for (const std::filesystem::path& part : parts) {
@@ -134,7 +134,7 @@ std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::pat
 }
 
 // The row of the frame is that of the first part.
-std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts, Groups groups,
+std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts, const Groups& groups,
                                            const BeginPart& begin) {
   std::vector<GrowingGroup> first = growing_groups_of(parts.first(1), groups, begin),
                             all = growing_groups_of(parts, groups, begin);

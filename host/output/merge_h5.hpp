@@ -37,8 +37,7 @@ class GrowingParts {
     std::vector<uint64_t> hashes;
     std::string config;
   };
-  // groups: must outlive this object.
-  explicit GrowingParts(std::span<const char* const> groups) : names_(groups) {}
+  explicit GrowingParts(std::vector<std::string> groups) : names_(std::move(groups)) {}
   // Adds the next file. Throws InputError that names the file and the dataset if it belongs to another run than the
   // first, or has other datasets, types or shapes, or lacks rows; nothing may be added after that.
   void add(const std::filesystem::path& part);
@@ -47,7 +46,7 @@ class GrowingParts {
   const std::vector<std::filesystem::path>& parts() const { return parts_; }
 
  private:
-  std::span<const char* const> names_;
+  std::vector<std::string> names_;
   std::optional<RunOfPart> first_;
   std::vector<GrowingGroup> groups_;
   std::vector<std::filesystem::path> parts_;
@@ -55,10 +54,10 @@ class GrowingParts {
 
 // Returns the groups of these parts, at least one. Throws as GrowingParts::add() does.
 std::vector<GrowingGroup> growing_groups_of(std::span<const std::filesystem::path> parts,
-                                            std::span<const char* const> groups, const BeginPart& begin);
+                                            const std::vector<std::string>& groups, const BeginPart& begin);
 
 // parts: those of blocks of one frame, whose links are side by side.
 std::vector<GrowingGroup> groups_of_blocks(std::span<const std::filesystem::path> parts,
-                                           std::span<const char* const> groups, const BeginPart& begin);
+                                           const std::vector<std::string>& groups, const BeginPart& begin);
 
 }  // namespace wavetracer

@@ -59,17 +59,32 @@ StoredTable stored_table(const File& file, const std::string& path) {
   return table;
 }
 
+// Returns the paths of all datasets, those of a group before those of the next; groups may be in groups.
+std::vector<std::string> datasets_below(const File& file, const std::string& group) {
+  std::vector<std::string> out;
+  for (const std::string& name : file.members(group.empty() ? "/" : group)) {
+    const std::string path = group + "/" + name;
+    const Id object(H5Oopen(file.id(), path.c_str(), H5P_DEFAULT), H5Oclose, "find " + path);
+    if (H5Iget_type(object) == H5I_DATASET) {
+      out.push_back(path);
+      continue;
+    }
+    const std::vector<std::string> inner = datasets_below(file, path);
+    out.insert(out.end(), inner.begin(), inner.end());
+  }
+  return out;
+}
+
 // Returns the tables of all groups, by path. Compressed ones lie one after the other.
 std::vector<StoredTable> stored_tables(const File& file) {
   std::vector<StoredTable> tables;
   uint64_t begin = packed_begin;
-  for (const std::string& group : file.members("/"))
-    for (const std::string& name : file.members("/" + group)) {
-      StoredTable& table = tables.emplace_back(stored_table(file, "/" + group + "/" + name));
-      if (!table.packed()) continue;
-      table.begin = begin;
-      begin += table.bytes;
-    }
+  for (const std::string& path : datasets_below(file, "")) {
+    StoredTable& table = tables.emplace_back(stored_table(file, path));
+    if (!table.packed()) continue;
+    table.begin = begin;
+    begin += table.bytes;
+  }
   return tables;
 }
 

@@ -87,14 +87,17 @@ class Plotter {
       if (given) throw ConfigError(fmt::format("{}: {}; leave it out", option, reason));
     };
     const bool links = any({"gain", "pdp", "delay-time", "doppler", "angles"});
+    const bool radars = any({"range-doppler", "micro-doppler"});
     const char* const no_map = grids_.empty() ? "the run has no [[receiver_grid]], so no map is drawn"
                                               : "it is about the figure coverage, which --what does not name";
     if (grids_.empty() || !asked("coverage")) {
       refuse(!choice_.layer.empty(), "--layer", no_map);
       refuse(!choice_.grid.empty(), "--grid", no_map);
-      refuse(!links && !choice_.link.tx.empty(), "--tx", "none of the figures of --what is about a transmitter");
+      refuse(!links && !radars && !choice_.link.tx.empty(), "--tx",
+             "none of the figures of --what is about a transmitter");
     }
-    refuse(!links && !choice_.link.rx.empty(), "--rx", "none of the figures of --what is about a link");
+    refuse(!radars && !choice_.radar.empty(), "--radar", "none of the figures of --what is about a radar");
+    refuse(!links && !radars && !choice_.link.rx.empty(), "--rx", "none of the figures of --what is about a link");
     refuse(choice_.link.frame.has_value() && !any({"pdp", "doppler", "angles", "coverage", "rays", "range-doppler"}),
            "--frame", "the figures of --what show all frames");
   }
@@ -171,9 +174,21 @@ class Plotter {
                       world_.scene));
   }
 
+  // Without --what, --tx and --rx name the ends of other figures, too, which need not be those of a radar.
+  std::optional<SavedRadar> chosen_radar() const {
+    if (choice_.what.empty() && choice_.radar.empty()) return saved_radar(run_);
+    return saved_radar(run_, {choice_.radar, find_end(run_.transmitters(), choice_.link.tx, "--tx"),
+                              find_end(run_.receivers(), choice_.link.rx, "--rx")});
+  }
+
   void plot_radar() {
-    const std::optional<SavedRadar> radar = saved_radar(run_);
-    const std::string missing = "the run has no radar.h5: make it by `python3 -m wavetracer.radar RUN`";
+    const std::optional<SavedRadar> radar = chosen_radar();
+    const std::string missing =
+        "the run has no radar.h5: give the configuration a [[radar]], or make it by `python3 -m wavetracer.radar RUN`";
+    if (!choice_.radar.empty() && !radar) throw ConfigError("--radar: " + missing);
+    const std::string of = radar ? fmt::format(" of {}, {} to {}", radar->name(), run_.transmitters()[radar->tx()].name,
+                                               run_.receivers()[radar->rx()].name)
+                                 : "";
     if (wanted("range-doppler", radar.has_value(), missing)) {
       const auto row =
           static_cast<size_t>(std::ranges::find(radar->frames(), choice_.link.frame.value_or(radar->frames()[0])) -
@@ -184,7 +199,7 @@ class Plotter {
       const RadarMap map = radar->range_doppler(row);
       if (has_power(map))
         add(range_doppler_figure(
-            map, run_.frame_count() > 1 ? fmt::format(", {} s", time_text(radar->times_s()[row])) : ""));
+            map, of + (run_.frame_count() > 1 ? fmt::format(", {} s", time_text(radar->times_s()[row])) : "")));
       else
         report_.warnings.push_back(
             fmt::format("range-doppler: the radar hears nothing in frame {}", radar->frames()[row]));
@@ -193,7 +208,7 @@ class Plotter {
     const bool several = spectra && spectra->rows.size() > 1;
     if (wanted("micro-doppler", several, radar ? "radar.h5 has no spectrogram of two times or more" : missing) &&
         has_power(*spectra))
-      add(micro_doppler_figure(*spectra));
+      add(micro_doppler_figure(*spectra, of));
   }
 };
 

@@ -21,8 +21,9 @@ constexpr size_t link_plots = 5;  // the first of these show links
 struct PlotChoice {
   std::vector<std::string> what;  // some of plot_names; empty: all that suit the run
   LinkChoice link;
-  std::string grid;   // for coverage; empty: every grid of the run
-  std::string layer;  // for coverage, a name of coverage::layer_kinds; empty: received power or path gain
+  std::string grid;        // for coverage; empty: every grid of the run
+  std::string layer;       // for coverage, a name of coverage::layer_kinds; empty: received power or path gain
+  std::string radar = {};  // for range-doppler and micro-doppler, a radar of radar.h5; empty: its first one
   std::vector<Format> formats = {Format::svg};
 };
 

@@ -50,10 +50,10 @@ Figure range_doppler_figure(const RadarMap& map, const std::string& when) {
           map_commands(name, map.power_dbm, "range (m)", "speed, coming nearer (m/s)", 2, 1)};
 }
 
-Figure micro_doppler_figure(const RadarMap& spectra) {
+Figure micro_doppler_figure(const RadarMap& spectra, const std::string& of) {
   const std::string name = "micro_doppler";
   return {name,
-          "Doppler spectra",
+          "Doppler spectra" + of,
           {{name + ".csv", map_table(spectra, "time_s", "speed_m_s")}},
           map_commands(name, spectra.power_dbm, "time (s)", "speed, coming nearer (m/s)", 1, 2)};
 }

@@ -9,7 +9,7 @@ namespace wavetracer::plots {
 // when: ", 0.5 s" or empty. Colours cover the 70 dB below the strongest cell. A map without a finite power has no
 // figure, which the caller checks by has_power.
 Figure range_doppler_figure(const RadarMap& map, const std::string& when);
-Figure micro_doppler_figure(const RadarMap& spectra);
+Figure micro_doppler_figure(const RadarMap& spectra, const std::string& of);
 bool has_power(const RadarMap& map);
 
 }  // namespace wavetracer::plots

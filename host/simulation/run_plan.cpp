@@ -50,6 +50,7 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
     origins = hearing_origins(world.receivers.standing, origins.transmitter_count(), listener_size_m);
   }
   const bool reuse = !origins.squares && reuses(trace, world, frames_follow);
+  std::vector<WorldRadar> radars = world_radars(config, world);
   drop_used(scene.report.warnings, world.fleet.models);
   return {.scene = std::move(scene),
           .world = std::move(world),
@@ -57,6 +58,7 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
           .features = std::move(features),
           .trace = trace,
           .origins = std::move(origins),
+          .radars = std::move(radars),
           .reuse = reuse};
 }
 

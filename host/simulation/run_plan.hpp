@@ -7,6 +7,7 @@
 
 #include "simulation/listeners.hpp"
 #include "simulation/world.hpp"
+#include "simulation/world_radars.hpp"
 #include "wavetracer/config.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/simulation.hpp"
@@ -22,7 +23,8 @@ struct RunPlan {
   Features features;
   TraceConfig trace;  // [trace] without what the scene does not need
   Origins origins;
-  bool reuse;  // frames reuse the sequences of earlier frames
+  std::vector<WorldRadar> radars;  // one for each [[radar]]
+  bool reuse;                      // frames reuse the sequences of earlier frames
 
   // Rays may meet something.
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.fleet.instances.empty(); }

@@ -108,7 +108,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
   stages.end("load");
   auto plan = std::make_unique<const RunPlan>(plan_run(asked, std::move(loaded), frames_follow));
   if (check) check(*plan);
-  const auto& [scene, world, config, features, trace, origins, reuse] = *plan;
+  const auto& [scene, world, config, features, trace, origins, radars, reuse] = *plan;
   auto around = std::make_unique<const Surroundings>(scene);
   std::vector<std::string> warnings = place_warnings(asked, *around, world);
   auto [device_scene, placement] = upload(context, *plan);
@@ -134,7 +134,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
   if (origins.squares)
     exact.from_edges = std::make_unique<EdgeDiscovery>(context, device_scene, trace, origins, *watch);
   FinishedPaths finish(context, scene, plan->computed(), world);
-  ElementOutputs elements(config, scene, world);
+  ElementOutputs elements(config, scene, world, radars);
   auto lifetimes = make_lifetimes(*plan);
   return {.stages = stages,
           .own_context = std::move(own),

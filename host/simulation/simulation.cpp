@@ -133,6 +133,18 @@ PathGradients Simulation::gradient(const FrameResult& frame, const GradientChoic
   return (*state_->gradient)(frame, choice);
 }
 
+std::vector<RadarRows> Simulation::radars(const FrameResult& frame) const {
+  if (frame.summed)
+    throw ConfigError("the frame has sums of links and no paths (Simulation::sum_links), so radars receive nothing");
+  return state_->setup.elements.radars(frame, true);
+}
+
+std::vector<RadarAxes> Simulation::radar_axes() const {
+  std::vector<RadarAxes> out;
+  for (const WorldRadar& radar : state_->plan().radars) out.push_back(radar.axes);
+  return out;
+}
+
 const DeviceSummary& Simulation::device() const { return state_->setup.device; }
 const OrderSummary& Simulation::order() const { return state_->setup.order_summary; }
 const Features& Simulation::features() const { return state_->plan().features; }

@@ -17,6 +17,7 @@
 #include "wavetracer/material_config.hpp"
 #include "wavetracer/order_config.hpp"
 #include "wavetracer/outdoors_config.hpp"
+#include "wavetracer/radar_config.hpp"
 #include "wavetracer/shared_list.hpp"
 #include "wavetracer/target_config.hpp"
 
@@ -274,6 +275,7 @@ struct Config {
   std::vector<TargetModelConfig> target_models;
   std::vector<TargetPartConfig> target_parts;
   std::vector<TargetConfig> targets;
+  std::vector<RadarConfig> radars;
   LinksConfig links;
   TimeConfig time;
   std::vector<LiveVehicleConfig> live_vehicles;

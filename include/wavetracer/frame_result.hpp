@@ -17,6 +17,7 @@
 #include "wavetracer/link_figures.hpp"
 #include "wavetracer/missed.hpp"
 #include "wavetracer/paths.hpp"
+#include "wavetracer/radar.hpp"
 #include "wavetracer/ray_waypoints.hpp"
 #include "wavetracer/stages.hpp"
 #include "wavetracer/world_state.hpp"
@@ -122,6 +123,7 @@ struct FrameResult {
   std::vector<CarrierFields> carriers;  // fields at radio.frequencies_hz, without the first
   Responses responses;                  // with response.bandwidth_hz
   BeamRows beams;                       // with array.codebook
+  std::vector<RadarRows> radars;        // a list for each [[radar]]; none in live worlds, see Simulation::radars
   FrameCounts counts;
   MissedCounts missed;      // unknown = 1 with a ray cache or trace.reception = "sphere", and where a warning says so
   Certificate certificate;  // with trace.discovery = "beams", else of no frames

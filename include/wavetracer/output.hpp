@@ -44,6 +44,7 @@ struct Run {
   const std::vector<Scene>& models;
   RunSummary summary;
   std::vector<SensedTarget> targets = {};
+  std::vector<RadarAxes> radars = {};  // one for each [[radar]]
 };
 
 // Makes the Run from a simulation; the outputs name command_line as their origin.

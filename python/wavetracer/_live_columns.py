@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._cube import Cube
 from .errors import ConfigError
 from .links import Links
 
@@ -90,7 +91,38 @@ def columns_of(answer: dict[str, Any]) -> dict[str, Any]:
                            "interaction": np.array(_chain(per_path["interactions"]), np.uint8),
                            "surface": np.array(_chain(per_path["surfaces"]), np.uint32),
                            "vehicle": np.array(vehicles, np.uint32)}
+    if "radars" in answer:
+        out["radars"] = [_radar_of(each) for each in answer["radars"]]
     return out
+
+
+def _radar_of(radar: dict[str, Any]) -> dict[str, Any]:
+    """A radar of an answer in JSON, as the map that an answer in CBOR has."""
+    out = {key: _numbers(value) if isinstance(value, list) else value for key, value in radar.items()}
+    out["detections"] = {key: _numbers(values) for key, values in radar["detections"].items()}
+    if "cube_re" in out:
+        out["cube"] = np.stack([out.pop("cube_re"), out.pop("cube_im")], -1).reshape(-1)
+    return out
+
+
+class Radar:
+    """A link of a radar and its echoes. `name` is that of its [[radar]], `tx` and `rx` are the names of its ends, `left_out`
+    says how many paths were too long for its waveform. detections: a dict of columns, by falling power, as
+    Cube.detections() has them, and `azimuth_rad` and `elevation_rad`, NaN where the array cannot tell them. cube: with
+    radar="cubes" a wavetracer.radar.Cube, else None."""
+
+    def __init__(self, radar: dict[str, Any]):
+        self.name, self.tx, self.rx = str(radar["radar"]), str(radar["tx"]), str(radar["rx"])
+        self.left_out = int(radar["left_out"][0])
+        self.detections: dict[str, Array] = dict(radar["detections"])
+        self.cube: Cube | None = None
+        if "cube" in radar:
+            shape = (*(int(count) for count in radar["antennas"]), len(radar["doppler_hz"]), len(radar["delay_s"]))
+            values = np.ascontiguousarray(radar["cube"]).view(np.complex128).reshape(shape)
+            self.cube = Cube(values, radar["delay_s"], radar["doppler_hz"], float(radar["frequency_hz"][0]), self.left_out)
+
+    def __repr__(self) -> str:
+        return f"<wavetracer.live.Radar {self.name}, {self.tx} to {self.rx}: {len(self.detections['range_m'])} detections>"
 
 
 class Channels:
@@ -104,6 +136,7 @@ class Channels:
     (paths, rx_ports, tx_ports). Else it is empty.
     vertices: with detail="vertices": `depth` (one row per path), then one row per interaction: `position_m` of shape
     (interactions, 3), `interaction`, `surface`, `vehicle` (a place in `ids`; 4294967295 for the static scene).
+    radars: with radar="detections" or "cubes" a Radar for each link of each [[radar]]. Else it is empty.
     answer: the keys of the answer's line, as docs/live.md lists them, such as `seconds` and `warnings`.
     """
 
@@ -123,6 +156,8 @@ class Channels:
         self.vertices: dict[str, Array] = dict(columns.get("vertices", {}))
         if self.vertices:
             self.vertices["position_m"] = self.vertices["position_m"].reshape(-1, 3)
+
+        self.radars: list[Radar] = [Radar(radar) for radar in columns.get("radars", [])]
 
     def __len__(self) -> int:
         """The number of links."""

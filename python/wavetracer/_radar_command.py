@@ -4,15 +4,18 @@
 from __future__ import annotations
 
 import argparse
+import fnmatch
 import pathlib
+import re
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from . import radar
+from . import _radar_config, radar
 from .errors import ConfigError, Error
-from .paths import KINDS
+from .paths import KINDS, Paths
 from .runs import Run, SavedFrame
 
 
@@ -22,19 +25,21 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE", help="radar.h5 in RUN if not given")
     parser.add_argument("--tx", help="name of the radar's transmitter, where there are several")
     parser.add_argument("--rx", help="name of its receiver, where there are several")
-    parser.add_argument("--bandwidth", type=float, default=1e9, metavar="HZ", help="of a chirp; default: %(default)g")
-    parser.add_argument("--chirp", type=float, default=20e-6, metavar="S", help="duration of a chirp; default: %(default)g")
+    parser.add_argument("--radar", metavar="NAME", help="take what is not given from this [[radar]] of the run; the only one "
+                        "if not given. A run without any has the defaults below")
+    parser.add_argument("--bandwidth", type=float, metavar="HZ", help="of a chirp; default: 1e9")
+    parser.add_argument("--chirp", type=float, metavar="S", help="duration of a chirp; default: 2e-5")
     parser.add_argument("--interval", type=float, metavar="S", help="from a chirp to the next; default: that of a chirp")
-    parser.add_argument("--chirps", type=int, default=128, help="chirps of a frame; default: %(default)s")
-    parser.add_argument("--samples", type=int, default=256, help="samples of a chirp; default: %(default)s")
-    parser.add_argument("--power", type=float, default=10.0, metavar="DBM", help="that is sent; default: %(default)g")
+    parser.add_argument("--chirps", type=int, help="chirps of a frame; default: 128")
+    parser.add_argument("--samples", type=int, help="samples of a chirp; default: 256")
+    parser.add_argument("--power", type=float, metavar="DBM", help="that is sent; default: 10")
     parser.add_argument("--noise-figure", type=float, metavar="DB", help="of the receiver; no noise if not given")
-    parser.add_argument("--seed", type=int, default=0, help="of the noise of the first frame; default: %(default)s")
-    parser.add_argument("--turns", action="store_true", help="transmitting antennas send in turns")
-    parser.add_argument("--window", default="hann", help="hann, hamming, blackman or none; default: %(default)s")
-    parser.add_argument("--false-alarm", type=float, default=1e-6, metavar="P",
-                        help="probability of a false detection in a cell of noise; default: %(default)g")
-    parser.add_argument("--no-direct", action="store_true",
+    parser.add_argument("--seed", type=int, help="of the noise of the first frame; default: 0")
+    parser.add_argument("--turns", action="store_true", default=None, help="transmitting antennas send in turns")
+    parser.add_argument("--window", help="hann, hamming, blackman or none; default: hann")
+    parser.add_argument("--false-alarm", type=float, metavar="P",
+                        help="probability of a false detection in a cell of noise; default: 1e-6")
+    parser.add_argument("--no-direct", action="store_true", default=None,
                         help="leave out the direct path from the transmitter to the receiver, as a radar's filter would")
     parser.add_argument("--osi", type=pathlib.Path, metavar="FILE",
                         help="also write the paths as reflections of OSI's RadarSensorView, with angles in the scene's axes")
@@ -55,19 +60,42 @@ def _chosen(run: Run, asked: str | None) -> list[SavedFrame]:
     return frames
 
 
+def _settings(run: Run, options: argparse.Namespace) -> dict[str, Any]:
+    """The options, or else what the [[radar]] of the run says, or else the defaults."""
+    table = _radar_config.chosen(run.config, options.radar)
+    wave = vars(radar.waveform_of(run.config, options.radar)) if table is not None else vars(radar.Waveform(1e9, 20e-6))
+    given = {"bandwidth_hz": options.bandwidth, "chirp_s": options.chirp, "interval_s": options.interval,
+             "chirps": options.chirps, "samples": options.samples, "power_dbm": options.power,
+             "noise_figure_db": options.noise_figure, "seed": options.seed, "turns": options.turns}
+    table = table or {}
+    return {"wave": wave | {key: value for key, value in given.items() if value is not None},
+            "windows": [options.window or table.get(key, "hann") for key in ("range_window", "doppler_window")],
+            "false_alarm": table.get("false_alarm", 1e-6) if options.false_alarm is None else options.false_alarm,
+            "no_direct": not table.get("direct", True) if options.no_direct is None else options.no_direct,
+            "name": table.get("name", "radar"), "tx": options.tx or _one_name(table, "transmitter", run.transmitters),
+            "rx": options.rx or _one_name(table, "receiver", run.receivers)}
+
+
+def _one_name(table: dict[str, Any], key: str, names: Sequence[str]) -> str | None:
+    """The end that a [[radar]] names, if it is one."""
+    found = [name for name in names if fnmatch.fnmatchcase(name, table.get(key, "*"))]
+    return found[0] if len(found) == 1 else None
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with Run(options.run) as run:
             frames, cubes, signals, heard = _chosen(run, options.frames), [], [], []
+            settings = _settings(run, options)
             for i, frame in enumerate(frames):
-                wave = radar.Waveform(options.bandwidth, options.chirp, options.chirps, options.samples, options.interval,
-                                      options.power, options.noise_figure, options.seed + i, options.turns)
-                kinds = [kind for kind in KINDS if kind != "line_of_sight"] if options.no_direct else None
-                paths = frame.paths.select(tx=options.tx, rx=options.rx, kind=kinds)
+                wave = radar.Waveform(**settings["wave"] | {"seed": settings["wave"]["seed"] + i})
+                kinds = [kind for kind in KINDS if kind != "line_of_sight"] if settings["no_direct"] else None
+                # Saved runs have paths between the centres of arrays, which are one antenna each here.
+                paths = Paths(frame.__getitem__, run._ends, links=frame.links).select(tx=settings["tx"], rx=settings["rx"], kind=kinds)
                 heard.append((frame.time_s, paths))
                 signals.append(radar.beat(paths, wave))
-                cubes.append(radar.cube_of(signals[-1], wave, run.frequency_hz, options.window, options.window))
+                cubes.append(radar.cube_of(signals[-1], wave, run.frequency_hz, *settings["windows"]))
                 cubes[-1].left_out = int((paths.delay_s >= wave.longest_delay_s).sum())
             # Each frame gives one spectrum: the spectrogram of a drive has the times of its frames.
             spectra = [radar.spectrogram(signal, wave, wave.chirps, wave.chirps) for signal in signals]
@@ -75,12 +103,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if options.osi:
                 radar.write_osi(options.osi, heard)
             spectrogram = (np.array(times), spectra[0][1], np.concatenate([power for _, _, power in spectra]))
+            ends = (run.transmitters.index(paths.transmitters[0]), run.receivers.index(paths.receivers[0]))
         file = options.output or options.run / "radar.h5"
-        radar.save(file, cubes, [frame.number for frame in frames], times, spectrogram, options.false_alarm)
+        radar.save(file, cubes, [frame.number for frame in frames], times, spectrogram, settings["false_alarm"],
+                   settings["name"], ends)
     except Error as error:
         print(f"wavetracer: {error}", file=sys.stderr)
         return error.code
     left_out = sum(cube.left_out for cube in cubes)
-    print(f"{file}: {len(cubes)} frames{' without direct paths' if options.no_direct else ''}, {sum(len(cube.detections(options.false_alarm)['range_m']) for cube in cubes)} "
-          f"detections" + (f"; {left_out} paths are later than {wave.longest_delay_s:g} s and left out" if left_out else ""))
+    found = sum(len(cube.detections(settings["false_alarm"])["range_m"]) for cube in cubes)
+    if re.search(r"^\[\[array\]\]", run.config, re.M):
+        print("wavetracer: warning: the run has arrays, and its paths are those between their centres: each end has one "
+              "antenna here; a [[radar]] of the configuration has all", file=sys.stderr)
+    print(f"{file}: {len(cubes)} frames{' without direct paths' if settings['no_direct'] else ''}, {found} detections"
+          + (f"; {left_out} paths are later than {wave.longest_delay_s:g} s and left out" if left_out else ""))
     return 0

@@ -18,11 +18,11 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from ._live_columns import Channels, columns_of, read_cbor
+from ._live_columns import Channels, Radar, columns_of, read_cbor
 from ._live_socket import Line, LiveError, Lost
 from .errors import ConfigError, Error, InputError
 
-__all__ = ["Channels", "Error", "LiveClient", "LiveError", "add_arguments", "connect", "read_token"]
+__all__ = ["Channels", "Error", "LiveClient", "LiveError", "Radar", "add_arguments", "connect", "read_token"]
 
 Message = dict[str, Any]
 DEFAULT_SERVER = "tcp:127.0.0.1:7710"
@@ -33,7 +33,8 @@ class LiveClient:
     """A connection to a server. `world` is the server's answer to hello: vehicle types, antennas, limits.
 
     server: tcp:ADDRESS:PORT or unix:PATH. token: the secret, if the server asks for one. encoding: "cbor" (columns, the
-    fast one) or "json". detail: "links", "paths" or "vertices". timeout_s: the longest wait for one answer, and for a
+    fast one) or "json". detail: "links", "paths" or "vertices". radar: "none", "detections" or "cubes", what answers say of
+    the [[radar]] tables of the server's configuration. timeout_s: the longest wait for one answer, and for a
     connection. retries: how often it connects again after a connection was lost, with pauses that grow from 0.1 s to 2 s.
 
     After a lost connection it says hello again, sends the last frame of poses, since the server has forgotten it, and
@@ -43,11 +44,13 @@ class LiveClient:
     """
 
     def __init__(self, server: str = DEFAULT_SERVER, *, token: str | None = None, encoding: str = "cbor",
-                 detail: str = "links", timeout_s: float = 30.0, retries: int = 5):
+                 detail: str = "links", radar: str = "none", timeout_s: float = 30.0, retries: int = 5):
         if not timeout_s > 0 or retries < 0:
             raise ConfigError(f"timeout_s is more than 0 and retries is 0 or more, not {timeout_s} and {retries}")
         self._server, self._timeout_s, self._retries = server, timeout_s, retries
         self._hello: Message = {"message": "hello", "protocol": 1, "encoding": encoding, "detail": detail}
+        if radar != "none":
+            self._hello["radar"] = radar
         if token:
             self._hello["token"] = token
         self._number = 0
@@ -59,7 +62,7 @@ class LiveClient:
 
     def channels(self, time_s: float, vehicles: Iterable[Message], **more: Any) -> Channels:
         """The channels of these poses: dicts with `id`, `type`, `position_m`, `yaw_deg` or `orientation`, and perhaps
-        velocities. more: other keys of a frame, `cold` and `detail`."""
+        velocities. more: other keys of a frame, `cold`, `detail` and `radar`."""
         message = {"message": "frame", "time_s": time_s, "vehicles": list(vehicles), **more}
         answer = self._ask([message])[0]
         self._frames = [*self._frames[-1:], message]

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _channel, _program
+from . import _channel, _program, _radar_config
 from ._arguments import integer, number
 from ._cube import Cube, windowed
-from ._radar_file import load, save
+from ._radar_file import load, names, save
 from ._radar_osi import write_osi
 from .errors import ConfigError
 from .paths import Paths
 
-__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_echoes", "beat_of_points", "cube", "cube_of", "echoes", "load", "save", "spectrogram", "wheel",
-           "write_osi"]
+__all__ = ["Cube", "Motion", "Waveform", "beat", "beat_of_echoes", "beat_of_points", "cube", "cube_of", "echoes", "load", "names", "save", "spectrogram",
+           "waveform_of", "wheel", "write_osi"]
 
 Array = NDArray[Any]
 SPEED_OF_LIGHT_M_S = 299792458.0
@@ -79,6 +79,16 @@ class Waveform:
     def repetition_s(self, tx_antennas: int) -> float:
         """The time from a chirp of an antenna to its next one."""
         return self.spacing_s * (tx_antennas if self.turns else 1)
+
+
+def waveform_of(config: str, name: str | None = None) -> Waveform:
+    """The waveform of a [[radar]] in the text of a run's configuration (run.config): that of this name, or the only one.
+    Noise is drawn otherwise than in the run, so that it has the same power and other values."""
+    table = _radar_config.chosen(config, name)
+    if table is None:
+        raise ConfigError("the run has no [[radar]]: make a Waveform, or add the table to the configuration")
+    keys = ("bandwidth_hz", "chirp_s", "chirps", "samples", "interval_s", "noise_figure_db", "seed", "turns")
+    return Waveform(power_dbm=_radar_config.power_dbm(config, table), **{key: table[key] for key in keys if key in table})
 
 
 def _phases(waveform: Waveform, carrier_hz: float, delay_s: Array, rate: Array) -> Array:

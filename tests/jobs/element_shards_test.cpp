@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses, beams and carriers in shards: merged, they are those of a run that is written whole, byte by byte.
+// Responses, beams, carriers and radars in shards: merged, they are those of a run that is written whole, byte by byte.
 #include <doctest/doctest.h>
 #include "jobs/merge_folders.hpp"
 #include "jobs/sample_parts.hpp"
@@ -11,7 +11,7 @@ using namespace wavetracer;
 using test::slurp;
 using test::TemporaryFolder;
 
-TEST_CASE("responses, beams and carriers of a drive merge into the files of a run that was written whole") {
+TEST_CASE("responses, beams, carriers and radars of a drive merge into the files of a run that was written whole") {
   const TemporaryFolder folder;
   SampleRun sample;
   ask_for_elements(sample.config);
@@ -26,10 +26,10 @@ TEST_CASE("responses, beams and carriers of a drive merge into the files of a ru
   const auto drive = shards.merge(sample.run(), {});
   // Merges as `wavetracer merge` does, from the folder alone.
   const auto merged = merge_found(find_parts({folder.path() / "drive"}), folder.path() / "merged", "");
-  REQUIRE(whole.size() == 6);
-  REQUIRE(drive.size() == 6);
-  REQUIRE(merged.size() == 6);
-  for (size_t i = 0; i < 5; ++i) {
+  REQUIRE(whole.size() == 7);
+  REQUIRE(drive.size() == 7);
+  REQUIRE(merged.size() == 7);
+  for (size_t i = 0; i < 6; ++i) {
     CAPTURE(whole[i].filename());
     const std::string bytes = slurp(whole[i]);
     CHECK(bytes.size() > 100);

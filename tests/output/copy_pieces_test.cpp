@@ -84,7 +84,7 @@ TEST_CASE("parts whose rows differ in size are not merged") {
     std::ofstream(parts[i], std::ios::binary)
         .write(reinterpret_cast<const char*>(h5.image().data()), static_cast<std::streamsize>(h5.image().size()));
   }
-  const char* const groups[] = {"/g"};
+  const std::vector<std::string> groups{"/g"};
   CHECK_THROWS_WITH_AS(growing_groups_of(parts, groups, [](const fs::path&) {}),
                        doctest::Contains((parts[1].string() + ": /g/x has another shape or type").c_str()), InputError);
 }

@@ -27,10 +27,11 @@ TEST_CASE("responses, beams and fields of more carriers are written as they are,
   std::vector<FrameResult> frames = sample.frames();
   add_elements(sample.config, frames);
   const auto written = write_outputs(folder.path(), sample.run(), frames);
-  REQUIRE(written.size() == 6);
+  REQUIRE(written.size() == 7);
   CHECK(written[1].filename() == "responses.h5");
   CHECK(written[2].filename() == "beams.h5");
   CHECK(written[3].filename() == "carriers.h5");
+  CHECK(written[4].filename() == "radar.h5");
 
   const Reader responses(written[1]);
   CHECK(responses.attribute("/", "format") == "wavetracer responses");
@@ -74,6 +75,47 @@ TEST_CASE("responses, beams and fields of more carriers are written as they are,
     CHECK(a.at(2 * ports * row + ports + 1) == a[2 * ports * row + 1]);
     CHECK(shift[2 * row + 1] == 2 * shift[2 * row]);
   }
+}
+
+TEST_CASE("radars are written as they are: axes, rows of links, maps, cubes where they are wanted, detections") {
+  const test::TemporaryFolder folder;
+  SampleRun sample;
+  ask_for_elements(sample.config);
+  std::vector<FrameResult> frames = sample.frames();
+  add_elements(sample.config, frames);
+  const auto written = write_outputs(folder.path(), sample.run(), frames);
+  const Reader radars(written[4]);
+  CHECK(radars.attribute("/", "format") == "wavetracer radar");
+  CHECK(radars.attribute("/", "radars") == "front,rear");
+  CHECK(radars.attribute("/front", "range_window") == "hann");
+  CHECK(radars.numbers("/front/delay_s") == Values{0, 1e-9, 2e-9});
+  REQUIRE(radars.numbers("/rear/doppler_hz").size() == 4);
+  CHECK(radars.numbers("/rear/doppler_hz")[0] == doctest::Approx(-25000).epsilon(1e-12));
+  CHECK(radars.numbers("/front/frames/frame") == Values{7, 7, 8, 8});
+  CHECK(radars.numbers("/front/frames/time_s") == Values{0, 0, 0.1, 0.1});
+  CHECK(radars.numbers("/front/frames/rx") == Values{0, 1, 0, 1});
+  CHECK(radars.numbers("/front/frames/left_out") == Values{1, 1, 2, 2});
+  Values powers, re, im;
+  for (const FrameResult& frame : frames)
+    for (const RadarRow& row : frame.radars[0]) {
+      powers.insert(powers.end(), row.power_dbm.begin(), row.power_dbm.end());
+      for (const auto& value : row.cube) {
+        re.push_back(value.real());
+        im.push_back(value.imag());
+      }
+    }
+  CHECK(radars.shape("/rear/maps/power_dbm") == Shape{4, 4, 3});
+  CHECK(radars.numbers("/front/maps/power_dbm") == powers);
+  CHECK(radars.shape("/front/cube/re") == Shape{4, 1, 2, 4, 3});
+  CHECK(radars.numbers("/front/cube/re") == re);
+  CHECK(radars.numbers("/front/cube/im") == im);
+  const std::vector<std::string> of_rear = hdf5::File::open_to_read(written[4]).members("/rear");
+  CHECK(std::ranges::find(of_rear, "cube") == of_rear.end());
+  CHECK(std::ranges::find(of_rear, "maps") != of_rear.end());
+  CHECK(radars.shape("/front/spectrogram/power_dbm") == Shape{4, 4});
+  CHECK(radars.numbers("/front/detections/frame") == Values{7, 8});
+  CHECK(radars.numbers("/front/detections/doppler_hz") == Values{507, 508});
+  CHECK(radars.numbers("/rear/detections/elevation_rad") == Values{-0.5, -0.5});
 }
 
 TEST_CASE("links.csv has the best pair of beams of each link") {

@@ -8,7 +8,8 @@
 
 namespace wavetracer {
 
-// The transmitter 0 has two elements; responses of two subcarriers at two times; two carriers.
+// The transmitter 0 has two elements; responses of two subcarriers at two times; two carriers; a radar with cubes on
+// its links, and one without.
 inline void ask_for_elements(Config& config) {
   config.arrays.resize(1);
   config.arrays[0].name = "pair";
@@ -17,6 +18,23 @@ inline void ask_for_elements(Config& config) {
   config.transmitters[0].array = "pair";
   config.response = {20e6, 2, 2, 1e-3};
   config.radio.frequencies_hz = {config.radio.frequency_hz, 2 * config.radio.frequency_hz};
+  RadarConfig radar;
+  radar.name = "front";
+  radar.chirps = 4;
+  radar.samples = 3;
+  config.radars = {radar, radar};
+  config.radars[1].name = "rear";
+  config.radars[1].cube = false;
+}
+
+// A radar's row of a link of transmitter 0, with a detection if the receiver is the first.
+inline RadarRow sample_radar_row(const FrameResult& frame, Link link, bool with_cube) {
+  RadarRow out{link, frame.frame % 3, {}, {}, {}, {}};
+  for (uint32_t i = 0; i < 12; ++i) out.power_dbm.push_back(-90.0 - i - frame.frame);
+  for (uint32_t i = 0; i < 4; ++i) out.spectrum_dbm.push_back(-80.0 - i - link.rx);
+  for (uint32_t i = 0; with_cube && i < 24; ++i) out.cube.emplace_back(0.5 * i, frame.frame);
+  if (link.rx == 0) out.detections = {{1e-7}, {500.0 + frame.frame}, {15}, {1}, {-90}, {-101}, {0.25}, {-0.5}};
+  return out;
 }
 
 // Rows of a link: times, receiving and transmitting antennas.
@@ -45,6 +63,10 @@ inline void add_elements(const Config& config, std::vector<FrameResult>& frames)
     }
     for (uint64_t i = 0; i < 4 * responses.row_offset.back(); ++i)
       responses.h.emplace_back(static_cast<float>(frame.frame) + 0.25f * static_cast<float>(i), -0.5f);
+    frame.radars.assign(2, {});
+    for (const Link& link : frame.world.links)
+      for (size_t i = 0; link.tx == 0 && i < 2; ++i)
+        frame.radars[i].push_back(sample_radar_row(frame, link, config.radars[i].cube));
     frame.carriers = {{2 * config.radio.frequency_hz, frame.paths.a, frame.paths.gain_db, frame.paths.doppler_hz}};
     for (auto& a : frame.carriers[0].a) a[0] *= 0.5;
     for (double& shift : frame.carriers[0].doppler_hz) shift *= 2;

@@ -2,6 +2,7 @@
 // Builds the sample run: path i has depth i, delay 1e-7 (i + 1) s and so on, see path_row().
 // Transmitters have one port, receivers two.
 #include "output/sample_run.hpp"
+#include "radar/radar_cube.hpp"
 
 namespace wavetracer {
 namespace {
@@ -117,6 +118,8 @@ Run SampleRun::run() const {
   run.summary.inputs = {{"scene.file", "/data/scene.xml", 100, 42}, {"scene.file: a.ply", "/data/a.ply", 7, 43}};
   run.summary.repeat_count = 3;
   run.summary.warnings = {"a run warning", "a warning"};
+  for (const RadarConfig& radar : config.radars)
+    run.radars.push_back(radar_axes(radar, 1, 2, config.radio.frequency_hz));
   return run;
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The example of docs/radar.md: a run of configs/radar.toml, its radar.h5, and the figures of `wavetracer plot`.
+"""The example of docs/radar.md: a run of configs/radar.toml, its radar.h5 against the drive and against the cubes of
+Python, and the figures of `wavetracer plot`.
 
 Usage: radar_command_test.py PROGRAM CONFIGS FOLDER. Exits with 77 without numpy or h5py.
 """
@@ -13,6 +14,7 @@ try:
     import numpy as np
 except ImportError:
     sys.exit(77)
+import wavetracer
 from wavetracer import radar
 
 PROGRAM, CONFIGS, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
@@ -24,69 +26,181 @@ def said(*command):
     return done.returncode, done.stdout + done.stderr
 
 
+def column(file, name):
+    return file["front"][name][...]
+
+
+def check_example():
+    """The car ahead, the pedestrian and the car that comes are where they are in the drive, with their speeds."""
+    code, text = said(PROGRAM, "run", "-c", CONFIGS / "radar.toml", "-o", RUN, "--set", "trace.rays=5000", "--frames", "0:4")
+    assert code == 0, text
+    with h5py.File(RUN / "radar.h5") as file:
+        found = {name: values[...] for name, values in file["front/detections"].items()}
+        times = column(file, "frames/time_s")
+        assert list(column(file, "frames/frame")) == [0, 1, 2, 3, 4] and column(file, "cube/re").shape == (5, 4, 1, 256, 256)
+        assert np.array_equal(column(file, "spectrogram/time_s"), times)
+    assert np.isnan(found["elevation_rad"]).all()
+    bumper = -57.4 + 14 * times
+    places = {"ahead": (-30.5 + 13 * times, -3.0 + 0 * times, 1.0), "pedestrian": (-32 + 0 * times, -6.0 + 1.2 * 0 * times, 13.9),
+              "oncoming": (37.5 - 13 * times, 3.0 + 0 * times, 27.0)}
+    for name, (x, y, speed) in places.items():
+        ranges, azimuths = np.hypot(x - bumper, y + 3), np.arctan2(y + 3, x - bumper)
+        for frame, (distance, azimuth) in enumerate(zip(ranges, azimuths)):
+            near = ((found["frame"] == frame) & (np.abs(found["range_m"] - distance) < 0.6)
+                    & (np.abs(found["speed_m_s"] - speed) < 0.5) & (np.abs(found["azimuth_rad"] - azimuth) < 0.03))
+            assert near.any(), (name, frame, distance, azimuth, {key: values[found["frame"] == frame] for key, values in found.items()})
+    # Python finds the same cells in the cubes of the file.
+    for frame, cube in radar.load(RUN / "radar.h5").items():
+        again = cube.detections()
+        for key in ("range_m", "speed_m_s", "power_dbm"):
+            np.testing.assert_allclose(found[key][found["frame"] == frame], again[key], rtol=1e-3, atol=1e-3)
+
+
+DIRECT = "direct = false          # without the path from one antenna to the other\n"
+
+
+def quiet(*parts):
+    """The example without noise and without these parts."""
+    text = (CONFIGS / "radar.toml").read_text()
+    for part in ("noise_figure_db = 12.0\n", *parts):
+        assert part in text
+        text = text.replace(part, "")
+    return text
+
+
+def check_arrays():
+    """Cubes of all antennas, which send in turns, are those of Python, which asks the library for paths between
+    elements."""
+    text = quiet().replace('offset_m = [2.6, 0.1, 0.6]', 'array = "row"\noffset_m = [2.6, 0.1, 0.6]')
+    config = FOLDER / "arrays.toml"
+    config.write_text(text)
+    sets = ("chirps=20", "samples=48", "turns=true", "chirp_s=5e-6", "interval_s=6e-6", "direct=true", "bandwidth_hz=100e6")
+    options = [word for one in sets for word in ("--set", "radar.0." + one)]
+    code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "arrays", "--frames", "3", "--set", "trace.rays=5000", *options)
+    assert code == 0, said_text
+    run = wavetracer.open(FOLDER / "arrays")
+    cube = radar.cube(wavetracer.Simulation(run.config).run_frame(3).paths, radar.waveform_of(run.config))
+    assert cube.values.shape == (4, 4, 20, 48)
+    stored = radar.load(FOLDER / "arrays/radar.h5")[3]
+    peak = np.abs(cube.values).max()
+    assert np.abs(stored.values - cube.values).max() < 1e-6 * peak
+    with h5py.File(FOLDER / "arrays/radar.h5") as file:
+        expected = 1e3 * (np.abs(cube.values) ** 2).mean(axis=(0, 1))
+        assert np.abs(10 ** (column(file, "maps/power_dbm")[0] / 10) - expected).max() < 1e-9 * expected.max()
+
+
+def check_equal():
+    """The maps of the program are those of Python, which has code of its own, to 1e-9 of their peaks."""
+    text = quiet("array = \"row\"\n", '[[array]]\nname = "row"\ncolumns = 4\n', DIRECT)
+    config = FOLDER / "equal.toml"
+    config.write_text(text + '[[radar]]\nname = "rear"\ncube = false\ndirect = false\nrange_window = "none"\ndoppler_window = "blackman"\n'
+                             "chirps = 30\nsamples = 50\nbandwidth_hz = 1e9\n")
+    options = ("--frames", "2:5", "--set", "trace.rays=5000", "--set", "output.shard_frames=2")
+    code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "equal", *options)
+    assert code == 0, said_text
+    run = wavetracer.open(FOLDER / "equal")
+    with h5py.File(FOLDER / "equal/radar.h5") as file:
+        indirect = [kind for kind in wavetracer.paths.KINDS if kind != "line_of_sight"]
+        for name, windows, kinds in (("front", ("hann", "hann"), None), ("rear", ("none", "blackman"), indirect)):
+            wave, maps = radar.waveform_of(run.config, name), file[name]["maps/power_dbm"][...]
+            for i, frame in enumerate(run):
+                paths = frame.paths.select(kind=kinds)
+                cube = radar.cube(paths, wave, range_window=windows[0], doppler_window=windows[1])
+                expected = (np.abs(cube.values[0, 0]) ** 2) * 1e3
+                assert np.abs(10 ** (maps[i] / 10) - expected).max() < 1e-9 * expected.max(), (name, i)
+                assert file[name]["frames/left_out"][i] == cube.left_out
+                assert np.allclose(file[name]["doppler_hz"], cube.doppler_hz, rtol=1e-12)
+                if name == "front":
+                    values = file["front/cube/re"][i] + 1j * file["front/cube/im"][i]
+                    assert np.abs(values - cube.values).max() < 1e-6 * np.abs(cube.values).max()
+                    spectrum = radar.spectrogram(radar.beat(paths, wave), wave, wave.chirps, wave.chirps)[2][0]
+                    np.testing.assert_allclose(file["front/spectrogram/power_dbm"][i], spectrum, atol=1e-6)
+        whole = {name: file[name][...] for name in ("front/maps/power_dbm", "front/detections/range_m", "rear/frames/frame")}
+        assert "cube" not in file["rear"] and len(whole["front/maps/power_dbm"]) == 4
+    # Several processes write the same.
+    code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "shared", *options, "--processes", 2)
+    assert code == 0, said_text
+    with h5py.File(FOLDER / "shared/radar.h5") as file:
+        for name, values in whole.items():
+            assert np.array_equal(file[name][...], values), name
+    for options, part in ((("radar.0.transmitter=own/send",), 'radar "front": transmitter'), (("links.same_vehicle=false",), "give links.same_vehicle = true"),
+                          (("radar.1.turns=true",), "turns = true has no effect"), (("radar.0.samples=65536", "radar.0.chirps=65536"), "are the limit"),
+                          (("radar.0.kind=bistatic",), "all of them are on one vehicle"), (("links.receivers=[\"o*\"]", "radar.0.receiver=x"), "receiver")):
+        sets = [word for option in options for word in ("--set", option)]
+        code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "refused", *sets)
+        assert code == 2 and part in said_text, said_text
+
+
+def check_command():
+    """The command of Python takes the waveform of the run, and options replace it."""
+    command = [sys.executable, "-m", "wavetracer.radar", RUN]
+    code, text = said(*command, "--frames", "70:80")
+    assert code == 2 and "frames 0 to 4" in text, text
+    code, text = said(*command, "--window", "kaiser")
+    assert code == 2 and "there is no window" in text, text
+    code, text = said(*command, "--radar", "side")
+    assert code == 2 and "the run has the radars front" in text, text
+    code, text = said(*command, "--samples", 64, "-o", FOLDER / "short.h5")
+    assert code == 0 and "are later than 2.13333e-07 s and left out" in text and "the run has arrays" in text, text
+    code, text = said(*command, "--osi", FOLDER / "radar.osi", "-o", FOLDER / "again.h5")
+    assert code == 0 and "5 frames without direct paths" in text, text
+    cubes = radar.load(FOLDER / "again.h5")
+    assert radar.names(FOLDER / "again.h5") == ["front"] and cubes[0].values.shape == (1, 1, 256, 256)
+    assert (FOLDER / "radar.osi").stat().st_size > 1000
+
+
+def check_plots():
+    code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler,micro-doppler", "--frame", 3, "-o", FOLDER / "plots")
+    assert code == 0, text
+    rows = (FOLDER / "plots/range_doppler.csv").read_text().splitlines()
+    assert rows[0] == "speed_m_s,range_m,power_dbm" and len(rows) == 1 + 256 * 256
+    table = np.array([[float(cell) for cell in row.split(",")] for row in rows[1:]])
+    np.testing.assert_allclose(table[:, 2].reshape(256, 256), radar.load(RUN / "radar.h5")[3].power_dbm, atol=1e-3)
+    rows = (FOLDER / "plots/micro_doppler.csv").read_text().splitlines()
+    assert rows[0] == "time_s,speed_m_s,power_dbm" and len(rows) == 1 + 5 * 256
+    if "gnuplot" not in text:
+        assert b"<svg" in (FOLDER / "plots/range_doppler.svg").read_bytes()[:2000]
+    for options, part in ((("--radar", "side"), "has no radar"), (("--frame", 9), "no such frame"), (("--tx", "own/hears"), "--tx")):
+        code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", *options, "-o", FOLDER / "plots")
+        assert code == 2 and part in text, text
+    code, text = said(PROGRAM, "plot", FOLDER / "equal", "--what", "range-doppler", "--radar", "rear", "-o", FOLDER / "plots")
+    assert code == 0 and len((FOLDER / "plots/range_doppler.csv").read_text().splitlines()) == 1 + 30 * 50, text
+    with h5py.File(RUN / "radar.h5", "r+") as file:
+        file["front/frames/frame"][...] = 7
+    code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", "-o", FOLDER / "plots")
+    assert code == 3 and "/front/frames/frame" in text, (code, text)
+    (RUN / "radar.h5").unlink()
+    code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", "-o", FOLDER / "plots")
+    assert code == 2 and "python3 -m wavetracer.radar" in text, text
+
+
+def check_plate():
+    """Echoes of a plate of 0.3 m x 0.3 m at 8 m are one detection with the power of the radar equation, 4 pi A^2 / lambda^2
+    at normal incidence, less what the near field costs: 8 m is less than 2 D^2 / lambda = 46 m."""
+    (FOLDER / "plate.obj").write_text("v 8 -0.15 -0.15\nv 8 0.15 -0.15\nv 8 0.15 0.15\nv 8 -0.15 0.15\nf 1 2 3\nf 1 3 4\n")
+    carrier, wave = 77e9, radar.Waveform(1e9, 20e-6, chirps=32, samples=128)
+    found = radar.echoes(FOLDER / "plate.obj", carrier, [0, 0, 0], [0, 0, 0], "--up=z", "--echo-size=0.1")
+    assert found["a"].shape == (len(found["delay_s"]), 2, 2) and (found["bounces"] == 1).all()
+    assert np.allclose(found["first_m"][:, 0], 8) and np.array_equal(found["first_m"], found["last_m"])
+    cube = radar.cube_of(radar.beat_of_echoes(found["delay_s"], found["a"][:, 0, 0], wave, carrier, 2000.0), wave, carrier)
+    peak = cube.detections()
+    assert abs(peak["range_m"][0] - 8) < 0.05 and abs(peak["doppler_hz"][0] - 2000) < 250
+    # The field of a plate at this distance by Fresnel integrals, over that of the far field.
+    wavelength = 299792458.0 / carrier
+    x = (np.arange(20000) + 0.5) / 20000 * 0.15
+    near = abs(np.mean(np.exp(-2j * np.pi / wavelength * x**2 / 8))) ** 2
+    far = wavelength / (4 * np.pi) * (0.09 / wavelength) / 64
+    expected = 10 + 20 * np.log10(far * near)
+    assert abs(20 * np.log10(abs((found["a"][:, 0, 0] * np.exp(-2j * np.pi * carrier * found["delay_s"])).sum())) + 10
+               - expected) < 0.2
+    assert abs(peak["power_dbm"][0] - expected) < 2
+
+
 FOLDER.mkdir(parents=True, exist_ok=True)
-code, text = said(PROGRAM, "run", "-c", CONFIGS / "radar.toml", "-o", RUN, "--set", "trace.rays=20000", "--frames", "0:4")
-assert code == 0, text
-(RUN / "radar.h5").unlink(missing_ok=True)
-code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", "-o", FOLDER / "plots")
-assert code == 2 and "python3 -m wavetracer.radar" in text, text
-command = [sys.executable, "-m", "wavetracer.radar", RUN]
-code, text = said(*command, "--frames", "70:80")
-assert code == 2 and "frames 0 to 4" in text, text
-code, text = said(*command, "--window", "kaiser")
-assert code == 2 and "there is no window" in text, text
-code, text = said(*command, "--samples", 64)
-assert code == 0 and "are later than 6.4e-08 s and left out" in text, text
-code, text = said(*command, "--no-direct", "--noise-figure", "12", "--osi", FOLDER / "radar.osi")
-assert code == 0 and "5 frames without direct paths" in text, text
-
-# The car ahead: its rear is 20.3 m from the bumper at first, and it goes away at 19.9 - 13.9 = 6 m/s.
-with h5py.File(RUN / "radar.h5") as file:
-    found = {name: column[...] for name, column in file["detections"].items()}
-    times = file["frames/time_s"][...]
-ranges = []
-for frame in range(5):
-    moving = np.flatnonzero((found["frame"] == frame) & (np.abs(found["speed_m_s"]) > 2))
-    assert len(moving) == 1, (frame, found)
-    assert abs(found["speed_m_s"][moving[0]] + 6) < 0.2
-    ranges.append(found["range_m"][moving[0]])
-assert abs(ranges[0] - 20.3) < 0.3, ranges
-assert abs(np.polyfit(times, ranges, 1)[0] - 6) < 0.15, ranges
-cubes = radar.load(RUN / "radar.h5")
-assert list(cubes) == [0, 1, 2, 3, 4] and cubes[0].values.shape == (1, 1, 128, 256)
-
-code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler,micro-doppler", "--frame", 3, "-o", FOLDER / "plots")
-assert code == 0, text
-rows = (FOLDER / "plots/range_doppler.csv").read_text().splitlines()
-assert rows[0] == "speed_m_s,range_m,power_dbm" and len(rows) == 1 + 128 * 256
-table = np.array([[float(cell) for cell in row.split(",")] for row in rows[1:]])
-np.testing.assert_allclose(table[:, 2].reshape(128, 256), np.maximum(cubes[3].power_dbm, -999), atol=1e-3)
-rows = (FOLDER / "plots/micro_doppler.csv").read_text().splitlines()
-assert rows[0] == "time_s,speed_m_s,power_dbm" and len(rows) == 1 + 5 * 128
-if "gnuplot" not in text:
-    assert b"<svg" in (FOLDER / "plots/range_doppler.svg").read_bytes()[:2000]
-# Echoes of a plate of 0.3 m x 0.3 m at 8 m are one detection with the power of the radar equation, 4 pi A^2 / lambda^2 at
-# normal incidence, less what the near field costs: 8 m is less than 2 D^2 / lambda = 46 m.
-(FOLDER / "plate.obj").write_text("v 8 -0.15 -0.15\nv 8 0.15 -0.15\nv 8 0.15 0.15\nv 8 -0.15 0.15\nf 1 2 3\nf 1 3 4\n")
-carrier, wave = 77e9, radar.Waveform(1e9, 20e-6, chirps=32, samples=128)
-found = radar.echoes(FOLDER / "plate.obj", carrier, [0, 0, 0], [0, 0, 0], "--up=z", "--echo-size=0.1")
-assert found["a"].shape == (len(found["delay_s"]), 2, 2) and (found["bounces"] == 1).all()
-assert np.allclose(found["first_m"][:, 0], 8) and np.array_equal(found["first_m"], found["last_m"])
-cube = radar.cube_of(radar.beat_of_echoes(found["delay_s"], found["a"][:, 0, 0], wave, carrier, 2000.0), wave, carrier)
-peak = cube.detections()
-assert abs(peak["range_m"][0] - 8) < 0.05 and abs(peak["doppler_hz"][0] - 2000) < 250
-# The field of a plate at this distance by Fresnel integrals, over that of the far field.
-wavelength = 299792458.0 / carrier
-x = (np.arange(20000) + 0.5) / 20000 * 0.15
-near = abs(np.mean(np.exp(-2j * np.pi / wavelength * x**2 / 8))) ** 2
-far = wavelength / (4 * np.pi) * (0.09 / wavelength) / 64
-expected = 10 + 20 * np.log10(far * near)
-assert abs(20 * np.log10(abs((found["a"][:, 0, 0] * np.exp(-2j * np.pi * carrier * found["delay_s"])).sum())) + 10
-           - expected) < 0.2
-assert abs(peak["power_dbm"][0] - expected) < 2
-
-with h5py.File(RUN / "radar.h5", "r+") as file:
-    file["frames/frame"][...] = 7
-code, text = said(PROGRAM, "plot", RUN, "--what", "range-doppler", "-o", FOLDER / "plots")
-assert code == 3 and "/frames/frame" in text, (code, text)
+check_example()
+check_equal()
+check_arrays()
+check_command()
+check_plots()
+check_plate()
 print("radar of a run ok")

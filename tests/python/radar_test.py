@@ -164,11 +164,23 @@ def check_files():
     for cube, read in zip(cubes, again.values()):
         assert np.array_equal(read.values, cube.values.astype(np.complex64)) and np.array_equal(read.range_m, cube.range_m)
         assert read.frequency_hz == CARRIER and "64 Doppler shifts" in repr(read)
-    with h5py.File(FOLDER / "radar.h5") as file:
-        assert file["power_dbm"].shape == (2, 64, 128) and file["spectrogram/power_dbm"].shape == spectra[2].shape
+    assert radar.names(FOLDER / "radar.h5") == ["radar"]
+    with h5py.File(FOLDER / "radar.h5") as whole:
+        file = whole["radar"]
+        assert file["maps/power_dbm"].shape == (2, 64, 128) and file["spectrogram/power_dbm"].shape == spectra[2].shape
+        assert file["spectrogram_doppler_hz"].shape == spectra[1].shape and list(file["frames/tx"]) == [0, 0]
         found = [cube.detections() for cube in cubes]
         assert list(file["detections/frame"]) == sum(([n] * len(d["range_m"]) for n, d in zip((3, 5), found)), [])
         assert np.array_equal(file["detections/doppler_hz"], np.concatenate([d["doppler_hz"] for d in found]))
+    refused(lambda: radar.load(FOLDER / "radar.h5", "rear"), "has no radar 'rear', only radar")
+    refused(lambda: radar.save(FOLDER / "named.h5", cubes, [3, 5], [0.3, 0.5], name="a/b"), "letters, digits")
+    with h5py.File(FOLDER / "radar.h5", "r+") as file:
+        file["radar/frames/tx"][...] = [0, 1]
+    refused(lambda: radar.load(FOLDER / "radar.h5"), "has 2 links, 0 to 0, 1 to 0: choose one")
+    assert list(radar.load(FOLDER / "radar.h5", tx=1)) == [5]
+    with h5py.File(FOLDER / "radar.h5", "r+") as file:
+        file.attrs["format_version"] = 1
+    refused(lambda: radar.load(FOLDER / "radar.h5"), "it has version 1 of the format")
     other = radar.cube(made([30e-9], [0], [1]), radar.Waveform(1e9, 20e-6, chirps=32, samples=128))
     refused(lambda: radar.save(FOLDER / "mixed.h5", [cubes[0], other], [0, 1], [0, 1]), "of one waveform")
     (FOLDER / "other.h5").write_text("no")
@@ -176,6 +188,16 @@ def check_files():
     with h5py.File(FOLDER / "empty.h5", "w"):
         pass
     refused(lambda: radar.load(FOLDER / "empty.h5"), "no radar.h5")
+
+
+def check_configured():
+    """The waveform of a run is that of its [[radar]], with the power of [radio] where it has none of its own."""
+    table = '[radio]\ntransmit_power_dbm = 7.5\n[[radar]]\nname = "front"\nbandwidth_hz = 3e8\nturns = true\n{}[output]\nchirps = 1\n'
+    assert radar.waveform_of(table.format("chirps = 32\nchirp_s = 1e-5\n")) == radar.Waveform(
+        3e8, 1e-5, chirps=32, power_dbm=7.5, turns=True)
+    assert radar.waveform_of(table.format("chirp_s = 1e-5\npower_dbm = 1.0\n"), "front").power_dbm == 1
+    refused(lambda: radar.waveform_of("[radio]\n"), "has no [[radar]]")
+    refused(lambda: radar.waveform_of(table.format(""), "rear"), "the run has the radars front")
 
 
 def check_misuse():
@@ -201,5 +223,6 @@ check_angles(False)
 check_angles(True)
 check_wheel()
 check_files()
+check_configured()
 check_misuse()
 print("radar ok")

@@ -63,7 +63,7 @@ TEST_CASE("vehicles: no body hides its own points, others do; own antennas do no
 }
 
 TEST_CASE("the example of a radar: the car ahead, the one that comes and the pedestrian, with their speeds") {
-  const std::string file = source_folder() + "/configs/targets.toml";
+  const std::string file = source_folder() + "/configs/radar.toml";
   Simulation simulation(load_config(file, {"trace.rays=2000"}));
   const Paths paths = simulation.run_frame(0).paths;
   std::map<std::string, double> direct_hz;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each chirp of a pair of antennas has a stream of random numbers of its own, so the noise does not depend on the
+// cores.
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "radar/beat_signal.hpp"
+
+namespace wavetracer {
+namespace {
+
+constexpr double boltzmann_j_k = 1.380649e-23, room_k = 290;
+
+// The generator splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
+class NoiseStream {
+ public:
+  explicit NoiseStream(uint64_t state) : state_(state) {}
+  uint64_t next() {
+    state_ += 0x9E3779B97F4A7C15u;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  // Evenly in (0, 1].
+  double uniform() { return (static_cast<double>(next() >> 11) + 1) * 0x1p-53; }
+
+ private:
+  uint64_t state_;
+};
+
+uint64_t folded(uint64_t seed, uint64_t value) { return NoiseStream(seed ^ NoiseStream(value).next()).next(); }
+
+}  // namespace
+
+void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, Link link) {
+  if (!radar.noise_figure_db) return;
+  const double power_w =
+      boltzmann_j_k * room_k * std::pow(10, *radar.noise_figure_db / 10) * radar.samples / radar.chirp_s;
+  uint64_t seed = radar.seed.value_or(0);
+  for (const uint64_t value : {uint64_t{frame}, uint64_t{link.tx}, uint64_t{link.rx}}) seed = folded(seed, value);
+  tbb::parallel_for(size_t{0}, signal.rx_antennas * signal.tx_antennas * signal.chirps, [&](size_t row) {
+    NoiseStream random(folded(seed, row));
+    for (size_t i = row * signal.samples; i < (row + 1) * signal.samples; ++i) {
+      // A complex number of this mean power (Box and Muller, 1958).
+      const double size = std::sqrt(-power_w * std::log(random.uniform()));
+      const double angle = 2 * std::numbers::pi * random.uniform();
+      signal.re[i] += size * std::cos(angle);
+      signal.im[i] += size * std::sin(angle);
+    }
+  });
+}
+
+}  // namespace wavetracer

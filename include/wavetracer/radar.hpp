@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radars of a configuration ([[radar]]) in a frame: range-Doppler cubes, maps and detections.
+#pragma once
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wavetracer/world_state.hpp"
+
+namespace wavetracer {
+
+// Cells of a map that are the largest of their neighbours and above the threshold, by falling power. Columns of equal
+// length. Angles are those of the wave that arrives, in the axes of the receiving antenna; NaN where its array cannot
+// tell them.
+struct RadarDetections {
+  std::vector<double> delay_s, doppler_hz;
+  std::vector<double> range_m, speed_m_s;  // half the length of the path; the speed at which a target comes nearer
+  std::vector<double> power_dbm, threshold_dbm;
+  std::vector<double> azimuth_rad, elevation_rad;  // from ahead towards the left, and upwards
+  size_t size() const { return delay_s.size(); }
+};
+
+// One link of a radar in a frame.
+struct RadarRow {
+  Link link;
+  uint32_t left_out = 0;  // paths that are too long for the waveform
+  // Roots of watts, [rx antenna][tx antenna][Doppler shift][delay]; antennas are port * elements + element.
+  std::vector<std::complex<double>> cube;
+  std::vector<double> power_dbm;     // the mean power over antennas, [Doppler shift][delay]; -inf: none
+  std::vector<double> spectrum_dbm;  // the power of each Doppler shift, over all delays
+  RadarDetections detections;
+};
+
+// The rows of a radar's links that are in a frame, sorted by link.
+using RadarRows = std::vector<RadarRow>;
+
+// Numbers that are the same in all rows of a radar.
+struct RadarAxes {
+  uint32_t rx_antennas = 1, tx_antennas = 1;
+  std::vector<double> delay_s, range_m;       // range: half the length of a path
+  std::vector<double> doppler_hz, speed_m_s;  // ascending; speed: that at which a target comes nearer
+};
+
+}  // namespace wavetracer
