@@ -131,6 +131,46 @@ def check_equal():
         assert code == 2 and part in said_text, said_text
 
 
+STILL = """
+[scene]
+generate = "--seed 1 --blocks 2x2"
+extrapolate_materials = true
+[radio]
+frequency_hz = 77e9
+[trace]
+rays = 2000
+max_depth = 0
+"""
+
+
+def check_pairs():
+    """Fixed ends: all pairs are monostatic radars, and a bistatic one hears the direct path with the power of Friis. Blocks
+    of links in two processes make the same file."""
+    places = {"a": (3, -40), "b": (3, 40), "c": (40, 3)}
+    text = STILL + "".join(f'[[transmitter]]\nname = "{name}/tx"\nposition_m = [{x}, {y}, 2]\n' for name, (x, y) in places.items())
+    text += "".join(f'[[receiver]]\nname = "{name}/rx"\nposition_m = [{x}.2, {y}, 2]\n' for name, (x, y) in places.items() if name != "c")
+    length = np.hypot(80, 0.2)
+    text += ('[[radar]]\nname = "all"\nchirps = 16\nsamples = 200\nbandwidth_hz = 200e6\nnoise_figure_db = 10.0\n[[radar]]\n'
+             'name = "pair"\ntransmitter = "a/*"\nreceiver = "b/*"\nkind = "bistatic"\nchirps = 16\nsamples = 128\n'
+             f"bandwidth_hz = {54 * 299792458.0 / length!r}\n")  # the direct path is in the middle of a cell
+    config = FOLDER / "still.toml"
+    config.write_text(text)
+    files = []
+    for folder, options in (("alone", ()), ("together", ("--processes", 2))):
+        code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / folder, *options)
+        assert code == 0, said_text
+        files.append((FOLDER / folder / "radar.h5").read_bytes())
+    assert files[0] == files[1]
+    with h5py.File(FOLDER / "alone/radar.h5") as file:
+        assert [list(file["all/frames"][end][...]) for end in ("tx", "rx")] == [[0, 0, 1, 1, 2, 2], [0, 1, 0, 1, 0, 1]]
+        assert [list(file["pair/frames"][end][...]) for end in ("tx", "rx")] == [[0], [1]]
+        found = {name: values[0] for name, values in file["pair/detections"].items()}
+    friis = 10 + 20 * np.log10(299792458.0 / 77e9 / (4 * np.pi * length))
+    assert abs(found["range_m"] - length / 2) < 0.05 and found["speed_m_s"] == 0, found
+    assert abs(found["power_dbm"] - friis) < 0.2, (found, friis)
+    assert len(radar.load(FOLDER / "alone/radar.h5", "all", tx=2, rx=0)) == 1
+
+
 def check_command():
     """The command of Python takes the waveform of the run, and options replace it."""
     command = [sys.executable, "-m", "wavetracer.radar", RUN]
@@ -200,6 +240,7 @@ FOLDER.mkdir(parents=True, exist_ok=True)
 check_example()
 check_equal()
 check_arrays()
+check_pairs()
 check_command()
 check_plots()
 check_plate()
