@@ -58,7 +58,7 @@ Json run(const Options& options) {
   config.scene.generate = options.city;
   const Scene scene = load_scene(config);
   const DeviceScene device = make_device_scene(context, scene, false);
-  const Facets facets = WorldFacets(scene, {}).at({}, {});
+  const Facets facets = WorldFacets(scene, {}).fixed();
   const BeamTree tree = make_beam_tree(context, facets);
   const Launcher end{.transmitter = 0,
                      .position_m = glm::dvec3(options.at_m[0], options.at_m[1], options.at_m[2]) - scene.origin_m};

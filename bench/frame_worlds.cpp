@@ -48,6 +48,14 @@ void drive(Config& config, size_t vehicles, uint32_t frames) {
   config.trace.diffraction = true;
 }
 
+void drive_by_beams(Config& config, size_t vehicles, uint32_t frames) {
+  drive(config, vehicles, frames);
+  config.trace.discovery = "beams";
+  config.trace.diffraction = false;
+  config.trace.max_depth = 3;
+  config.transmitters.resize(1);
+}
+
 void cache(Config& config, bool groups) {
   config.cache.kind = "concurrent";
   config.cache.purge = "precision";
@@ -143,6 +151,8 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.trace.max_depth = 3;
     c.transmitters.resize(1);
   });
+  add(
+      "kept beams", [&](Config& c) { drive_by_beams(c, vehicles, frames); }, frames);
   add("transmission", [](Config& c) { c.trace.transmission = true; });
   add("vegetation", plant);
   add("scattering", [](Config& c) { scatter(c, 0); });

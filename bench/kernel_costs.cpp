@@ -146,6 +146,8 @@ constexpr KernelCost costs[] = {
     {"fields/fields", "reflections", "paths", path_rows, row_bytes, field_operations, true},
 
     {"beam_gather/beam_gather", "beams", "apertures", apertures, always<sizeof(wt_aperture)>, scene_operations},
+    {"beam_moving/beam_moving", "kept beams", "apertures that are kept", items_of<"beam_moving/beam_moving">,
+     always<sizeof(wt_outlook)>, always<2 * 6 * 12>},
     {"beam_visible/beam_visible", "beams", "candidates", candidates_of_beams, always<sizeof(wt_beam_candidate)>,
      nothing},
     {"beam_visible/beam_waiting", "beams", "groups, one piece or none each", waiting_groups,

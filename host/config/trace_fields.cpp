@@ -13,12 +13,13 @@ Table trace_table() {
       .fields = {
           {.name = "discovery",
            .slot = t(&TraceConfig::discovery),
-           .doc = "The way that the sequences of surfaces are found. rays: many rays sample them, which misses some. "
-                  "beams: what each end sees is followed as a whole, mirror by mirror; this misses nothing but what "
-                  "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
-                  "the keys about rays, such as trace.rays, and keep nothing from frame to frame. With "
-                  "trace.transmission they follow waves through up to trace.max_transmissions surfaces, which takes "
-                  "some times as long."},
+           .doc =
+               "The way that the sequences of surfaces are found. rays: many rays sample them, which misses some. "
+               "beams: what each end sees is followed as a whole, mirror by mirror; this misses nothing but what "
+               "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
+               "the keys about rays, such as trace.rays; with trace.reuse, frames keep what ends that stand see of "
+               "surfaces that stand. With trace.transmission they follow waves through up to trace.max_transmissions surfaces, which takes "
+               "some times as long."},
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays per transmitter",

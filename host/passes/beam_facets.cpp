@@ -3,6 +3,7 @@
 #include "passes/beam_facets.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -171,17 +172,23 @@ WorldFacets::WorldFacets(const Scene& scene, const std::vector<Scene>& models) :
   for (const Scene& model : models) models_.push_back(facets_of(model));
 }
 
-Facets WorldFacets::at(const std::vector<Instance>& instances, std::span<const Placement> placements) const {
-  Facets out = scene_;
+WorldFacets::Moving WorldFacets::moving(const std::vector<Instance>& instances,
+                                        std::span<const Placement> placements) const {
+  Moving out;
   for (size_t i = 0; i < instances.size(); ++i) {
     if (!placements[i].present) continue;
     const Facets& model = models_[instances[i].model];
+    glm::dvec3 low(no_bound), high(-no_bound);
     for (const wt_facet& facet : model.facets) {
       std::vector<glm::dvec3> corners;
-      for (uint32_t k = 0; k < facet.count; ++k)
+      for (uint32_t k = 0; k < facet.count; ++k) {
         corners.push_back(placements[i].position_m + placements[i].rotation * model.corners[facet.first_corner + k]);
-      add_facet(corners, instances[i].first_surface + facet.surface, out);
+        low = glm::min(low, corners.back());
+        high = glm::max(high, corners.back());
+      }
+      add_facet(corners, instances[i].first_surface + facet.surface, out.facets);
     }
+    if (!model.facets.empty()) out.boxes.push_back({{low.x, low.y, low.z}, {high.x, high.y, high.z}});
   }
   return out;
 }

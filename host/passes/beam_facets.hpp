@@ -32,9 +32,15 @@ Facets make_facets(std::span<const SurfaceTriangle> triangles);
 class WorldFacets {
  public:
   WorldFacets(const Scene& scene, const std::vector<Scene>& models);
-  // Those of the scene, and of the instances that are present where `placements` says, recentred. Surfaces have their
-  // numbers in the world.
-  Facets at(const std::vector<Instance>& instances, std::span<const Placement> placements) const;
+  // Those of the scene.
+  const Facets& fixed() const { return scene_; }
+  // Those of the instances that are present, where `placements` says, recentred, and the box of each such instance that
+  // has facets. Surfaces have their numbers in the world.
+  struct Moving {
+    Facets facets;
+    std::vector<wt_instance_box> boxes;
+  };
+  Moving moving(const std::vector<Instance>& instances, std::span<const Placement> placements) const;
 
  private:
   Facets scene_;

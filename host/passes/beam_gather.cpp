@@ -40,6 +40,7 @@ uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, 
                     .surfaces = scene.exact_surfaces,
                     .apertures = lists.apertures,
                     .lit_spaces = lists.lit_spaces,
+                    .outlooks = step.outlooks ? *step.outlooks : lists.no_outlooks,
                     .chunks = lists.chunks,
                     .candidates = lists.candidates,
                     .counters = lists.counters,
@@ -51,7 +52,9 @@ uint32_t BeamGather::operator()(const BeamTree& tree, const DeviceScene& scene, 
                                               .round = 0,
                                               .last = 0,
                                               .walls = step.walls,
-                                              .edges = step.edges}});
+                                              .edges = step.edges,
+                                              .root = step.root,
+                                              .outlooks = step.outlooks != nullptr}});
       },
       [&] { return lists.counters.read_one(0, Stage::beam_gather).chunks; }, [&] { return lists.chunks.size(); },
       [&](size_t chunks) {

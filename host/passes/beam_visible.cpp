@@ -27,7 +27,9 @@ wt_beam_arguments arguments_of(const BeamLists& lists, uint32_t first_aperture, 
           .round = round,
           .last = step.depth == step.max_depth,
           .walls = step.walls,
-          .edges = step.edges};
+          .edges = step.edges,
+          .root = 0,
+          .outlooks = 0};
 }
 
 }  // namespace

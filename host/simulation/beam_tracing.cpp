@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All apertures of a depth are looked through, then those of the next. Apertures come in blocks whose candidates fit
-// into their list.
+// See kept_beams.cpp for what outlives a discovery. All apertures of a depth are looked through, then those of the
+// next. Apertures come in blocks whose candidates fit into their list.
 #include "simulation/beam_tracing.hpp"
 
 #include <algorithm>
@@ -50,11 +50,10 @@ BeamMirrors make_beam_mirrors(gpu::Context& context, const BeamOptions& options)
 BeamTracing::BeamTracing(gpu::Context& context, const Scene& scene, const std::vector<Scene>& models,
                          const BeamOptions& options, const FrameWatch* watch)
     : context_(context),
-      max_transmissions_(options.max_transmissions),
-      max_diffractions_(options.max_diffractions),
-      floor_db_(options.floor_db),
+      options_(options),
       watch_(watch),
       facets_(scene, models),
+      tree_(context, facets_.fixed()),
       lists_(context),
       mirrors_(make_beam_mirrors(context, options)) {}
 
@@ -83,72 +82,116 @@ std::vector<wt_aperture> beam_roots(std::span<const Launcher> ends) {
   return roots;
 }
 
-uint32_t BeamTracing::start(const std::vector<Launcher>& ends) {
-  const std::vector<wt_aperture> roots = beam_roots(ends);
-  if (lists_.apertures.size() < roots.size())
+uint32_t BeamTracing::start(const std::vector<wt_aperture>& roots, const wt_beam_counters& counters) {
+  if (lists_.apertures.size() < std::max<size_t>(roots.size(), 1))
     lists_.apertures =
         context_.buffer<wt_aperture>(std::max<size_t>(roots.size(), least_apertures), {"apertures", advice::beams});
   lists_.apertures.write(roots, 0, Stage::beam_gather);
   if (lists_.next.size() == 0)
     lists_.next = context_.buffer<wt_aperture>(least_apertures, {"apertures", advice::beams});
-  lists_.counters.write(std::vector<wt_beam_counters>(1), 0, Stage::beam_gather);
-  counts_ = {};
-  counts_.ends = ends.size();
-  counts_.edges = max_diffractions_;
-  counts_.floor_db = floor_db_;
+  lists_.counters.write(std::vector{counters}, 0, Stage::beam_gather);
   return static_cast<uint32_t>(roots.size());
 }
 
 // Kernels are made for a few depths, so that worlds of similar size share them.
 void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<const Placement> placements) {
-  tree_ = make_beam_tree(context_, facets_.at(instances, placements));
-  if (gather_ && tree_.depth <= depth_) return;
-  depth_ = (tree_.depth + 7) / 8 * 8;
+  const WorldFacets::Moving moving = facets_.moving(instances, placements);
+  tree_.place(moving.facets);
+  if (!moving_ && !instances.empty()) moving_.emplace(context_);
+  if (moving_) moving_->place(moving.boxes);
+  const uint32_t depth = tree_.tree().depth;
+  if (gather_ && depth <= depth_) return;
+  depth_ = (depth + 7) / 8 * 8;
   gather_.emplace(context_, depth_);
   if (!visible_) visible_.emplace(context_);
 }
 
-BeamCounts BeamTracing::find(const DeviceScene& scene, const std::vector<Launcher>& ends,
-                             std::span<const glm::dvec3> receivers, uint32_t max_depth, Sequences& set) {
-  set_box(receivers, mirrors_.floor);
-  uint32_t apertures = start(ends);
-  for (uint32_t depth = 1; depth <= max_depth && apertures > 0; ++depth) {
-    if (watch_) watch_->tell("rays", depth - 1, max_depth);
-    // Each wall that a wave passes also counts as an interaction.
-    const uint32_t walls = std::min(max_transmissions_, max_depth - depth);
-    // The last depth makes no apertures, and a beam that passes fewer walls than it might may meet more behind them.
-    counts_.any_depth = depth < max_depth && walls == max_transmissions_;
-    if (!look(scene, apertures,
-              {.depth = depth, .max_depth = max_depth, .walls = walls, .edges = max_diffractions_ > 0}, set)) {
-      set.regrow(max_depth);
-      apertures = start(ends);
-      depth = 0;
-      continue;
-    }
-    wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
-    apertures = now.apertures;
-    now.apertures = 0;
-    lists_.counters.write(std::vector{now}, 0, Stage::beam_visible);
-    std::swap(lists_.apertures, lists_.next);
+// The set grows by parts of it being found anew, which is rare.
+BeamCounts BeamTracing::find(const DeviceScene& scene, const BeamTask& task, Sequences& set) {
+  set_box(task.receivers, mirrors_.floor);
+  counts_ = {};
+  counts_.ends = task.standing.size() + task.moving.size();
+  counts_.edges = options_.max_diffractions;
+  counts_.floor_db = options_.floor_db;
+  counts_.depth = task.max_depth;
+  while (!try_find(scene, task, set)) {
+    kept_.reset();  // nodes have moved
+    set.regrow(task.max_depth);
+    set.clear();
   }
-  if (watch_) watch_->tell("rays", max_depth, max_depth);
+  if (!task.keep) kept_.reset();
+  if (watch_) watch_->tell("rays", task.max_depth, task.max_depth);
   const wt_beam_counters end = lists_.counters.read_one(0, Stage::beam_visible);
-  counts_.depth = max_depth;
   counts_.left_out_sr = units(end.left_out) * WT_SR_UNIT;
   counts_.thin_sr = units(end.thin) * WT_SR_UNIT;
   counts_.weak_sr = units(end.weak) * WT_WEAK_SR_UNIT;
   return counts_;
 }
 
+bool BeamTracing::try_find(const DeviceScene& scene, const BeamTask& task, Sequences& set) {
+  const bool sees_moving = tree_.tree().has_moving && !task.resting;
+  std::vector<Launcher> others = task.moving;
+  bool apart = !task.standing.empty() && (sees_moving || task.keep);
+  if (apart) {
+    if (!find_static(scene, task, key_of(task), set)) return false;
+    apart = kept_ != nullptr;
+  }
+  if (!apart) std::ranges::copy(task.standing, std::back_inserter(others));
+  const uint32_t apertures = start(beam_roots(others), apart ? kept_->counters : wt_beam_counters{});
+  counts_.any_depth = apart;
+  const Walk walk{.root = tree_.tree().root(), .from = apart && sees_moving ? kept_.get() : nullptr};
+  if (!follow(scene, task, apertures, walk, set, counts_.any_depth)) return false;
+  counts_.any_depth = counts_.any_depth && (!apart || kept_->any_depth);
+  return true;
+}
+
+bool BeamTracing::follow(const DeviceScene& scene, const BeamTask& task, uint32_t apertures, const Walk& walk,
+                         Sequences& set, bool& any_depth) {
+  for (uint32_t depth = 1; depth <= task.max_depth; ++depth) {
+    if (watch_) watch_->tell("rays", depth - 1, task.max_depth);
+    // Each wall that a wave passes also counts as an interaction.
+    const uint32_t walls = std::min(options_.max_transmissions, task.max_depth - depth);
+    const bool more = walk.from && depth <= walk.from->depths.size();
+    if (more) apertures = (*moving_)(scene, walk.from->depths[depth - 1], lists_, apertures, walls);
+    if (apertures == 0 && more) continue;
+    if (apertures == 0) break;
+    // The last depth makes no apertures, and a beam that passes fewer walls than it might may meet more behind them.
+    any_depth = depth < task.max_depth && walls == options_.max_transmissions;
+    BeamStep step{.depth = depth,
+                  .max_depth = task.max_depth,
+                  .walls = walls,
+                  .edges = options_.max_diffractions > 0,
+                  .root = walk.root};
+    KeptApertures kept;
+    if (walk.into) {
+      kept = {.apertures = context_.buffer<wt_aperture>(apertures, {"apertures that are kept", advice::beams}),
+              .outlooks = context_.buffer<wt_outlook>(apertures, {"outlooks", advice::beams}),
+              .count = apertures};
+      if (walk.into->bytes() + kept.bytes() > limit_bytes())
+        throw gpu::BufferError("beams that are kept need more memory than they may have");
+      step.outlooks = &kept.outlooks;
+      context_.copy(lists_.apertures, kept.apertures, apertures * sizeof(wt_aperture), Stage::beam_gather);
+    }
+    if (!look(scene, apertures, step, set)) return false;
+    if (walk.into) walk.into->depths.push_back(std::move(kept));
+    wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
+    apertures = now.apertures;
+    now.apertures = 0;
+    lists_.counters.write(std::vector{now}, 0, Stage::beam_visible);
+    std::swap(lists_.apertures, lists_.next);
+  }
+  return true;
+}
+
 bool BeamTracing::look(const DeviceScene& scene, uint32_t apertures, const BeamStep& step, Sequences& set) {
   uint32_t block = 0;  // its first aperture
   const auto list = [&](uint32_t first, uint32_t end) {
     block = first;
-    return (*gather_)(tree_, scene, lists_, first, end - first, step, most_chunks);
+    return (*gather_)(tree_.tree(), scene, lists_, first, end - first, step, most_chunks);
   };
   const auto take = [&](uint32_t chunks) {
     if (watch_) watch_->tell("rays", step.depth - 1, step.max_depth);  // between blocks a frame may be stopped
-    (*visible_)(tree_, scene, mirrors_, lists_, block, chunks, step, set.trie());
+    (*visible_)(tree_.tree(), scene, mirrors_, lists_, block, chunks, step, set.trie());
   };
   const auto too_long = [](uint32_t) {
     throw gpu::BufferError(

@@ -18,6 +18,7 @@ namespace wavetracer {
 // PoCL compiles a kernel for the shape of its first launch, which would take most of the first frame. So what a frame
 // launches is launched before, by few rays of one transmitter, and forgotten.
 FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_.trace.discover_every_s) {
+  if (s_.beams) standing_origins_ = standing_origins(plan_.world, plan_.origins);
   if (s_.context.info().cpu) {
     try {
       FrameTask task = FrameTask::to_compile([this] { return plan_.world.state(0); });
@@ -31,6 +32,11 @@ FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_
 }
 
 void FrameLoop::forget() {
+  if (s_.beams) s_.beams->forget();
+  forget_found();
+}
+
+void FrameLoop::forget_found() {
   warm_frames_ = 0;
   heard_ = false;
   if (s_.cache) s_.cache->clear();
@@ -43,14 +49,14 @@ bool FrameLoop::batches_share() const {
 
 // A cancelled frame leaves only a part of its sequences, and the next frame must not take them for all. Frames of a
 // part of their links neither reuse sequences nor leave any, except that what listeners hear of edges serves all
-// batches of receivers.
+// batches of receivers, and that beams are kept for ends, whatever their links.
 FrameResult FrameLoop::run(FrameTask task) {
   const bool whole = task.links().is_all(), hears = task.links().is_batch() && batches_share();
   if (whole) heard_ = false;
-  if (!whole && !(hears && heard_ && task.links().is_later_batch())) forget();
+  if (!whole && !(hears && heard_ && task.links().is_later_batch())) forget_found();
   try {
     FrameResult out = solve(task);
-    if (!whole) forget();
+    if (!whole) forget_found();
     heard_ = hears;
     return out;
   } catch (const FrameStopped&) {
@@ -220,13 +226,19 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
   if (block) ends = launchers_of(*block, ends);
   const Fleet& fleet = plan_.world.fleet;
   if (!fleet.instances.empty()) s_.beams->set_world(fleet.instances, world.instances);
-  DiscoveryCounts out;
   const uint32_t depth = tracing_depth(plan_.trace).sequences;
-  std::vector<glm::dvec3> receivers;
+  BeamTask beams{.standing = {},
+                 .moving = {},
+                 .max_depth = task.only_compiles() ? std::min(depth, 2u) : depth,
+                 .resting = rests(task),
+                 .keep = plan_.keep_beams || task.links().is_batch()};
+  for (const Launcher& end : ends)
+    (beams.resting || standing_origins_[end.transmitter] ? beams.standing : beams.moving).push_back(end);
   for (const EndState& end : world.receivers)
-    if (end.present) receivers.push_back(end.position_m);
-  out.beams = s_.beams->find(s_.device_scene, ends, receivers, task.only_compiles() ? std::min(depth, 2u) : depth,
-                             s_.discovery->sequences());  // beam_gather, beam_visible
+    if (end.present) beams.receivers.push_back(end.position_m);
+  DiscoveryCounts out;
+  // beam_moving, beam_gather, beam_visible
+  out.beams = s_.beams->find(s_.device_scene, beams, s_.discovery->sequences());
   return out;
 }
 

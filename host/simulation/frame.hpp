@@ -39,6 +39,8 @@ class FrameLoop {
     wt_counters counted{};
   };
 
+  // The same, but for beams that are kept.
+  void forget_found();
   FrameResult solve(FrameTask& task);
   Found find_paths(const FrameTask& task, const WorldState& world, const RadioEnds& ends, const LinkBlock* block,
                    bool searches, bool alike, FrameAccount& account);
@@ -69,6 +71,7 @@ class FrameLoop {
   bool summed_ = false;
   std::vector<LinkFigures> figures_room_;
   std::optional<LaunchPlan> launch_;
+  std::vector<bool> standing_origins_;  // with beams: the origins that never move
   RayWitness witness_;
   uint64_t warm_frames_ = 0;  // frames since the last cold one that launched rays, with that one
 };

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "simulation/world.hpp"
 #include "wavetracer/device/moving.h"
 
 namespace wavetracer {
@@ -67,6 +68,14 @@ Origins hearing_origins(std::span<const EndState> receivers, uint32_t transmitte
     out.listeners.receivers.insert(out.listeners.receivers.end(), here.begin(), here.end());
     out.listeners.close();
   }
+  return out;
+}
+
+std::vector<bool> standing_origins(const World& world, const Origins& origins) {
+  std::vector<bool> out(origins.count(), false);
+  std::fill_n(out.begin(), std::min(world.transmitters.standing.size(), out.size()), true);
+  for (size_t i = 0; i < std::min(world.receivers.standing.size(), origins.origin_of_receiver.size()); ++i)
+    if (const uint32_t origin = origins.origin_of_receiver[i]; origin != no_end) out[origin] = true;
   return out;
 }
 

@@ -14,6 +14,8 @@
 
 namespace wavetracer {
 
+struct World;
+
 // Sides of the squares whose receivers are one listener, and how far above or below them a ray may pass. Smaller ones
 // have fewer candidates, larger ones hear more (docs/design/measurements.md).
 constexpr double listener_size_m = 20, listener_margin_m = 5;
@@ -44,6 +46,9 @@ Origins make_origins(const std::vector<uint32_t>& receiver_of_transmitter,
 // The same where receivers, which never move, hear the rays of edges: those in a square are one listener. The squares
 // have a side of size_m, or more where there would be millions of them.
 Origins hearing_origins(std::span<const EndState> receivers, uint32_t transmitters, double size_m);
+
+// For each origin: does it stand, so that it never moves in a drive?
+std::vector<bool> standing_origins(const World& world, const Origins& origins);
 
 // The launcher at an end.
 Launcher launcher_of(uint32_t origin, const EndState& end);

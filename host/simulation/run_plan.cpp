@@ -24,10 +24,8 @@ void check_at_rest(const World& world) {
         "launch rays, or remove the vehicles");
 }
 
-// A sphere receives what this frame's rays meet.
 bool reuses(const TraceConfig& trace, const World& world, bool frames_follow) {
-  return trace.reuse && !trace.by_spheres() && !trace.by_beams() &&
-         (world.clock.frame_count() > 1 || world.live || frames_follow);
+  return trace.reuse && (world.clock.frame_count() > 1 || world.live || frames_follow);
 }
 
 }  // namespace
@@ -49,7 +47,9 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
     check_at_rest(world);
     origins = hearing_origins(world.receivers.standing, origins.transmitter_count(), listener_size_m);
   }
-  const bool reuse = !origins.squares && reuses(trace, world, frames_follow);
+  const bool reuse = reuses(trace, world, frames_follow);
+  // A sphere receives what this frame's rays meet.
+  const bool by_rays = !origins.squares && !trace.by_spheres() && !trace.by_beams();
   std::vector<WorldRadar> radars = world_radars(config, world);
   drop_used(scene.report.warnings, world.fleet.models);
   return {.scene = std::move(scene),
@@ -59,7 +59,8 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
           .trace = trace,
           .origins = std::move(origins),
           .radars = std::move(radars),
-          .reuse = reuse};
+          .reuse = reuse && by_rays,
+          .keep_beams = reuse && trace.by_beams()};
 }
 
 std::vector<bool> opaque_surfaces(const RunPlan& plan) {

@@ -24,7 +24,8 @@ struct RunPlan {
   TraceConfig trace;  // [trace] without what the scene does not need
   Origins origins;
   std::vector<WorldRadar> radars;  // one for each [[radar]]
-  bool reuse;                      // frames reuse the sequences of earlier frames
+  bool reuse;                      // frames reuse the sequences that rays of earlier frames have found
+  bool keep_beams;                 // frames reuse the beams of ends that stand
 
   // Rays may meet something.
   bool has_surfaces() const { return !scene.surfaces.empty() || !world.fleet.instances.empty(); }

@@ -108,7 +108,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
   stages.end("load");
   auto plan = std::make_unique<const RunPlan>(plan_run(asked, std::move(loaded), frames_follow));
   if (check) check(*plan);
-  const auto& [scene, world, config, features, trace, origins, radars, reuse] = *plan;
+  const auto& [scene, world, config, features, trace, origins, radars, reuse, keep_beams] = *plan;
   auto around = std::make_unique<const Surroundings>(scene);
   std::vector<std::string> warnings = place_warnings(asked, *around, world);
   auto [device_scene, placement] = upload(context, *plan);

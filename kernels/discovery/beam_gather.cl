@@ -3,6 +3,7 @@
 // first. Much of what nothing shows is left out already: what one of a few large facets hides as a whole. A group of
 // WT_LANES work-items takes one aperture; it walks the tree of facets with the planes of the beam.
 #include "lib/beam_walk.clh"
+#include "lib/outlook.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 // The list that a group writes.
@@ -16,6 +17,7 @@ typedef struct {
   wt_beam_candidate candidates[WT_BATCH];
   wt_screen screens[WT_BATCH];
   uint listed[WT_BATCH], is_screen[WT_BATCH];
+  uint fresh[WT_BATCH], fresh_count;  // those that became screens
 } wt_look;
 
 // The world, and one aperture in it.
@@ -39,6 +41,7 @@ inline uint use_of(const wt_scene_view* at, uint surface) {
   if (surface == aperture->surface) return 0;
   const global wt_exact_surface* s = at->surfaces + surface;
   if (aperture->own != WT_NONE && s->instance == aperture->own) return 0;
+  if (aperture->only_moving && s->instance == WT_NONE) return 0;
   if (fabs(wt_plane_height(s, at->apex)) > (aperture->surface == WT_NONE ? WT_ON_SURFACE_M : 1e-9)) return WT_MIRROR;
   return at->edges ? WT_EDGE_ON : 0;
 }
@@ -67,15 +70,12 @@ inline void look_at(const wt_scene_view* at, uint f, const local wt_beam_walk* w
 }
 
 // Is a facet hidden by a new screen, one of the facets that are looked at together?
-inline int hidden_by_others(const wt_scene_view* at, const local wt_look* look, uint count, uint k) {
+inline int hidden_by_others(const wt_scene_view* at, const local wt_look* look, uint k) {
+  if (look->fresh_count == 0) return 0;
   wt_outline o;
-  uint loaded = 0;
-  for (uint j = 0; j < count; ++j) {
-    if (!look->is_screen[j] || j == k) continue;
-    if (!loaded) wt_load_outline(at->facets + look->candidates[k].facet, at->corners, at->apex, &o);
-    loaded = 1;
-    if (wt_outline_behind(look->screens + j, &o)) return 1;
-  }
+  wt_load_outline(at->facets + look->candidates[k].facet, at->corners, at->apex, &o);
+  for (uint j = 0; j < look->fresh_count; ++j)
+    if (look->fresh[j] != k && wt_outline_behind(look->screens + look->fresh[j], &o)) return 1;
   return 0;
 }
 
@@ -100,12 +100,15 @@ inline void look_at_facets(const wt_scene_view* at, uint count, local wt_beam_wa
     wt_prefetch(at->corners + 3 * (size_t)at->facets[wt_leaf_first(walk->reached[k])].first_corner);
   for (uint k = lane; k < count; k += WT_LANES) look_at(at, wt_leaf_first(walk->reached[k]), walk, look, k);
   WT_SYNC();
-  if (lane == 0)
+  if (lane == 0) {
+    uint fresh = 0;
     for (uint k = 0; k < count; ++k)
-      look->is_screen[k] = look->is_screen[k] && wt_keep_screen(look->screens + k, &walk->screens);
+      if (look->is_screen[k] && wt_keep_screen(look->screens + k, &walk->screens)) look->fresh[fresh++] = k;
+    look->fresh_count = fresh;
+  }
   WT_SYNC();
   for (uint k = lane; k < count; k += WT_LANES)
-    if (look->listed[k]) look->listed[k] = !hidden_by_others(at, look, count, k);
+    if (look->listed[k]) look->listed[k] = !hidden_by_others(at, look, k);
   WT_SYNC();
   uint more = 0;
   for (uint k = 0; k < count; ++k) more += look->listed[k];
@@ -134,8 +137,9 @@ inline void look_at_facets(const wt_scene_view* at, uint count, local wt_beam_wa
 
 kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet* facets, const global double* corners,
                         const global wt_exact_surface* surfaces, const global wt_aperture* apertures,
-                        global wt_lit_space* lit_spaces, global wt_chunk* chunks, global wt_beam_candidate* candidates,
-                        global wt_beam_counters* counters, wt_beam_arguments args) {
+                        global wt_lit_space* lit_spaces, global wt_outlook* outlooks, global wt_chunk* chunks,
+                        global wt_beam_candidate* candidates, global wt_beam_counters* counters,
+                        wt_beam_arguments args) {
   local wt_beam_walk walk;
   local wt_look look;
   local wt_list list;
@@ -143,7 +147,7 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
   global wt_lit_space* lit = lit_spaces + get_group_id(0);
   if (lane == 0) {
     wt_set_lit_space(apertures + i, surfaces, lit);
-    wt_begin_walk(lit, &walk);
+    wt_begin_walk(lit, (int)args.root, &walk);
     list.aperture = i;
     list.first = list.last = WT_NONE;
     list.count = WT_CHUNK;  // the first candidate needs a chunk
@@ -159,7 +163,7 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
                       .walls = args.walls,
                       .edges = args.edges};
   wt_load_view(lit, &at.view);
-  at.reach = wt_reach_of(nodes, at.apex);
+  at.reach = wt_reach_of(nodes + args.root, at.apex);
   while (walk.top > 0 || walk.waiting > 0) {
     if (walk.waiting >= WT_BATCH || walk.top == 0)
       look_at_facets(&at, min(walk.waiting, WT_BATCH), &walk, &look, &list, chunks, candidates, counters,
@@ -167,5 +171,6 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
     else
       wt_descend(nodes, at.apex, at.view.n, &walk);
   }
+  if (args.outlooks) wt_store_outlook(&walk.planes, &walk.screens, outlooks + i);
   if (lane == 0 && list.last < args.capacity) chunks[list.last] = (wt_chunk){i, list.first, WT_NONE, list.count};
 }

@@ -34,7 +34,7 @@ struct Gathered {
 Gathered gather(const std::vector<Corners>& triangles, const std::vector<wt_aperture>& apertures) {
   const Scene scene = scene_of_triangles(triangles);
   const DeviceScene device = make_device_scene(context(), scene, false);
-  const BeamTree tree = make_beam_tree(context(), WorldFacets(scene, {}).at({}, {}));
+  const BeamTree tree = make_beam_tree(context(), WorldFacets(scene, {}).fixed());
   BeamLists lists(context());
   lists.apertures = context().buffer(apertures, "apertures");
   const auto count = static_cast<uint32_t>(apertures.size());

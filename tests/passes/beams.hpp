@@ -72,7 +72,8 @@ inline SeenByBeams seen_by_beams(const std::vector<Corners>& triangles, const gl
   Sequences set(context(), slots);
   set.clear();
   SeenByBeams out;
-  out.counts = beams.find(device, {{.transmitter = 0, .position_m = from}}, {}, max_depth, set);
+  out.counts = beams.find(
+      device, {.standing = {{.transmitter = 0, .position_m = from}}, .moving = {}, .max_depth = max_depth}, set);
   const std::vector<uint64_t> table = set.table().read();
   for (uint64_t word : table) {
     if (word == WT_EMPTY) continue;

@@ -44,10 +44,14 @@ typedef struct {
   wt_uint own;      // the instance that carries the end; it neither reflects nor hides at a root. WT_NONE: no instance
   wt_uint passed;   // walls that waves have passed on their way to the mirror
   float kept;       // a bound of the share of the power that is left after all mirrors, this one too; 1 at a root
+  // Not 0: only surfaces of instances are looked for, all of which lie in a box of the view (lib/view.clh) and no
+  // deeper than this, m.
+  wt_uint only_moving;
+  float low_u, high_u, low_v, high_v, deepest;
 } wt_aperture;
 
-// The most planes of a lit space: sides, the mirror, and the sides of a box.
-#define WT_LIT_PLANES (WT_CORNERS + 5u)
+// The most planes of a lit space: sides, the mirror, the sides of a box, and one that ends it.
+#define WT_LIT_PLANES (WT_CORNERS + 6u)
 
 // The space that an image lights through an aperture. Coordinates are relative to the image.
 typedef struct {
@@ -79,6 +83,21 @@ typedef struct {
   wt_uint next;   // the next one, WT_NONE after the last
   wt_uint count;  // candidates
 } wt_chunk;
+
+// The planes of an aperture's lit space, n . p >= c, and those of the largest facets that hide others there
+// (lib/outlook.clh): plane k of facet s is at 16 k + s, and all of its planes hold for what it hides.
+#define WT_OUTLOOK_SCREENS 16u
+#define WT_SCREEN_PLANES 6u
+typedef struct {
+  float nx[16], ny[16], nz[16], c[16];
+  float screen_nx[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS], screen_ny[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS],
+      screen_nz[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS], screen_c[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS];
+} wt_outlook;
+
+// The box of an instance that is present, recentred coordinates, m.
+typedef struct {
+  double low[3], high[3];
+} wt_instance_box;
 
 // Surfaces that waves pass between an image and a piece, each once where several are one wall.
 typedef struct {
@@ -113,10 +132,12 @@ typedef struct {
   wt_uint capacity;  // the length of the list of chunks (beam_gather) or apertures (beam_visible) that is written
   wt_uint waiting_capacity;
   wt_uint trie_mask;
-  wt_uint round;  // the number of the launch of beam_waiting: 1, 2, ...; 0: beam_visible
-  wt_uint last;   // not 0: nodes are entered, and no apertures are made
-  wt_uint walls;  // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
-  wt_uint edges;  // not 0: edges diffract, so surfaces are also entered where only their edges may be seen
+  wt_uint round;     // the number of the launch of beam_waiting: 1, 2, ...; 0: beam_visible
+  wt_uint last;      // not 0: nodes are entered, and no apertures are made
+  wt_uint walls;     // surfaces that are not opaque that a wave may have passed before it is reflected at this depth
+  wt_uint edges;     // not 0: edges diffract, so surfaces are also entered where only their edges may be seen
+  wt_uint root;      // the node of the tree that beam_gather begins at
+  wt_uint outlooks;  // not 0: beam_gather writes what apertures keep
 } wt_beam_arguments;
 
 // The power below which paths are not followed (lib/floor.clh). All receivers are in the box, recentred coordinates, m.
