@@ -116,6 +116,12 @@ void scatter_off_bodies(Config& config) {
   config.parked = {cars};
 }
 
+void sense_behind_edges(Config& config) {
+  sense(config);
+  diffract(config, 1);
+  config.trace.target_diffraction = true;
+}
+
 // Adds a square of cells around the first transmitter.
 void add_map(Config& config, double side_m, double cell_m) {
   const std::array<double, 3> middle = config.transmitters.front().position_m;
@@ -166,11 +172,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
     c.trace.scattering = true;
   });
   add("targets", sense);
-  add("targets behind edges", [](Config& c) {
-    sense(c);
-    diffract(c, 1);
-    c.trace.target_diffraction = true;
-  });
+  add("targets behind edges", sense_behind_edges);
   add("bodies", scatter_off_bodies);
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("edge rays", [](Config& c) {

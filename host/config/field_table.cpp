@@ -69,66 +69,48 @@ std::vector<Table> with_words(std::vector<Table> tables) {
   return tables;
 }
 
+Table radio_table() {
+  return {
+      .name = "radio",
+      .doc = "The carrier, and the link budget.",
+      .fields = {{.name = "frequency_hz",
+                  .slot = at(&Config::radio, &RadioConfig::frequency_hz),
+                  .unit = "Hz",
+                  .range = {1e6, 1e12},
+                  .doc = "The carrier frequency. 5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). "
+                         "Most materials of ITU-R P.2040 are valid from 1 to 100 GHz."},
+                 frequencies_field(),
+                 wavefront_field(),
+                 {.name = "transmit_power_dbm",
+                  .slot = at(&Config::radio, &RadioConfig::transmit_power_dbm),
+                  .unit = "dBm",
+                  .range = {-200, 200},
+                  .doc = "The power of each transmitter, for received powers in links.csv, plots and maps. Not given: "
+                         "only gains are written. 23 dBm is usual for ITS-G5 and C-V2X."},
+                 {.name = "bandwidth_hz",
+                  .slot = at(&Config::radio, &RadioConfig::bandwidth_hz),
+                  .unit = "Hz",
+                  .range = {1, 1e12},
+                  .doc = "The bandwidth of the noise, k T B at 290 K, for signal-to-noise ratios beside received "
+                         "powers; paths do not depend on it. 10 MHz is a channel of ITS-G5."},
+                 {.name = "noise_figure_db",
+                  .slot = at(&Config::radio, &RadioConfig::noise_figure_db),
+                  .unit = "dB",
+                  .range = {0, 100},
+                  .doc = "The noise figure of each receiver: how far its noise is above k T B. "
+                         "0 is a receiver without noise of its own; 3GPP assumes 9 dB for vehicles."}}};
+}
+
 }  // namespace
 
 const std::vector<Table>& tables() {
   static const std::vector<Table> all = with_words({
-      scene_table(),
-      trajectories_table(),
-      time_table(),
-      links_table(),
-      {.name = "radio",
-       .doc = "The carrier, and the link budget.",
-       .fields = {{.name = "frequency_hz",
-                   .slot = at(&Config::radio, &RadioConfig::frequency_hz),
-                   .unit = "Hz",
-                   .range = {1e6, 1e12},
-                   .doc = "The carrier frequency. 5.9 GHz is the band of vehicle communication (ITS-G5, C-V2X). "
-                          "Most materials of ITU-R P.2040 are valid from 1 to 100 GHz."},
-                  frequencies_field(),
-                  wavefront_field(),
-                  {.name = "transmit_power_dbm",
-                   .slot = at(&Config::radio, &RadioConfig::transmit_power_dbm),
-                   .unit = "dBm",
-                   .range = {-200, 200},
-                   .doc = "The power of each transmitter, for received powers in links.csv, plots and maps. Not given: "
-                          "only gains are written. 23 dBm is usual for ITS-G5 and C-V2X."},
-                  {.name = "bandwidth_hz",
-                   .slot = at(&Config::radio, &RadioConfig::bandwidth_hz),
-                   .unit = "Hz",
-                   .range = {1, 1e12},
-                   .doc = "The bandwidth of the noise, k T B at 290 K, for signal-to-noise ratios beside received "
-                          "powers; paths do not depend on it. 10 MHz is a channel of ITS-G5."},
-                  {.name = "noise_figure_db",
-                   .slot = at(&Config::radio, &RadioConfig::noise_figure_db),
-                   .unit = "dB",
-                   .range = {0, 100},
-                   .doc = "The noise figure of each receiver: how far its noise is above k T B. "
-                          "0 is a receiver without noise of its own; 3GPP assumes 9 dB for vehicles."}}},
-      air_table(),
-      trace_table(),
-      order_table(),
-      launch_table(),
-      cache_table(),
-      live_table(),
-      response_table(),
-      output_table(),
-      material_table(),
-      vegetation_table(),
-      transmitter_table(),
-      receiver_table(),
-      station_table(),
-      receiver_grid_table(),
-      array_table(),
-      mount_table(),
-      vehicle_type_table(),
-      target_model_table(),
-      target_part_table(),
-      target_table(),
-      radar_table(),
-      track_table(),
-      parked_table(),
-      live_vehicle_table(),
+      scene_table(),       trajectories_table(), time_table(),         links_table(),         radio_table(),
+      air_table(),         trace_table(),        order_table(),        launch_table(),        cache_table(),
+      live_table(),        response_table(),     output_table(),       material_table(),      vegetation_table(),
+      transmitter_table(), receiver_table(),     station_table(),      receiver_grid_table(), array_table(),
+      mount_table(),       vehicle_type_table(), target_model_table(), target_part_table(),   target_table(),
+      radar_table(),       track_table(),        parked_table(),       live_vehicle_table(),
   });
   return all;
 }
