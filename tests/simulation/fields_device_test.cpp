@@ -53,7 +53,8 @@ std::map<uint8_t, size_t> check_same(const Config& config, uint32_t frames) {
   for (uint32_t frame = 0; frame < frames; ++frame) {
     const FrameResult found = loop.run(FrameTask::of_drive(
         {.frame = frame, .pose = [&] { return s.plan->world.state(frame); }, .names = FrameNames::none()}));
-    const Paths expected = host.compute(frame, read_visible(s), found.world);
+    Paths expected = host.compute(frame, read_visible(s), found.world);
+    name_targets(expected, s.plan->world.targets);
     CHECK(found.paths.size() > 50);
     CHECK(found.paths.size() <= expected.size());
     std::multimap<std::tuple<uint32_t, uint32_t, double>, size_t> by_delay;
