@@ -1,19 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host side of kernels/edges/wedge_solve.cl.
-// One candidate per work-item.
+// One candidate per work-item, or a run of them on CPUs, whose rows are near each other then.
 #include "passes/wedge_solve.hpp"
+
+#include <string>
 
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
 
 namespace wavetracer {
+namespace {
+
+// CPUs: candidates of a work-item, and the largest depth whose points it keeps until it knows their places.
+constexpr uint32_t run_of_item = 16, deepest_of_run = 8;
+
+uint32_t run_of(const gpu::DeviceInfo& device, uint32_t max_depth) {
+  return device.cpu && max_depth <= deepest_of_run ? run_of_item : 1;
+}
+
+gpu::Definitions build_of_run(uint32_t run, uint32_t max_depth) {
+  if (run == 1) return {};
+  return {{"WT_TOGETHER", std::to_string(run) + "u"}, {"WT_ROOM", std::to_string(max_depth) + "u"}};
+}
+
+}  // namespace
 
 WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelength_m, BendFloors floors)
     : context_(context),
       work_(tuning_of(context.info()).exact),
-      kernel_(context),
+      kernel_(context, build_of_run(run_of(context.info(), max_depth), max_depth)),
       wavelength_m_(static_cast<float>(wavelength_m)),
       floors_(floors) {
+  work_.per_item = run_of(context.info(), max_depth);
+  if (work_.per_item > 1) work_.group = 1;
   solved_.max_depth = max_depth;
   solved_.counter = counter_word(&wt_counters::wedge_solved);
   solved_.reserve(context, 1 << 12);

@@ -162,24 +162,27 @@ std::vector<Quad> terraces(const glm::dvec3& at) {
   return quads;
 }
 
-// Lines of sight and reflections at the ground from one place to a grid whose lines run along walls, rims and roofs;
-// then some that are bent at an edge, or scattered at the ground.
+// Paths from one place to a grid whose lines run along walls, rims and roofs: lines of sight, then reflections at the
+// ground, then those that are bent at an edge, then those that are scattered at the ground. Those of a kind follow each
+// other, since only they go together.
 std::vector<PathRow> rows_past_terraces(const glm::dvec3& at, const glm::dvec3& from, double step_m) {
-  std::vector<PathRow> rows;
-  for (double x = -28; x <= 28; x += step_m)
-    for (double y = -16; y <= 16; y += step_m)
-      for (const double z : {0.0, 1.5, 4.0, 5.0}) {
+  std::vector<PathRow> kinds[4];
+  for (const double z : {0.0, 1.5, 4.0, 5.0})
+    for (double x = -28; x <= 28; x += step_m)
+      for (double y = -16; y <= 16; y += step_m) {
         const glm::dvec3 to{x, y, z};
-        rows.push_back({at + from, at + to, {}, {}});
         const double share = from.z + z > 0 ? from.z / (from.z + z) : 0.5;
         glm::dvec3 p = from + share * (to - from);
         p.z = 0;
         const auto patch = static_cast<uint32_t>(4 * std::floor((p.x + 60) / 30) + std::floor((p.y + 60) / 30));
-        const glm::dvec3 corner{-24, -6, 4};
-        rows.push_back({at + from, at + to, {WT_STEP_REFLECTION | patch}, {at + p}});
-        rows.push_back({at + from, at + to, {WT_STEP_DIFFRACTION | 0u}, {at + corner + glm::dvec3{2, 0, 0}}});
-        rows.push_back({at + from, at + to, {WT_STEP_SCATTERING | patch}, {at + glm::dvec3{p.x, p.y, 0}}});
+        const glm::dvec3 on_edge{-22, -6, 4};
+        kinds[0].push_back({at + from, at + to, {}, {}});
+        kinds[1].push_back({at + from, at + to, {WT_STEP_REFLECTION | patch}, {at + p}});
+        kinds[2].push_back({at + from, at + to, {WT_STEP_DIFFRACTION | 0u}, {at + on_edge}});
+        kinds[3].push_back({at + from, at + to, {WT_STEP_SCATTERING | patch}, {at + p}});
       }
+  std::vector<PathRow> rows;
+  for (const std::vector<PathRow>& kind : kinds) rows.insert(rows.end(), kind.begin(), kind.end());
   return rows;
 }
 
