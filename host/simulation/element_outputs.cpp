@@ -2,10 +2,18 @@
 // Outputs are only made if the configuration asks for them.
 #include "simulation/element_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include "radar/radar_rows.hpp"
 #include "radio/element_responses.hpp"
+#include "wavetracer/error.hpp"
 
 namespace wavetracer {
+namespace {
+
+constexpr uint64_t most_radar_cells = uint64_t{1} << 29;  // 8 GiB in a frame
+
+}  // namespace
 
 ElementOutputs::ElementOutputs(const Config& config, const Scene& scene, const World& world,
                                const std::vector<WorldRadar>& radars)
@@ -22,13 +30,24 @@ void ElementOutputs::operator()(FrameResult& frame) const {
 }
 
 std::vector<RadarRows> ElementOutputs::radars(const FrameResult& frame, bool with_cubes) const {
-  std::vector<RadarRows> out;
+  std::vector<std::vector<Link>> links;
+  uint64_t cells = 0;  // those that stay in memory
   for (size_t i = 0; i < radars_.size(); ++i) {
-    RadarRows& rows = out.emplace_back();
-    const RadarConfig& radar = config_.radars[i];
-    for (const Link& link : links_in(radars_[i], frame.world.links))
-      rows.push_back(radar_row(*model_, config_, frame, link, radar, radars_[i].axes, with_cubes || radar.cube));
+    const RadarAxes& axes = radars_[i].axes;
+    const uint64_t pairs = with_cubes || config_.radars[i].cube ? uint64_t{axes.rx_antennas} * axes.tx_antennas : 1;
+    links.push_back(links_in(radars_[i], frame.world.links));
+    cells += links.back().size() * pairs * axes.doppler_hz.size() * axes.delay_s.size();
   }
+  if (cells > most_radar_cells)
+    throw RuntimeError(fmt::format(
+        "the radars of frame {} have {} cells of all links, and {} are the limit: give radar.cube = false, or "
+        "let radar.transmitter and radar.receiver name fewer ends",
+        frame.frame, cells, most_radar_cells));
+  std::vector<RadarRows> out(radars_.size());
+  for (size_t i = 0; i < radars_.size(); ++i)
+    for (const Link& link : links[i])
+      out[i].push_back(radar_row(*model_, config_, frame, link, config_.radars[i], radars_[i].axes,
+                                 with_cubes || config_.radars[i].cube));
   return out;
 }
 

@@ -50,7 +50,7 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   const bool reuse = reuses(trace, world, frames_follow);
   // A sphere receives what this frame's rays meet.
   const bool by_rays = !origins.squares && !trace.by_spheres() && !trace.by_beams();
-  std::vector<WorldRadar> radars = world_radars(config, world);
+  std::vector<WorldRadar> radars = world_radars(config, world, world.warnings);
   drop_used(scene.report.warnings, world.fleet.models);
   return {.scene = std::move(scene),
           .world = std::move(world),

@@ -95,7 +95,30 @@ std::string left_out_because(const Config& config, const World& world, Link link
   return links.v2v ? "" : "they are on different vehicles: give links.v2v = true";
 }
 
-std::vector<Link> computed_pairs(const Config& config, const World& world, const RadarConfig& radar) {
+// Removes the pairs that [links] leaves out. Returns what to say of them; empty if there are none but ends that would
+// hear themselves.
+std::string remove_left_out(const Config& config, const World& world, const RadarConfig& radar,
+                            std::vector<Link>& pairs) {
+  std::string first, own;
+  size_t count = 0;
+  const size_t named = pairs.size();
+  std::erase_if(pairs, [&](Link link) {
+    const std::string why = left_out_because(config, world, link);
+    if (why.empty()) return false;
+    const std::string &tx = config.transmitters[link.tx].name, &rx = config.receivers[link.rx].name;
+    (tx == rx ? own : first) = fmt::format("the link from \"{}\" to \"{}\" is not computed: {}", tx, rx, why);
+    count += tx == rx ? 0 : 1;
+    return true;
+  });
+  if (pairs.empty() && count == 0) return fmt::format("radar \"{}\": {}", radar.name, own);
+  if (count == 0) return "";
+  return fmt::format("radar \"{}\": {}{}", radar.name,
+                     pairs.empty() ? "" : fmt::format("{} of its {} pairs of ends are left out; ", count, named),
+                     first);
+}
+
+std::vector<Link> computed_pairs(const Config& config, const World& world, const RadarConfig& radar,
+                                 std::vector<std::string>& warnings) {
   const std::string key = fmt::format("radar \"{}\": ", radar.name);
   const auto sending = named_ends(radar.transmitter, world.transmitters, key + "transmitter", "transmitter"),
              hearing = named_ends(radar.receiver, world.receivers, key + "receiver", "receiver");
@@ -106,15 +129,9 @@ std::vector<Link> computed_pairs(const Config& config, const World& world, const
         radar.kind == "monostatic"
             ? "give a transmitter and a receiver on one vehicle, or two that are fixed, or kind = \"bistatic\""
             : "all of them are on one vehicle: give kind = \"monostatic\", or name ends of two vehicles"));
-  std::string first;
-  std::erase_if(out, [&](Link link) {
-    const std::string why = left_out_because(config, world, link);
-    if (!why.empty() && first.empty())
-      first = fmt::format("{}the link from \"{}\" to \"{}\" is not computed: {}", key,
-                          config.transmitters[link.tx].name, config.receivers[link.rx].name, why);
-    return !why.empty();
-  });
-  if (out.empty()) throw ConfigError(first);
+  const std::string left_out = remove_left_out(config, world, radar, out);
+  if (out.empty()) throw ConfigError(left_out);
+  if (!left_out.empty()) warnings.push_back(left_out);
   return out;
 }
 
@@ -150,10 +167,10 @@ RadarAxes axes_of(const Config& config, const RadarConfig& radar, const std::vec
 
 }  // namespace
 
-std::vector<WorldRadar> world_radars(const Config& config, const World& world) {
+std::vector<WorldRadar> world_radars(const Config& config, const World& world, std::vector<std::string>& warnings) {
   std::vector<WorldRadar> out;
   for (const RadarConfig& radar : config.radars) {
-    std::vector<Link> links = computed_pairs(config, world, radar);
+    std::vector<Link> links = computed_pairs(config, world, radar, warnings);
     out.push_back({axes_of(config, radar, links), std::move(links)});
   }
   return out;

@@ -25,6 +25,7 @@ struct LiveClientOptions {
   std::string detail = "links";               // "links", "paths" or "vertices"
   double timeout_s = 30;                      // the longest wait for one answer, and for a connection
   unsigned retries = 5;                       // number of tries to connect again after a connection was lost
+  std::string radar = "none";                 // "detections" or "cubes": answers have the radars of the configuration
 };
 
 // The channels of one instant. Columns have one entry per link or per path, the paths of the first link first.
@@ -53,7 +54,8 @@ class LiveChannels {
   // With detail "paths": a figure of each path, such as "delay_s". "a": for each path rx_ports * tx_ports pairs of real
   // and imaginary part, receiving port first.
   std::vector<double> path(const char* name) const { return column<double>(answer_.at("paths").at(name)); }
-  // All keys that docs/live.md lists; columns are binary values, which column() reads.
+  // All keys that docs/live.md lists, such as "radars" where options asked for them; columns are binary values, which
+  // column() reads.
   const nlohmann::json& answer() const { return answer_; }
 
   // T: double, uint32_t or uint8_t, as the column has it.
@@ -90,7 +92,7 @@ class LiveClient {
   unsigned connections() const { return connections_; }
 
   // The channels of these poses: an array of objects with id, type, position_m, yaw_deg or orientation, and perhaps
-  // velocities. more: other keys of a frame, "cold" and "detail".
+  // velocities. more: other keys of a frame, "cold", "detail" and "radar".
   LiveChannels channels(double time_s, json vehicles, json more = json::object()) {
     more.update({{"message", "frame"}, {"time_s", time_s}, {"vehicles", std::move(vehicles)}});
     LiveChannels out = std::move(ask({more})[0]);
@@ -147,6 +149,7 @@ class LiveClient {
   void connect() {
     socket_ = std::make_unique<LiveSocket>(options_.server, options_.timeout_s);
     json hello = {{"message", "hello"}, {"protocol", 1}, {"encoding", "cbor"}, {"detail", options_.detail}};
+    if (options_.radar != "none") hello["radar"] = options_.radar;
     if (!options_.token.empty()) hello["token"] = options_.token;
     try {
       socket_->send(hello.dump() + "\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lets clients_test.py and lost_test.py use the client in C++: each line of standard input is a question ("frame TIME",
 // "at TIME..."), each line of standard output what the client returned or threw, as JSON.
-// Usage: live_client_probe SERVER TIMEOUT_S RETRIES
+// Usage: live_client_probe SERVER TIMEOUT_S RETRIES [RADAR]
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -16,7 +16,12 @@ json shown(const wavetracer::LiveChannels& channels) {
   json names = json::array();
   for (size_t k = 0; k < channels.size(); ++k)
     names.push_back({channels.transmitters[channels.tx[k]], channels.receivers[channels.rx[k]]});
-  return {{"time_s", channels.time_s}, {"names", names}, {"path_gain_db", channels.link("path_gain_db")}};
+  json out = {{"time_s", channels.time_s}, {"names", names}, {"path_gain_db", channels.link("path_gain_db")}};
+  if (channels.answer().contains("radars"))
+    for (const json& radar : channels.answer().at("radars"))
+      out["ranges_m"][radar.at("tx").get<std::string>()] =
+          wavetracer::LiveChannels::column<double>(radar.at("detections").at("range_m"));
+  return out;
 }
 
 // A car that drives northwards with 10 m/s.
@@ -44,11 +49,12 @@ json error_of(const wavetracer::LiveError& error) { return {{"reason", error.rea
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc < 4 || argc > 5) return 2;
   wavetracer::LiveClientOptions options;
   options.server = argv[1];
   options.timeout_s = std::stod(argv[2]);
   options.retries = static_cast<unsigned>(std::stoul(argv[3]));
+  if (argc > 4) options.radar = argv[4];
   try {
     wavetracer::LiveClient client(options);
     std::cout << json{{"world", client.world()}} << std::endl;

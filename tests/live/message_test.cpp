@@ -40,6 +40,10 @@ std::string frame(const std::string& vehicles) {
 
 std::string vehicle(const std::string& more) { return R"({"id":"a","type":"passenger",)" + more + "}"; }
 
+Hello hello_of_radar(const std::string& word) {
+  return std::get<Hello>(parse_message(R"({"message":"hello","protocol":1,"radar":")" + word + "\"}", 4));
+}
+
 }  // namespace
 
 TEST_CASE("hello, frame, at and bye") {
@@ -76,6 +80,20 @@ TEST_CASE("hello, frame, at and bye") {
   CHECK(at.detail == Detail::paths);
   CHECK(at.vehicles.empty());
   CHECK(std::holds_alternative<Bye>(parse_message(R"({"message":"bye"})", 4)));
+}
+
+TEST_CASE("radars are asked for in hello, and in a frame or an instant in its place") {
+  CHECK(hello_of_radar("detections").radar == RadarDetail::detections);
+  CHECK(std::get<Hello>(parse_message(R"({"message":"hello","protocol":1})", 4)).radar == RadarDetail::none);
+  const auto at =
+      std::get<FrameMessage>(parse_message(R"({"message":"at","frame":8,"time_s":0.25,"radar":"cubes"})", 4));
+  CHECK(at.radar == RadarDetail::cubes);
+  const auto none = std::get<FrameMessage>(
+      parse_message(R"({"message":"frame","frame":8,"time_s":1,"vehicles":[],"radar":"none"})", 4));
+  CHECK(none.radar == RadarDetail::none);
+  CHECK(code_of(R"({"message":"at","frame":8,"time_s":0.25,"radar":true})") == "bad_value");
+  CHECK(text_of(R"({"message":"hello","protocol":1,"radar":"cube"})").find("did you mean \"cubes\"?") !=
+        std::string::npos);
 }
 
 TEST_CASE("a quaternion is w, x, y, z") {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Radars live: detections and cubes of an answer, in both encodings, are those that `wavetracer run` writes for a drive
 with the same poses. Assumes an OpenCL device."""
+import json
 import os
 import subprocess
 import sys
@@ -140,6 +141,11 @@ with Server(config=WORLD + RADAR + LIVE) as server:
             between = client.at(0.05).radars
             expect(len(between) == 2 and between[0].cube.values.shape == (3, 1, 32, 64), between)
             expect(client.channels(0.2, []).radars == [], "no vehicle has a radar")
+    with LiveClient(server.name) as client:  # the client in C++ reads the same
+        alone = client.channels(0.0, POSES[:1], radar="detections").radars
+    said = subprocess.run([sys.argv[3], server.name, "30", "0", "detections"], input="frame 0\n", capture_output=True, text=True,
+                          check=True).stdout.splitlines()
+    expect(json.loads(said[1])["instants"][0]["ranges_m"] == {"ego/sends": list(alone[0].detections["range_m"])}, said[1])
     with server.connect() as client:
         client.hello()
         answer = client.ask(frame(0, 0.0, POSES, radar="maps"))

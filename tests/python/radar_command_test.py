@@ -155,6 +155,9 @@ def check_pairs():
              f"bandwidth_hz = {54 * 299792458.0 / length!r}\n")  # the direct path is in the middle of a cell
     config = FOLDER / "still.toml"
     config.write_text(text)
+    code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "fewer", "--set", 'links.receivers=["a/*"]', "--set", "radar.1.receiver=a/rx")
+    assert code == 0 and 'radar "all": 3 of its 6 pairs of ends are left out; the link from "c/tx" to "b/rx"' in said_text, said_text
+    assert 'links.receivers leaves out its receiver' in said_text and 'radar "pair"' not in said_text, said_text
     files = []
     for folder, options in (("alone", ()), ("together", ("--processes", 2))):
         code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / folder, *options)
