@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "folders.hpp"
+#include "radio/target_pieces.hpp"
 #include "simulation/body_world.hpp"
 
 using namespace wavetracer;
@@ -48,6 +50,52 @@ TEST_CASE("a plate and a box have the fields of bodies that stand alone, back an
           CHECK(std::abs(found[i][0] - expected[i][0]) < tenth_of_db * strongest);
       }
     }
+}
+
+// Its largest faces: front, hood, windscreen, roof and side. Between them small differences of hidden parts count.
+TEST_CASE("a car from a file, far away, has the cross section of the body that stands alone, without bounces") {
+  const SceneFile scene(far_plate), unused(one_box);
+  const std::string car = source_folder() + "/configs/scenes/car.ply";
+  for (const auto& [azimuth_deg, elevation_deg] :
+       {std::pair{0.05, 0.03}, {0.02, 75.95}, {0.03, 56.33}, {0.04, 89.95}, {90.02, 0.03}}) {
+    const glm::dvec3 end = body_place + 20e3 * direction(azimuth_deg, elevation_deg);
+    Config config = body_world(scene, unused, {end}, {end});
+    config.vehicle_types[0].model = car;
+    config.target_models[0].piece_m = 0.25;
+    Simulation simulation(config);
+    const Channel wanted = alone(body_of(simulation.models().front(), body_hz), end, end);
+    const Paths paths = simulation.run_frame(0).paths;
+    CAPTURE(azimuth_deg);
+    CAPTURE(elevation_deg);
+    CHECK(echoes(paths).size() > 50);
+    CHECK(difference(heard(paths), wanted) < tenth_of_db);
+  }
+}
+
+TEST_CASE("pieces of bodies: their areas add up, no edge is too long, and closed bodies are lit from outside") {
+  const SceneFile scene(far_plate), box(one_box), plate(one_plate);
+  const glm::dvec3 far(100, 0, 10);
+  for (const bool closed : {true, false}) {
+    const Simulation simulation(body_world(scene, closed ? box : plate, {far}, {far}, 1, !closed));
+    for (const double piece_m : {10.0, 0.11, 0.04}) {
+      glm::dvec3 across(0);
+      double area_m2 = 0;
+      for (const TargetPiece& piece : pieces_of_body(simulation.models().front(), piece_m, "box")) {
+        const auto corner = [&](int k) {
+          return glm::dvec3(piece.facet.corners[3 * k], piece.facet.corners[3 * k + 1], piece.facet.corners[3 * k + 2]);
+        };
+        for (int k = 0; k < 3; ++k) CHECK(glm::distance(corner(k), corner((k + 1) % 3)) <= piece_m);
+        CHECK(glm::length(corner(0) + corner(1) + corner(2)) < 1e-12);
+        const glm::dvec3 normal = 0.5 * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        across += normal;
+        area_m2 += glm::length(normal);
+        CHECK((piece.lit_above && piece.lit_below) == !closed);
+        if (closed) CHECK(glm::dot(normal, piece.centre_m) > 0);  // the middle of the box is inside
+      }
+      CHECK(area_m2 == doctest::Approx(closed ? 2 * (0.6 * 0.4 + 0.6 * 0.3 + 0.4 * 0.3) : 0.4 * 0.3).epsilon(1e-6));
+      CHECK((glm::length(across) < 1e-7) == closed);
+    }
+  }
 }
 
 TEST_CASE("smaller pieces change the sum of a body by little, and each path is reciprocal") {

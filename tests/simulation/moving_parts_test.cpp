@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wheels and limbs of targets: places by formulas written once more, shifts against central differences in a curve, the
 // spectrum of a wheel, frames that do not depend on those before them, and wheels that do not slip.
+#include <array>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
@@ -63,11 +64,16 @@ Config world_of(const SceneFile& file, const std::vector<std::array<double, 4>>&
   return config;
 }
 
-using Key = std::pair<uint32_t, uint32_t>;  // target and point
+// Target, point, and the numbers of mirrors before and after it.
+using Key = std::array<uint64_t, 4>;
 
 std::map<Key, size_t> rows_of(const Paths& paths) {
   std::map<Key, size_t> out;
-  for (const size_t i : echoes(paths)) out[{paths.target[i], paths.vertex_surface[paths.vertex_offset[i]]}] = i;
+  for (const size_t i : echoes(paths)) {
+    uint64_t k = paths.vertex_offset[i];
+    while (paths.vertex_interaction[k] != target_point) ++k;
+    out[{paths.target[i], paths.vertex_surface[k], k - paths.vertex_offset[i], paths.vertex_offset[i + 1] - 1 - k}] = i;
+  }
   return out;
 }
 
@@ -76,9 +82,12 @@ const std::vector<std::array<double, 4>> curve{{0, 10, 0, 0}, {1, 22, 1, 0}, {2,
 }  // namespace
 
 TEST_CASE("parts in a drive: shifts of wheels in a curve and of legs are those of the lengths of paths") {
-  const SceneFile file(far_plate);
+  const SceneFile file(std::vector<Quad>{{{-300, -60, -40}, {600, 0, 0}, {0, 0, 120}}});  // a mirror aside
   for (const double time_s : {0.4, 1.45, 2.2}) {
     Config config = world_of(file, curve);
+    config.trace.discovery = "beams";
+    config.trace.target_reflections = 1;
+    config.trace.max_depth = 3;
     constexpr double step_s = 1e-5;
     config.time = {time_s - step_s, time_s + step_s, step_s};
     Simulation drive(config);
@@ -89,12 +98,13 @@ TEST_CASE("parts in a drive: shifts of wheels in a curve and of legs are those o
     for (const auto& [key, i] : rows_of(now)) {
       const double change_s = after.delay_s[rows_after.at(key)] - before.delay_s[rows_before.at(key)];
       const double expected_hz = -radar_hz * change_s / (drive.time_s(2) - drive.time_s(0));
-      CAPTURE(key.first);
-      CAPTURE(key.second);
+      CAPTURE(key[0]);
+      CAPTURE(key[1]);
+      CAPTURE(key[2] + key[3]);
       CHECK(std::abs(now.doppler_hz[i] - expected_hz) < 1e-6 * 4 * 14 / radar_wavelength_m);
       largest_hz = std::max(largest_hz, std::abs(expected_hz));
     }
-    CHECK(rows_of(now).size() == 1 + 12 + 1 + 4);
+    CHECK(rows_of(now).size() == 4 * (1 + 12 + 1 + 4));  // the mirror before, after, both, none
     CHECK(largest_hz > 2 * 2 / radar_wavelength_m);
   }
 }
@@ -112,15 +122,15 @@ TEST_CASE("the spectrum of a wheel goes from 0 to twice the shift of the car, an
     const Paths paths = drive.run_frame(frame).paths;
     const double time_s = drive.time_s(frame);
     for (const auto& [key, i] : rows_of(paths)) {
-      if (drive.targets()[key.first].name == "car/car") {
-        if (key.second == 0) {
+      if (drive.targets()[key[0]].name == "car/car") {
+        if (key[1] == 0) {
           CHECK(paths.doppler_hz[i] == doctest::Approx(car_hz).epsilon(1e-5));
         } else {
           lowest = std::min(lowest, paths.doppler_hz[i]);
           highest = std::max(highest, paths.doppler_hz[i]);
         }
-      } else if (key.second > 0) {  // legs of two points each
-        const uint32_t number = key.second - 1;
+      } else if (key[1] > 0) {  // legs of two points each
+        const uint64_t number = key[1] - 1;
         const double side = number < 2 ? 1 : -1, arm_m = leg_m * (number % 2 == 0 ? 0.5 : 1);
         const double way_m = walk_m_s * time_s;
         const double angle =
