@@ -174,6 +174,22 @@ def check_pairs():
     assert len(radar.load(FOLDER / "alone/radar.h5", "all", tx=2, rx=0)) == 1
 
 
+def check_bistatic():
+    """The car ahead hears the radar: the direct path has the way from bumper to bumper, and shortens by 1 m/s."""
+    config = FOLDER / "bistatic.toml"
+    config.write_text(quiet("direct = false          # without the path from one antenna to the other\n"))
+    options = ("-o", FOLDER / "bistatic", "--frames", "0", "--set", "trace.rays=2000", "--set", "mount.1.on=ahead")
+    code, text = said(PROGRAM, "run", "-c", config, *options)
+    assert code == 2 and "no pair of its ends is monostatic" in text and 'or kind = "bistatic"' in text, text
+    code, text = said(PROGRAM, "run", "-c", config, *options, "--set", "radar.0.kind=bistatic")
+    assert code == 0, text
+    with h5py.File(FOLDER / "bistatic/radar.h5") as file:
+        found = {name: values[0] for name, values in file["front/detections"].items()}
+        assert len(column(file, "frames/frame")) == 1
+    assert abs(found["range_m"] - np.hypot(32, 0.2) / 2) < 0.1 and abs(found["speed_m_s"] - 0.5) < 0.05, found
+    assert abs(found["azimuth_rad"] - 0.2 / 32) < 0.01, found  # it comes from behind, which a row takes for ahead
+
+
 def check_command():
     """The command of Python takes the waveform of the run, and options replace it."""
     command = [sys.executable, "-m", "wavetracer.radar", RUN]
@@ -244,6 +260,7 @@ check_example()
 check_equal()
 check_arrays()
 check_pairs()
+check_bistatic()
 check_command()
 check_plots()
 check_plate()
