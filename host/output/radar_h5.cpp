@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 #include "radar/radar_cube.hpp"
+#include "wavetracer/arrays.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -56,18 +57,44 @@ std::vector<T> of_rows(const std::vector<RadarRow>& rows, const Get& get) {
   return out;
 }
 
-void append_rows_table(FrameTables& tables, const std::string& group, const RadarRows& rows, uint32_t frame,
-                       double time_s) {
+// The elements of an end in a frame from its position, in the axes of the scene, once for each port.
+void add_antennas(const Config& config, const RadioEnd& end, const EndState& state, std::vector<double>& out) {
+  const std::vector<glm::dvec3> elements = element_positions_m(config, end);
+  for (uint32_t port = 0; port < ports_of(end.polarization); ++port)
+    for (const glm::dvec3& element : elements) {
+      const glm::dvec3 p = state.rotation * element;
+      out.insert(out.end(), {p.x, p.y, p.z});
+    }
+}
+
+void append_rows_table(FrameTables& tables, const std::string& group, const RadarRows& rows, const RadarAxes& axes,
+                       const Config& config, const FrameResult& frame) {
   const auto column = [&](auto get) {
     return of_rows<uint32_t>(rows, [&](const RadarRow& row, auto& out) { out.push_back(get(row)); });
   };
   RadarColumns add(tables, group + "/frames", "one row per frame and link of the radar, sorted by frame, tx, rx");
-  add("frame", "1", "number of the frame, see /frames/frame of paths.h5", std::vector<uint32_t>(rows.size(), frame));
-  add("time_s", "s", "time of the frame", std::vector<double>(rows.size(), time_s));
+  add("frame", "1", "number of the frame, see /frames/frame of paths.h5",
+      std::vector<uint32_t>(rows.size(), frame.frame));
+  add("time_s", "s", "time of the frame", std::vector<double>(rows.size(), frame.world.time_s));
   add("tx", "1", "row of /transmitters of paths.h5", column([](const RadarRow& row) { return row.link.tx; }));
   add("rx", "1", "row of /receivers of paths.h5", column([](const RadarRow& row) { return row.link.rx; }));
   add("left_out", "1", "paths that are too long for the waveform",
       column([](const RadarRow& row) { return row.left_out; }));
+  const char* const offset =
+      "of each antenna from the position of its end, in the axes of the scene; shape (row, antenna, 3)";
+  add("rx_offset_m", "m", offset,
+      of_rows<double>(rows,
+                      [&](const RadarRow& row, auto& out) {
+                        add_antennas(config, config.receivers[row.link.rx], frame.world.receivers[row.link.rx], out);
+                      }),
+      {axes.rx_antennas, 3});
+  add("tx_offset_m", "m", offset,
+      of_rows<double>(rows,
+                      [&](const RadarRow& row, auto& out) {
+                        add_antennas(config, config.transmitters[row.link.tx], frame.world.transmitters[row.link.tx],
+                                     out);
+                      }),
+      {axes.tx_antennas, 3});
 }
 
 void append_maps(FrameTables& tables, const std::string& group, const RadarRows& rows, const RadarAxes& axes,
@@ -180,7 +207,7 @@ void append_radar_h5(const Run& run, const FrameResult& frame, FrameTables& tabl
   for (size_t i = 0; i < frame.radars.size(); ++i) {
     const std::string group = "/" + run.config.radars[i].name;
     const RadarRows& rows = frame.radars[i];
-    append_rows_table(tables, group, rows, frame.frame, frame.world.time_s);
+    append_rows_table(tables, group, rows, run.radars.at(i), run.config, frame);
     append_maps(tables, group, rows, run.radars.at(i), frame.world.time_s);
     append_detections(tables, group, rows, frame.frame);
     if (run.config.radars[i].cube) append_cubes(tables, group, rows, run.radars.at(i));

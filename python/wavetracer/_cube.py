@@ -44,13 +44,16 @@ def _local_sum(values: Array, radius: tuple[int, int]) -> Array:
 class Cube:
     """values: roots of watts, complex of shape (rx antennas, tx antennas, Doppler shifts, delays). A path has its
     amplitude times the root of the power that is sent, in the cell of its delay and Doppler shift. left_out: how many
-    paths were too long for the waveform."""
+    paths were too long for the waveform. rx_offset_m, tx_offset_m: of each antenna from the position of its end, metres
+    along the scene's axes, where the file has them."""
 
     values: Array
     delay_s: Array
     doppler_hz: Array
     frequency_hz: float
     left_out: int = 0
+    rx_offset_m: Array | None = None
+    tx_offset_m: Array | None = None
 
     @property
     def range_m(self) -> Array:
@@ -88,6 +91,13 @@ class Cube:
                                   f"({count}, 3) and (directions, 3)")
             weights.append(np.exp(-1j * wave_number * look @ places.T) / count)
         return np.asarray(np.einsum("dr,dt,rtns->dns", *weights, self.values, optimize=True))
+
+    def looking(self, directions: ArrayLike) -> Array:
+        """beams() with the antennas of the file, so for cubes of a [[radar]]: the range-Doppler-angle cube."""
+        if self.rx_offset_m is None or self.tx_offset_m is None:
+            raise ConfigError("this cube does not know the places of its antennas, as those of a [[radar]] in radar.h5 do: "
+                              "give them to beams()")
+        return self.beams(self.rx_offset_m, self.tx_offset_m, directions)
 
     def detections(self, false_alarm: float = 1e-6, guard: int = 2, training: int = 6) -> dict[str, Array]:
         """Cells that are the largest of their neighbours and above the mean of the cells around them (cell-averaging

@@ -129,8 +129,13 @@ def load(file: str | pathlib.Path, radar: str | None = None, tx: int | None = No
         if "cube" not in group:
             raise InputError(f"{file}: it has maps, but no cubes: compute the run with radar.cube = true")
         delay, doppler, carrier = group["delay_s"][...], group["doppler_hz"][...], float(np.ravel(group.attrs["frequency_hz"])[0])
+
+        def offsets(side: str, i: int) -> Array | None:  # files of Python have none
+            name = f"frames/{side}_offset_m"
+            return np.asarray(group[name][i]) if name in group else None
+
         return {int(group["frames/frame"][i]): Cube(group["cube/re"][i] + np.complex64(1j) * group["cube/im"][i], delay, doppler,
-                                                    carrier, int(group["frames/left_out"][i]))
+                                                    carrier, int(group["frames/left_out"][i]), offsets("rx", i), offsets("tx", i))
                 for i in _rows_of(file, group, tx, rx)}
 
     return dict(_read(file, cubes))

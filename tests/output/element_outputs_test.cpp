@@ -95,6 +95,12 @@ TEST_CASE("radars are written as they are: axes, rows of links, maps, cubes wher
   CHECK(radars.numbers("/front/frames/time_s") == Values{0, 0, 0.1, 0.1});
   CHECK(radars.numbers("/front/frames/rx") == Values{0, 1, 0, 1});
   CHECK(radars.numbers("/front/frames/left_out") == Values{1, 1, 2, 2});
+  CHECK(radars.shape("/front/frames/tx_offset_m") == Shape{4, 2, 3});
+  const double quarter_m = 0.25 * 299792458.0 / sample.config.radio.frequency_hz;
+  const Values offset = radars.numbers("/front/frames/tx_offset_m");
+  const glm::dvec3 left = frames[0].world.transmitters[0].rotation * glm::dvec3(0, quarter_m, 0);
+  for (int axis = 0; axis < 3; ++axis)
+    CHECK(offset[3 + static_cast<size_t>(axis)] == doctest::Approx(left[axis]).epsilon(1e-12));
   Values powers, re, im;
   for (const FrameResult& frame : frames)
     for (const RadarRow& row : frame.radars[0]) {

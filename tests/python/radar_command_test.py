@@ -49,6 +49,12 @@ def check_example():
             near = ((found["frame"] == frame) & (np.abs(found["range_m"] - distance) < 0.6)
                     & (np.abs(found["speed_m_s"] - speed) < 0.5) & (np.abs(found["azimuth_rad"] - azimuth) < 0.03))
             assert near.any(), (name, frame, distance, azimuth, {key: values[found["frame"] == frame] for key, values in found.items()})
+    # The strongest beam of the cell of a detection is the one of its azimuth; the radar looks along x.
+    cube, angles = radar.load(RUN / "radar.h5")[2], np.radians(np.arange(-90, 90.5, 0.5))
+    look = np.abs(cube.looking(np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)))
+    for i in np.flatnonzero(found["frame"] == 2)[:5]:
+        cell = np.abs(cube.speed_m_s - found["speed_m_s"][i]).argmin(), np.abs(cube.range_m - found["range_m"][i]).argmin()
+        assert abs(np.sin(angles[look[:, cell[0], cell[1]].argmax()]) - np.sin(found["azimuth_rad"][i])) < 0.02, i
     # Python finds the same cells in the cubes of the file.
     for frame, cube in radar.load(RUN / "radar.h5").items():
         again = cube.detections()

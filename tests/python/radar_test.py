@@ -210,6 +210,7 @@ def check_misuse():
     refused(lambda: radar.cube(made([30e-9], [0], [1]), WAVE, range_window="kaiser"), "there is no window")
     refused(lambda: cube.detections(training=100), "guard")
     refused(lambda: cube.detections(false_alarm=2), "probability")
+    refused(lambda: cube.looking([1, 0, 0]), "give them to beams()")
     refused(lambda: cube.beams(np.zeros((2, 3)), np.zeros((1, 3)), [1, 0, 0]), "rx offsets")
     refused(lambda: radar.spectrogram(radar.beat(made([30e-9], [0], [1]), WAVE), WAVE, length=100), "a length from 2 to 64")
 
