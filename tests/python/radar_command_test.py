@@ -161,6 +161,11 @@ def check_pairs():
              f"bandwidth_hz = {54 * 299792458.0 / length!r}\n")  # the direct path is in the middle of a cell
     config = FOLDER / "still.toml"
     config.write_text(text)
+    crowd = FOLDER / "crowd.toml"
+    crowd.write_text(text + '[[receiver]]\nname = "c/rx"\nposition_m = [40.2, 3, 2]\n')
+    large = [word for key in ("chirps", "samples") for word in ("--set", f"radar.0.{key}=8192")]
+    code, said_text = said(PROGRAM, "run", "-c", crowd, "-o", FOLDER / "crowd", *large)
+    assert code != 0 and "603981824 cells of all links" in said_text and "give radar.cube = false" in said_text, said_text
     code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "fewer", "--set", 'links.receivers=["a/*"]', "--set", "radar.1.receiver=a/rx")
     assert code == 0 and 'radar "all": 3 of its 6 pairs of ends are left out; the link from "c/tx" to "b/rx"' in said_text, said_text
     assert 'links.receivers leaves out its receiver' in said_text and 'radar "pair"' not in said_text, said_text
