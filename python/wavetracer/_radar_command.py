@@ -72,6 +72,7 @@ def _settings(run: Run, options: argparse.Namespace) -> dict[str, Any]:
             "windows": [options.window or table.get(key, "hann") for key in ("range_window", "doppler_window")],
             "false_alarm": table.get("false_alarm", 1e-6) if options.false_alarm is None else options.false_alarm,
             "no_direct": not table.get("direct", True) if options.no_direct is None else options.no_direct,
+            "around": {"guard": table.get("guard", 2), "training": table.get("training", 6)},
             "name": table.get("name", "radar"), "tx": options.tx or _one_name(table, "transmitter", run.transmitters),
             "rx": options.rx or _one_name(table, "receiver", run.receivers)}
 
@@ -106,12 +107,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ends = (run.transmitters.index(paths.transmitters[0]), run.receivers.index(paths.receivers[0]))
         file = options.output or options.run / "radar.h5"
         radar.save(file, cubes, [frame.number for frame in frames], times, spectrogram, settings["false_alarm"],
-                   settings["name"], ends)
+                   settings["name"], ends, **settings["around"])
     except Error as error:
         print(f"wavetracer: {error}", file=sys.stderr)
         return error.code
     left_out = sum(cube.left_out for cube in cubes)
-    found = sum(len(cube.detections(settings["false_alarm"])["range_m"]) for cube in cubes)
+    found = sum(len(cube.detections(settings["false_alarm"], **settings["around"])["range_m"]) for cube in cubes)
     if re.search(r"^\[\[array\]\]", run.config, re.M):
         print("wavetracer: warning: the run has arrays, and its paths are those between their centres: each end has one "
               "antenna here; a [[radar]] of the configuration has all", file=sys.stderr)

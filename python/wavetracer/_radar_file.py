@@ -21,7 +21,7 @@ _UNITS = {"delay_s": "s", "range_m": "m", "doppler_hz": "Hz", "spectrogram_doppl
 
 
 def _columns(cubes: Sequence[Cube], frames: Sequence[int], times_s: Sequence[float],
-             spectrogram: tuple[Array, Array, Array] | None, false_alarm: float, ends: tuple[int, int]) -> dict[str, Array]:
+             spectrogram: tuple[Array, Array, Array] | None, found: list[dict[str, Array]], ends: tuple[int, int]) -> dict[str, Array]:
     first = cubes[0]
     columns: dict[str, Array] = {"frames/frame": np.asarray(frames, np.uint32), "frames/time_s": np.asarray(times_s, float),
                                  "frames/left_out": np.asarray([cube.left_out for cube in cubes], np.uint32)}
@@ -30,7 +30,6 @@ def _columns(cubes: Sequence[Cube], frames: Sequence[int], times_s: Sequence[flo
     columns["maps/power_dbm"] = np.stack([cube.power_dbm for cube in cubes])
     columns["cube/re"] = np.stack([cube.values.real for cube in cubes]).astype(np.float32)
     columns["cube/im"] = np.stack([cube.values.imag for cube in cubes]).astype(np.float32)
-    found = [cube.detections(false_alarm) for cube in cubes]
     columns["detections/frame"] = np.repeat(columns["frames/frame"], [len(each["range_m"]) for each in found])
     for name in found[0]:
         columns["detections/" + name] = np.concatenate([each[name] for each in found])
@@ -44,10 +43,10 @@ def _columns(cubes: Sequence[Cube], frames: Sequence[int], times_s: Sequence[flo
 
 def save(file: str | pathlib.Path, cubes: Sequence[Cube], frames: Sequence[int] = (0,), times_s: Sequence[float] = (0.0,),
          spectrogram: tuple[Array, Array, Array] | None = None, false_alarm: float = 1e-6, name: str = "radar",
-         ends: tuple[int, int] = (0, 0)) -> None:
+         ends: tuple[int, int] = (0, 0), guard: int = 2, training: int = 6) -> None:
     """Writes HDF5: the cubes of frames with these numbers and times, all of one waveform, in single precision; their maps;
-    their detections at this probability of a false alarm; and times, shifts and powers of spectrogram(). name: of the
-    radar; ends: the places of its transmitter and receiver in the lists of the run."""
+    their detections at this probability of a false alarm, with these cells around; and times, shifts and powers of
+    spectrogram(). name: of the radar; ends: the places of its transmitter and receiver in the lists of the run."""
     import h5py
 
     if not cubes or not len(cubes) == len(frames) == len(times_s):
@@ -59,11 +58,12 @@ def save(file: str | pathlib.Path, cubes: Sequence[Cube], frames: Sequence[int] 
     if any(cube.values.shape != first.values.shape or not np.array_equal(cube.delay_s, first.delay_s)
            or not np.array_equal(cube.doppler_hz, first.doppler_hz) for cube in cubes):
         raise ConfigError(f"{file}: the cubes have other axes than the first one: give cubes of one waveform")
+    found = [cube.detections(false_alarm, guard, training) for cube in cubes]
     with h5py.File(file, "w") as out:
         out.attrs["format"], out.attrs["format_version"], out.attrs["radars"] = _FORMAT, _VERSION, name
         group = out.create_group(name)
         group.attrs["frequency_hz"], group.attrs["false_alarm"] = first.frequency_hz, false_alarm
-        for path, column in _columns(cubes, frames, times_s, spectrogram, false_alarm, ends).items():
+        for path, column in _columns(cubes, frames, times_s, spectrogram, found, ends).items():
             group[path] = column
             if unit := _UNITS.get(path.split("/")[-1]):
                 group[path].attrs["units"] = unit
