@@ -83,6 +83,25 @@ TEST_CASE("beams that are kept: no path of a large launch is missing in a later 
   }
 }
 
+TEST_CASE("beams that are kept serve batches of receivers and blocks of transmitters, after each other") {
+  const SceneFile file(street());
+  Config config = drive(file, 2);
+  Simulation all(config);
+  const Paths whole = all.run_frame(2).paths;
+  CHECK(whole.size() > 20);
+  config.trace.batch_receivers = 1;
+  Simulation batched(config);
+  for (int times = 0; times < 2; ++times) CHECK(identical(batched.run_frame(2).paths, whole));
+  size_t in_blocks = 0;
+  for (const uint32_t transmitter : {0u, 1u, 2u}) {
+    const Paths block = all.run_block(2, {transmitter, transmitter + 1}).paths;
+    in_blocks += block.size();
+    CHECK(missing(block, whole) == 0);
+  }
+  CHECK(in_blocks == whole.size());
+  CHECK(identical(all.run_frame(2).paths, whole));
+}
+
 TEST_CASE("beams that are kept go when they do not fit, and the sequences stay the same") {
   const Scene scene = scene_of_triangles(room(Room::box, 1, 3));
   const DeviceScene device = make_device_scene(context(), scene, false);
