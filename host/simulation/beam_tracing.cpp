@@ -129,7 +129,7 @@ BeamCounts BeamTracing::find(const DeviceScene& scene, const BeamTask& task, Seq
 }
 
 bool BeamTracing::try_find(const DeviceScene& scene, const BeamTask& task, Sequences& set) {
-  const bool sees_moving = tree_.tree().has_moving && !task.resting;
+  const bool sees_moving = tree_.tree().has_moving;
   std::vector<Launcher> others = task.moving;
   bool apart = !task.standing.empty() && (sees_moving || task.keep);
   if (apart) {

@@ -43,8 +43,7 @@ struct BeamTask {
   std::vector<Launcher> standing, moving;
   std::vector<glm::dvec3> receivers = {};  // their places, recentred, m; see BeamOptions::floor_db
   uint32_t max_depth = 0;
-  bool resting = false;  // no instance moves from one discovery to the next
-  bool keep = false;     // later discoveries are likely to have the same standing ends
+  bool keep = false;  // later discoveries are likely to have the same standing ends
 };
 
 class BeamTracing {
@@ -67,7 +66,6 @@ class BeamTracing {
     std::vector<wt_aperture> roots;
     wt_floor floor;
     uint32_t max_depth;
-    bool resting;
     bool operator==(const Key& other) const;
   };
   // The beams of standing ends over static surfaces: apertures by depth, where instances may be seen from them, and the

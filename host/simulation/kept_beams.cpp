@@ -16,7 +16,7 @@ constexpr uint64_t share_of_memory = 4;
 
 // Records of the device have no padding that is not written.
 bool BeamTracing::Key::operator==(const Key& other) const {
-  return max_depth == other.max_depth && resting == other.resting && roots.size() == other.roots.size() &&
+  return max_depth == other.max_depth && roots.size() == other.roots.size() &&
          std::memcmp(&floor, &other.floor, sizeof floor) == 0 &&
          std::memcmp(roots.data(), other.roots.data(), roots.size() * sizeof(wt_aperture)) == 0;
 }
@@ -35,8 +35,7 @@ uint64_t BeamTracing::limit_bytes() const {
 BeamTracing::Key BeamTracing::key_of(const BeamTask& task) const {
   return {.roots = beam_roots(task.standing),
           .floor = options_.floor_db ? mirrors_.floor : wt_floor{},
-          .max_depth = task.max_depth,
-          .resting = task.resting};
+          .max_depth = task.max_depth};
 }
 
 bool BeamTracing::restore(const Key& key, Sequences& set) {
@@ -52,9 +51,7 @@ bool BeamTracing::find_static(const DeviceScene& scene, const BeamTask& task, Ke
   if (too_large_ && *too_large_ == key) return true;
   auto kept = std::make_unique<Kept>(Kept{.key = key});
   try {
-    const bool sees_moving = moving_ && !task.resting;
-    const Walk walk{.root = task.resting ? tree_.tree().root() : BeamTree::fixed_root,
-                    .into = sees_moving ? kept.get() : nullptr};
+    const Walk walk{.root = BeamTree::fixed_root, .into = moving_ ? kept.get() : nullptr};
     if (!follow(scene, task, start(key.roots, {}), walk, set, kept->any_depth)) return false;
     kept->counters = lists_.counters.read_one(0, Stage::beam_visible);
     if (task.keep) {
