@@ -129,7 +129,7 @@ inline void solve_candidate(const global wt_exact_surface* surfaces, const globa
   if (two && !wt_share_plane(v, w, q - p) && (!wt_in_free_space(v, p, q, 0.0) || !wt_in_free_space(w, q, p, 0.0)))
     return;
   if (is_weak(v, two ? w : 0, a, b, p, q, args)) return;
-  double3 points[WT_MAX_DEPTH], back_points[WT_MAX_DEPTH];
+  double3 *points = rows->points[rows->count], back_points[WT_MAX_DEPTH];
   if (!solve_side(surfaces, triangles, instances, v, from->chain, depth, from->end, from->images, p, points)) return;
   if (!solve_side(surfaces, triangles, instances, w, to->chain, back, to->end, to->images, q, back_points)) return;
 
@@ -140,7 +140,6 @@ inline void solve_candidate(const global wt_exact_surface* surfaces, const globa
   rows->depth[row] = depth + diffractions + back;
   uint at = 0;
   for (uint k = 0; k < depth; ++k, ++at) {
-    rows->points[row][at] = points[k];
     rows->steps[row][at] = WT_STEP_REFLECTION | from->chain[k];
   }
   for (uint k = 0; k < diffractions; ++k, ++at) {

@@ -55,7 +55,7 @@ inline void find_row(const wt_followed_sequence* s, const global double4* transm
         (last != WT_NONE && last == wt_end_instance(to)))
       return;
   }
-  double3 points[WT_ROOM];
+  double3* points = rows->points[rows->count];
   if (!wt_reflection_points(surfaces, triangles, instances, s->chain, s->depth, s->images, to.xyz, points)) return;
 #ifdef WT_BLOCKERS
   if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, triangles, s->chain, s->depth, s->node,
@@ -64,11 +64,6 @@ inline void find_row(const wt_followed_sequence* s, const global double4* transm
     return;
   }
 #endif
-  for (uint k = 0; k < s->depth; ++k) {
-    rows->points[k][0][rows->count] = points[k].x;
-    rows->points[k][1][rows->count] = points[k].y;
-    rows->points[k][2][rows->count] = points[k].z;
-  }
   rows->candidate[rows->count++] = i;
 }
 
@@ -91,7 +86,7 @@ inline void write_rows(const global ulong* table, const global uint* quarters, c
     solved[slot].quarters = wt_found_by(quarters, candidate.node);
     for (uint k = 0; k < s->depth; ++k) {
       const size_t at = (size_t)slot * args.max_depth + k;
-      for (uint axis = 0; axis < 3; ++axis) vertices[3 * at + axis] = rows->points[k][axis][n];
+      vstore3(rows->points[n][k], at, vertices);
       sequences[at] = s->chain[k];
     }
   }
