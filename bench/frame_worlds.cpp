@@ -111,7 +111,8 @@ void scatter_off_bodies(Config& config) {
   body.kind = "body";
   config.target_models = {body};
   const std::array<double, 3> middle = config.transmitters.front().position_m;
-  ParkedConfig cars{.name = "cars"};
+  ParkedConfig cars;
+  cars.name = "cars";
   for (int i = 0; i < 4; ++i) cars.places.push_back({middle[0] + 6 * i - 9, middle[1] + 6, 0, 30.0 * i});
   config.parked = {cars};
 }
