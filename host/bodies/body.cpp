@@ -2,10 +2,10 @@
 #include "bodies/body.hpp"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <utility>
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <utility>
 

@@ -2,10 +2,10 @@
 #include "bodies/pieces.hpp"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "wavetracer/error.hpp"

@@ -62,6 +62,11 @@ void check_body_model(const TargetModelConfig& model, const std::string& key, st
   if (!model.points_m.empty()) refuse("points_m");
   if (model.xpr_db) refuse("xpr_db");
   if (model.size_m) refuse("size_m");
+  if (model.on.empty())
+    out.push_back({{key + ".on"},
+                   fmt::format("[[target_model]] {} has kind = \"body\" and no on, so no vehicle has it: name vehicles "
+                               "or their types by on",
+                               toml_string(model.name))});
 }
 
 void check_kind(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
@@ -155,6 +160,14 @@ void check_companions(const Config& config, std::vector<Contradiction>& out) {
         fmt::format("trace.edge_rays = {} does not go with trace.target_reflections = {}: give trace.edge_rays = 0, so "
                     "that receivers launch rays, or set trace.target_reflections to 0",
                     trace.edge_rays, trace.target_reflections));
+  for (size_t i = 0; trace.target_diffraction && i < config.target_models.size(); ++i)
+    if (config.target_models[i].body())
+      out.push_back(
+          {{"trace.target_diffraction", fmt::format("target_model.{}.kind", i)},
+           fmt::format("trace.target_diffraction = true does not go with [[target_model]] {} of kind = "
+                       "\"body\", whose pieces take waves from antennas and mirrors only: set it to false, or "
+                       "use another kind",
+                       toml_string(config.target_models[i].name))});
   if (trace.target_diffraction && (!trace.diffraction || trace.target_reflections == 0))
     refuse({"trace.target_diffraction", "trace.diffraction", "trace.target_reflections"},
            fmt::format("trace.target_diffraction = true needs trace.diffraction = true and trace.target_reflections of "

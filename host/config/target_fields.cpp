@@ -94,7 +94,7 @@ Table target_model_table() {
                .doc =
                    "Only with kind = \"body\": the longest edge of the pieces into which facets are cut. Each piece is "
                    "a point with one path for each link, is lit or hidden as a whole, and has one delay and one "
-                   "angle. Its phase is right at any size. Not given: 0.25.",
+                   "angle. Its phase is right up to some metres from an end (64 cuts of a piece). Not given: 0.25.",
                .example = "0.1"},
           },
       .append = append<&Config::target_models>,

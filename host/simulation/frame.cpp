@@ -230,7 +230,7 @@ DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState&
   BeamTask beams{.standing = {},
                  .moving = {},
                  .max_depth = task.only_compiles() ? std::min(depth, 2u) : depth,
-                 .keep = plan_.keep_beams || task.links().is_batch()};
+                 .keep = plan_.keep_beams || (task.links().is_batch() && !plan_.trace.from_both_ends())};
   for (const Launcher& end : ends) (standing_origins_[end.transmitter] ? beams.standing : beams.moving).push_back(end);
   for (const EndState& end : world.receivers)
     if (end.present) beams.receivers.push_back(end.position_m);

@@ -64,7 +64,8 @@ bool BeamTracing::find_static(const DeviceScene& scene, const BeamTask& task, Ke
     }
     kept_ = std::move(kept);
   } catch (const gpu::BufferError&) {
-    // All ends are followed with the others then, in every discovery, which costs time alone.
+    // All ends are followed with the others then, in every discovery. That takes longer, and what vehicles hide as a
+    // whole is left out, which no path needs.
     too_large_ = std::move(key);
     set.clear();
   }

@@ -92,6 +92,29 @@ void check_body(const Fleet& fleet, const WorldEnds& ends, uint32_t track, const
             model.name, fleet.trajectories.tracks[track].id));
 }
 
+// A vehicle has one body, whose facets must not count twice.
+void check_one_body(const Config& config, const Track& track, const VehicleType& type, bool by_id) {
+  const TargetModelConfig* first = nullptr;
+  for (const TargetModelConfig& model : config.target_models) {
+    if (!model.body() || !(matches(model.on, type.name) || (by_id && matches(model.on, track.id)))) continue;
+    if (first)
+      throw ConfigError(fmt::format(
+          "[[target_model]] \"{}\" and \"{}\" have kind = \"body\" and both select the vehicle \"{}\", whose facets "
+          "would count twice: change on of one of them",
+          first->name, model.name, track.id));
+    first = &model;
+  }
+}
+
+// Points are numbered with the bits that a step has beside its kind.
+void check_points(const Targets& targets) {
+  if (targets.points.size() <= static_cast<size_t>(~WT_STEP_KIND)) return;
+  throw ConfigError(fmt::format(
+      "the targets have {} points, more than the {} that paths can tell apart: give bodies a larger piece_m, "
+      "or make fewer vehicles targets (target_model.on)",
+      targets.points.size(), ~WT_STEP_KIND));
+}
+
 const Instance& body_of_vehicle(const Fleet& fleet, uint32_t track, const TargetModelConfig& model) {
   const uint32_t instance = fleet.instance_of_track[track];
   if (instance == no_instance)
@@ -102,9 +125,10 @@ const Instance& body_of_vehicle(const Fleet& fleet, uint32_t track, const Target
   return fleet.instances[instance];
 }
 
-void require_vehicles(const Config& config, const Trajectories& trajectories) {
+// by_id: the vehicles of the world are tracks, which on may name.
+void require_vehicles(const Config& config, const Trajectories& trajectories, bool by_id) {
   std::vector<std::string> names;
-  for (const Track& track : trajectories.tracks) names.push_back(track.id);
+  for (size_t i = 0; by_id && i < trajectories.tracks.size(); ++i) names.push_back(trajectories.tracks[i].id);
   for (const VehicleType& type : trajectories.types) names.push_back(type.name);
   for (const TargetModelConfig& model : config.target_models)
     if (!model.on.empty())
@@ -123,10 +147,11 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
   if (!config.trace.target) return out;
   const TargetLaws laws = target_laws(config.target_models, config.target_parts, fleet.models);
   const Trajectories& trajectories = fleet.trajectories;
-  require_vehicles(config, trajectories);
+  require_vehicles(config, trajectories, by_id);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
     const VehicleType& type = trajectories.types[track.type];
+    check_one_body(config, track, type, by_id);
     for (size_t m = 0; m < config.target_models.size(); ++m) {
       const TargetModelConfig& model = config.target_models[m];
       if (!matches(model.on, type.name) && !(by_id && matches(model.on, track.id))) continue;
@@ -147,6 +172,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
     add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, config.target_parts, {},
                laws.first[static_cast<size_t>(&model - config.target_models.data())]);
   }
+  check_points(out);
   for (TargetPoint& point : out.points) bound(point, laws);
   out.travels = travels_of(out, trajectories);
   return out;

@@ -3,8 +3,8 @@
 // thin strip for rays, so they may miss it; but the prefix that sees one face of an edge also sees the other one, if
 // that does not face away. A node of the trie is a prefix and the surface that its rays met next. Images are exact; an
 // edge that the last mirror surely does not show (float32, conservative) is passed over. Later passes decide if
-// something hides the face, as for all sequences. With WT_AGES only sequences that rays met in this frame are looked at
-// (sequences.cl).
+// something hides the face, as for all sequences. Only sequences that rays have met are looked at, in this frame or
+// before: if the pass runs again, those that it has entered lead to no others.
 #include "lib/enter.clh"
 #include "lib/join.clh"
 #include "lib/wedge.clh"
@@ -42,11 +42,8 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
                          uint now, uint lanes) {
   const uint i = get_global_id(0) / lanes, lane = get_global_id(0) % lanes;
   if (i >= min(node_count, counters->nodes) || (nodes[i] & WT_ROOT)) return;
-#ifdef WT_AGES
-  const uint age = min(now, wt_load_relaxed_u32(ages + nodes[i]) | 1u);
-#else
-  const uint age = now;
-#endif
+  const uint found = wt_load_relaxed_u32(quarters + nodes[i]) & WT_ALL_QUARTERS;
+  if (found == 0) return;
   uint back[WT_MAX_DEPTH], depth = 0, n = nodes[i];  // the surfaces from the last one back
   for (; !(n & WT_ROOT) && depth < WT_MAX_DEPTH; ++depth) {
     const ulong key = wt_load_relaxed_u64(table + n);  // others are inserting
@@ -55,7 +52,6 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
   }
   const uint root = n & ~WT_ROOT, parent = wt_trie_parent(wt_load_relaxed_u64(table + nodes[i]));
   const uint mirrors = depth - 1, seen = back[0], last = mirrors > 0 ? back[1] : WT_NONE;
-  const uint found = wt_load_relaxed_u32(quarters + nodes[i]) & WT_ALL_QUARTERS;
   for (uint end = first_ends[root] + lane; end < first_ends[root + 1]; end += lanes) {
     double3 image = ends[end].xyz;
     for (uint k = mirrors; k > 0; --k) image = wt_reflected(surfaces + back[k], image);
@@ -66,7 +62,7 @@ kernel void grazed_faces(global ulong* table, global uint* nodes, const global d
       if (own != WT_NONE && w->instance == own) continue;
       const uint face = grazed_face(w, boxes, seen, mirrors, last, image);
       if (face == WT_NONE) continue;
-      const uint node = wt_enter(table, mask, parent, face, nodes, capacity, counters, quarters, found, ages, age);
+      const uint node = wt_enter(table, mask, parent, face, nodes, capacity, counters, quarters, found, ages, now);
       if (node == WT_NONE) atomic_or(&counters->trie_overflow, 1u);
     }
   }

@@ -53,6 +53,13 @@ TEST_CASE("targets: models that there are not, and what targets do not go with")
                  "trace.floor_db = -120 says nothing of the power of waves that a target scatters");
   check_contains(error("trace.target_diffraction = true\ntrace.target_reflections = 1\n"),
                  "trace.target_diffraction = true needs trace.diffraction = true");
+  const std::string body = "[[target_model]]\nname = \"b\"\nkind = \"body\"\non = \"*\"\n";
+  check_contains(error_of(scene +
+                          "trace.diffraction = true\ntrace.target_diffraction = true\n"
+                          "trace.target_reflections = 1\n" +
+                          ends + body),
+                 "trace.target_diffraction = true does not go with [[target_model]] \"b\"");
+  check_contains(error_of(scene + ends + "[[target_model]]\nname = \"b\"\nkind = \"body\"\n"), "and no on");
   const std::string edges = "trace.diffraction = true\ntrace.edge_rays = 100\ntrace.target_reflections = 1\n";
   check_contains(error(edges), "trace.edge_rays = 100 does not go with trace.target_reflections = 1");
   for (const std::string keys :

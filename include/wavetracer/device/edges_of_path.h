@@ -37,13 +37,12 @@ inline double wt_sine2(const wt_edge* edge) {  // sin^2 of the angle between edg
   return (1.0 - cosine) * (1.0 + cosine);
 }
 
-// Sets the lengths of edges that follow each other; after_m: the way from the last of them to where their wave ends.
+// Sets the last lengths of edges that follow each other; after_m: the way from the last of them to where their wave
+// ends.
 inline void wt_end_edges(wt_edge* edges, wt_uint count, double after_m) {
   double path_m = 0.0;
-  for (wt_uint i = 0; i < count; ++i) {
-    edges[i].after_m = i + 1 < count ? edges[i + 1].before_m : after_m;
-    path_m += edges[i].before_m;
-  }
+  if (count > 0) edges[count - 1].after_m = after_m;
+  for (wt_uint i = 0; i < count; ++i) path_m += edges[i].before_m;
   for (wt_uint i = 0; i < count; ++i) edges[i].path_m = path_m + after_m;
 }
 
@@ -62,6 +61,7 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
     }
 #endif
     if (wt_kind(path, k) == WT_STEP_DIFFRACTION && count < WT_EDGE_ROOM) {
+      if (count > first) edges[count - 1].after_m = since_m;
       const WT_GLOBAL wt_wedge* wedge = world->wedges + wt_number(path, k);
       wt_edge* edge = edges + count++;
       edge->at = k;
@@ -73,6 +73,7 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
       edge->k_in = leg.direction;
       edge->k_out = next.direction;
       edge->before_m = since_m;
+      edge->after_m = 0.0;
       since_m = 0.0;
     }
     since_m += next.length_m;
