@@ -16,7 +16,7 @@ namespace wavetracer {
 namespace {
 
 // Pairs of an end and a point, which take 8 bytes each on the host.
-constexpr uint64_t most_pairs = uint64_t{1} << 28;
+constexpr uint64_t most_pairs_of_points = uint64_t{1} << 28;
 
 // A piece of a body is hidden by all other parts of the body.
 std::vector<EndState> as_receivers(const std::vector<TargetState>& targets) {
@@ -45,9 +45,9 @@ std::vector<Link> strong_pairs(const std::vector<EndState>& ends, const std::vec
       if (ends[end].present) nearest_m2 = std::min(nearest_m2, square(end, point));
     farthest_m2[point] = most_of_edges * limits.powers[point] / (limits.floor * nearest_m2);
   }
-  if (uint64_t{ends.size()} * points.size() > most_pairs)
+  if (uint64_t{ends.size()} * points.size() > most_pairs_of_points)
     throw gpu::BufferError(fmt::format("{} ends look for {} points of targets, more than {} pairs. {}", ends.size(),
-                                       points.size(), most_pairs, advice::targets));
+                                       points.size(), most_pairs_of_points, advice::targets));
   std::vector<Link> out;
   for (uint32_t end = 0; end < ends.size(); ++end)
     for (uint32_t point = 0; point < points.size(); ++point)
