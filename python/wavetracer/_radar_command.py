@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import fnmatch
 import pathlib
 import re
 import sys
@@ -13,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _radar_config, radar
+from . import _radar_config, _radar_file, radar
 from .errors import ConfigError, Error
 from .paths import KINDS, Paths
 from .runs import Run, SavedFrame
@@ -22,7 +21,8 @@ from .runs import Run, SavedFrame
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python3 -m wavetracer.radar", description=__doc__)
     parser.add_argument("run", type=pathlib.Path, metavar="RUN", help="folder of `wavetracer run`")
-    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE", help="radar.h5 in RUN if not given")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
+                        help="radar.h5 in RUN if not given; one that the run itself wrote is only replaced if FILE names it")
     parser.add_argument("--tx", help="name of the radar's transmitter, where there are several")
     parser.add_argument("--rx", help="name of its receiver, where there are several")
     parser.add_argument("--radar", metavar="NAME", help="take what is not given from this [[radar]] of the run; the only one "
@@ -79,14 +79,28 @@ def _settings(run: Run, options: argparse.Namespace) -> dict[str, Any]:
 
 def _one_name(table: dict[str, Any], key: str, names: Sequence[str]) -> str | None:
     """The end that a [[radar]] names, if it is one."""
-    found = [name for name in names if fnmatch.fnmatchcase(name, table.get(key, "*"))]
+    # As in the program, only * and ? are special.
+    parts = ({"*": ".*", "?": "."}.get(letter) or re.escape(letter) for letter in table.get(key, "*"))
+    pattern = re.compile("".join(parts), re.DOTALL)
+    found = [name for name in names if pattern.fullmatch(name)]
     return found[0] if len(found) == 1 else None
+
+
+def _output(options: argparse.Namespace) -> pathlib.Path:
+    if options.output is not None:
+        return pathlib.Path(options.output)
+    file = pathlib.Path(options.run) / "radar.h5"
+    if _radar_file.of_run(file):
+        raise ConfigError(f"{file} is what the run wrote for its [[radar]], which would be lost: give -o with another file, or "
+                          f"-o {file} to replace it")
+    return file
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with Run(options.run) as run:
+            file = _output(options)
             frames, cubes, signals, heard = _chosen(run, options.frames), [], [], []
             settings = _settings(run, options)
             for i, frame in enumerate(frames):
@@ -105,7 +119,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 radar.write_osi(options.osi, heard)
             spectrogram = (np.array(times), spectra[0][1], np.concatenate([power for _, _, power in spectra]))
             ends = (run.transmitters.index(paths.transmitters[0]), run.receivers.index(paths.receivers[0]))
-        file = options.output or options.run / "radar.h5"
         radar.save(file, cubes, [frame.number for frame in frames], times, spectrogram, settings["false_alarm"],
                    settings["name"], ends, **settings["around"])
     except Error as error:

@@ -69,6 +69,17 @@ def save(file: str | pathlib.Path, cubes: Sequence[Cube], frames: Sequence[int] 
                 group[path].attrs["units"] = unit
 
 
+def of_run(file: str | pathlib.Path) -> bool:
+    """Did a run write this file? Then it has the text of the configuration, which files of save() do not have."""
+    import h5py
+
+    try:
+        with h5py.File(file) as stored:
+            return "config" in stored.attrs
+    except OSError:  # there is none, or one that cannot be read
+        return False
+
+
 def names(file: str | pathlib.Path) -> list[str]:
     """The radars of a radar.h5."""
     return _read(file, lambda stored: _names(file, stored))

@@ -15,7 +15,7 @@ try:
 except ImportError:
     sys.exit(77)
 import wavetracer
-from wavetracer import radar
+from wavetracer import _radar_command, radar
 
 PROGRAM, CONFIGS, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 RUN = FOLDER / "run"
@@ -130,7 +130,8 @@ def check_equal():
         for name, values in whole.items():
             assert np.array_equal(file[name][...], values), name
     for options, part in ((("radar.0.transmitter=own/send",), 'radar "front": transmitter'), (("links.same_vehicle=false",), "give links.same_vehicle = true"),
-                          (("radar.1.turns=true",), "turns = true has no effect"), (("radar.0.samples=65536", "radar.0.chirps=65536"), "are the limit"),
+                          (("radar.1.turns=true",), "turns = true has no effect"), (("radar.0.samples=65536", "radar.0.chirps=65536", "radar.0.chirp_s=3e-4",
+                           "radar.0.interval_s=3e-4"), "are the limit"),
                           (("radar.0.kind=bistatic",), "all of them are on one vehicle"), (("links.receivers=[\"o*\"]", "radar.0.receiver=x"), "receiver")):
         sets = [word for option in options for word in ("--set", option)]
         code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "refused", *sets)
@@ -163,7 +164,7 @@ def check_pairs():
     config.write_text(text)
     crowd = FOLDER / "crowd.toml"
     crowd.write_text(text + '[[receiver]]\nname = "c/rx"\nposition_m = [40.2, 3, 2]\n')
-    large = [word for key in ("chirps", "samples") for word in ("--set", f"radar.0.{key}=8192")]
+    large = [word for one in ("chirps=8192", "samples=8192", "chirp_s=1e-4") for word in ("--set", "radar.0." + one)]
     code, said_text = said(PROGRAM, "run", "-c", crowd, "-o", FOLDER / "crowd", *large)
     assert code != 0 and "603981824 cells of all links" in said_text and "give radar.cube = false" in said_text, said_text
     code, said_text = said(PROGRAM, "run", "-c", config, "-o", FOLDER / "fewer", "--set", 'links.receivers=["a/*"]', "--set", "radar.1.receiver=a/rx")
@@ -204,12 +205,26 @@ def check_bistatic():
 def check_command():
     """The command of Python takes the waveform of the run, and options replace it."""
     command = [sys.executable, "-m", "wavetracer.radar", RUN]
-    code, text = said(*command, "--frames", "70:80")
+    elsewhere = (*command, "-o", FOLDER / "none.h5")
+    code, text = said(*elsewhere, "--frames", "70:80")
     assert code == 2 and "frames 0 to 4" in text, text
-    code, text = said(*command, "--window", "kaiser")
+    code, text = said(*elsewhere, "--window", "kaiser")
     assert code == 2 and "there is no window" in text, text
-    code, text = said(*command, "--radar", "side")
+    code, text = said(*elsewhere, "--radar", "side")
     assert code == 2 and "the run has the radars front" in text, text
+    # The file of the run is only replaced if -o names it; a file of the command itself is replaced.
+    before = (RUN / "radar.h5").read_bytes()
+    code, text = said(*command)
+    assert code == 2 and "is what the run wrote" in text and f"-o {RUN / 'radar.h5'} to replace it" in text, text
+    assert (RUN / "radar.h5").read_bytes() == before
+    code, text = said(*command, "--frames", "0:0", "-o", RUN / "radar.h5")
+    assert code == 0 and len(radar.load(RUN / "radar.h5")) == 1, text
+    code, text = said(*command, "--frames", "0:1")
+    assert code == 0 and len(radar.load(RUN / "radar.h5")) == 2, text
+    (RUN / "radar.h5").write_bytes(before)
+    names = ("a[1]/x", "a1/x", "a2/x")
+    for pattern, name in (("a[1]/?", names[0]), ("a1*", names[1]), ("a?/x", None), ("*.x", None)):
+        assert _radar_command._one_name({"transmitter": pattern}, "transmitter", names) == name, pattern
     code, text = said(*command, "--samples", 64, "-o", FOLDER / "short.h5")
     assert code == 0 and "are later than 2.13333e-07 s and left out" in text and "the run has arrays" in text, text
     code, text = said(*command, "--osi", FOLDER / "radar.osi", "-o", FOLDER / "again.h5")
