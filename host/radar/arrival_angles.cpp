@@ -16,6 +16,7 @@ namespace wavetracer {
 namespace {
 
 constexpr double least_extent = 1e-3;  // wavelengths: less tells no direction
+constexpr double most_apart_m = 1;     // ends further apart see an echo in different directions
 
 double extent_of(const std::vector<glm::dvec3>& elements, glm::length_t axis) {
   const auto [low, high] = std::ranges::minmax(elements, {}, [&](const glm::dvec3& p) { return p[axis]; });
@@ -32,7 +33,9 @@ int64_t grid_steps(double extent) {
 LookingArray::LookingArray(const Config& config, const FrameResult& frame, Link link, const RadarConfig& radar)
     : tx_ports_(ports_of(config.transmitters[link.tx].polarization)),
       rx_ports_(ports_of(config.receivers[link.rx].polarization)),
-      together_(radar.kind == "monostatic") {
+      together_(radar.kind == "monostatic" &&
+                glm::distance(frame.world.receivers[link.rx].position_m,
+                              frame.world.transmitters[link.tx].position_m) <= most_apart_m) {
   const double wavelength_m = speed_of_light_m_s / config.radio.frequency_hz;
   const glm::dmat3 axes = glm::transpose(frame.world.receivers[link.rx].rotation) *
                           frame.world.transmitters[link.tx].rotation;  // from the transmitter's to the receiver's

@@ -20,8 +20,9 @@ struct ArrivalAngles {
 // The places of a radar's antennas as elements that look to one direction, in the axes of the receiving antenna.
 class LookingArray {
  public:
-  // With a monostatic radar a wave goes to the target and back in one direction, so pairs of elements are those of a
-  // virtual array; else the elements of the receiver alone count, and the powers of transmitting antennas add up.
+  // With a monostatic radar whose ends are at most 1 m apart, a wave goes to the target and back in one direction, so
+  // pairs of elements are those of a virtual array. Else the elements of the receiver alone count, and the powers of
+  // transmitting antennas add up.
   LookingArray(const Config& config, const FrameResult& frame, Link link, const RadarConfig& radar);
 
   // values: the cell of each pair of antennas, [rx antenna][tx antenna]. The direction from which the array receives

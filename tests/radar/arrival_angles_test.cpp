@@ -58,3 +58,20 @@ TEST_CASE("a monostatic radar looks with the virtual array of both ends, and an 
     CHECK(std::isnan(found.elevation_rad[0]) == true);
   }
 }
+
+TEST_CASE("ends of a monostatic radar that are more than 1 m apart have no virtual array") {
+  const auto azimuth = [](const char* kind, double apart_m) {
+    RadarWorld world(panel(1, 3, 2), panel(1, 4), {0, apart_m, 0}, {0, 0, 0});
+    world.config.transmitters[0].orientation_deg = {0, 0, 0};
+    world.radar.kind = *RadarKind::parse(kind);
+    const glm::dvec3 normal{std::cos(0.2), std::sin(0.2), 0};
+    world.add_reflections(0, 0, {world.add_plane(normal, 12.0 * normal, conductor())});
+    FrameResult frame = world.frame();
+    frame.paths.doppler_hz = {0};
+    const RadarDetections found = world.row(frame).detections;
+    REQUIRE(found.size() >= 1);
+    return found.azimuth_rad[0];
+  };
+  CHECK(azimuth("monostatic", 0.99) != azimuth("bistatic", 0.99));
+  CHECK(azimuth("monostatic", 1.01) == azimuth("bistatic", 1.01));
+}
