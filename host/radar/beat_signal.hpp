@@ -28,7 +28,8 @@ BeatSignal beat_signal(const ElementModel& model, const FrameResult& frame, Link
                        double power_dbm);
 
 // Adds the noise of a receiver at 290 K with radar.noise_figure_db, if that is given. It depends on radar.seed, the
-// frame and the link alone.
-void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, Link link);
+// name of the radar, the number and the time of the frame, and the link alone: radars of one link have different noise,
+// and so have instants between live frames, which have the number of the frame that follows.
+void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, double time_s, Link link);
 
 }  // namespace wavetracer

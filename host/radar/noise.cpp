@@ -3,6 +3,7 @@
 // cores.
 #include <tbb/parallel_for.h>
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -35,12 +36,14 @@ uint64_t folded(uint64_t seed, uint64_t value) { return NoiseStream(seed ^ Noise
 
 }  // namespace
 
-void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, Link link) {
+void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, double time_s, Link link) {
   if (!radar.noise_figure_db) return;
   const double power_w =
       boltzmann_j_k * room_k * std::pow(10, *radar.noise_figure_db / 10) * radar.samples / radar.chirp_s;
   uint64_t seed = radar.seed.value_or(0);
-  for (const uint64_t value : {uint64_t{frame}, uint64_t{link.tx}, uint64_t{link.rx}}) seed = folded(seed, value);
+  for (const char letter : radar.name) seed = folded(seed, static_cast<unsigned char>(letter));
+  for (const uint64_t value : {uint64_t{frame}, std::bit_cast<uint64_t>(time_s), uint64_t{link.tx}, uint64_t{link.rx}})
+    seed = folded(seed, value);
   tbb::parallel_for(size_t{0}, signal.rx_antennas * signal.tx_antennas * signal.chirps, [&](size_t row) {
     NoiseStream random(folded(seed, row));
     for (size_t i = row * signal.samples; i < (row + 1) * signal.samples; ++i) {

@@ -31,7 +31,7 @@ std::vector<double> spectrum_of(const std::vector<double>& map_w, size_t delays)
 RadarRow radar_row(const ElementModel& model, const Config& config, const FrameResult& frame, Link link,
                    const RadarConfig& radar, const RadarAxes& axes, bool with_cube) {
   BeatSignal signal = beat_signal(model, frame, link, radar, radar_power_dbm(radar, config.radio));
-  add_noise(signal, radar, frame.frame, link);
+  add_noise(signal, radar, frame.frame, frame.world.time_s, link);
   RadarRow out{link, signal.left_out, radar_cube(signal, radar, axes), {}, {}, {}};
   const size_t pairs = signal.rx_antennas * signal.tx_antennas, cells = out.cube.size() / pairs;
   const std::vector<double> map_w = radar_map_w(out.cube, pairs);

@@ -39,6 +39,12 @@ TEST_CASE("noise has the power of its figure, and is above thresholds as often a
   frame.frame = 1;
   CHECK(world.row(frame).cube != noise.cube);
   frame.frame = 0;
+  frame.world.time_s += 1e-3;  // between live frames, numbers do not advance
+  CHECK(world.row(frame).cube != noise.cube);
+  frame.world.time_s -= 1e-3;
+  radar.name = "rear";  // another radar of the same link
+  CHECK(world.row(frame).cube != noise.cube);
+  radar.name = "front";
   radar.seed = 6;
   CHECK(world.row(frame).cube != noise.cube);
 }
