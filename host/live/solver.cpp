@@ -8,6 +8,32 @@
 #include "wavetracer/error.hpp"
 
 namespace wavetracer::live {
+namespace {
+
+// Throws AnswerError if the cubes of an answer would be longer than a client may leave unread.
+void check_cubes(const Simulation& simulation, const FrameResult& frame, Encoding encoding) {
+  // The bytes of a complex value: two float64, or two numbers of up to 23 characters with their commas.
+  const bool columns = encoding == Encoding::cbor;
+  const uint64_t cells = simulation.radar_cells(frame), bytes = cells * (columns ? 16 : 48),
+                 most = simulation.config().live.max_queue_bytes;
+  if (bytes > most)
+    throw AnswerError(
+        "too_large",
+        fmt::format("the cubes of this answer have {} cells, {} bytes {}, more than live.max_queue_bytes = {}: ask for "
+                    "\"detections\"{}, or let the configuration have fewer links of radars, a smaller radar.chirps or "
+                    "radar.samples, or a larger live.max_queue_bytes",
+                    cells, bytes, columns ? "as columns" : "as JSON", most,
+                    columns ? "" : ", or take the encoding \"cbor\", which has a third of these bytes"));
+}
+
+std::vector<RadarRows> radars_of(const Simulation& simulation, const LiveFrame& frame, const Job& job) {
+  if (job.radar == RadarDetail::none) return {};
+  const bool cubes = job.radar == RadarDetail::cubes;
+  if (cubes) check_cubes(simulation, frame.result, job.encoding);
+  return simulation.radars(frame.result, cubes);
+}
+
+}  // namespace
 
 Solve solve_with(Simulation& simulation, FrameSolved solved) {
   return [&simulation, solved = std::move(solved), axes = simulation.radar_axes()](const Job& job, bool afresh) {
@@ -18,8 +44,7 @@ Solve solve_with(Simulation& simulation, FrameSolved solved) {
     LiveFrame frame = message.between ? simulation.run_between(*job.traffic, message.time_s)
                                       : simulation.run_poses(*job.traffic, message.time_s, message.vehicles);
     if (solved) solved(simulation, frame);
-    const std::vector<RadarRows> heard =
-        job.radar == RadarDetail::none ? std::vector<RadarRows>() : simulation.radars(frame.result);
+    const std::vector<RadarRows> heard = radars_of(simulation, frame, job);
     const FrameTimes times{seconds(start - job.received), seconds(Clock::now() - start)};
     const RadarAnswer radars{simulation.config(), axes, heard, job.radar == RadarDetail::cubes};
     std::string line = channels_line(message, frame, {job.detail, job.encoding}, job.skipped, times, radars);
@@ -48,6 +73,9 @@ Answer Solver::answer(const Job& job) {
     afresh_ = false;
     return {job.client, std::move(line), {}, false};
   } catch (const PoseError& e) {
+    return {job.client, error_line(e.code, e.what(), frame, false), {}, false, job.skipped};
+  } catch (const AnswerError& e) {
+    afresh_ = false;
     return {job.client, error_line(e.code, e.what(), frame, false), {}, false, job.skipped};
   } catch (const DeviceError& e) {
     return {job.client, error_line("server", e.what(), frame, true), e.what(), true};

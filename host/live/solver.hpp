@@ -8,7 +8,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "live/message.hpp"
 #include "live/worker.hpp"
@@ -30,6 +32,13 @@ struct Job {
   std::shared_ptr<LiveTraffic> traffic;  // the client's
 };
 
+// An answer that cannot be given, though its frame was computed; the client is told why.
+struct AnswerError : std::runtime_error {
+  std::string code;  // too_large
+  AnswerError(std::string error_code, const std::string& message)
+      : std::runtime_error(message), code(std::move(error_code)) {}
+};
+
 struct Answer {
   uint64_t client = 0;
   std::string line;     // the answer, and the bytes that follow it
@@ -39,7 +48,8 @@ struct Answer {
 };
 
 // Solves a job and returns the answer. afresh: results of earlier frames must not be used. Throws PoseError if the
-// poses are wrong, DeviceError if the device has failed, any other exception if only this frame failed.
+// poses are wrong, AnswerError if the answer is refused, DeviceError if the device has failed, any other exception if
+// only this frame failed.
 using Solve = std::function<std::string(const Job& job, bool afresh)>;
 // solved: called for every frame before it is answered; must not throw; may be empty.
 using FrameSolved = std::function<void(const Simulation&, const LiveFrame&)>;

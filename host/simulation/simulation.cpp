@@ -133,10 +133,14 @@ PathGradients Simulation::gradient(const FrameResult& frame, const GradientChoic
   return (*state_->gradient)(frame, choice);
 }
 
-std::vector<RadarRows> Simulation::radars(const FrameResult& frame) const {
+std::vector<RadarRows> Simulation::radars(const FrameResult& frame, bool with_cubes) const {
   if (frame.summed)
     throw ConfigError("the frame has sums of links and no paths (Simulation::sum_links), so radars receive nothing");
-  return state_->setup.elements.radars(frame, true);
+  return state_->setup.elements.radars(frame, with_cubes ? CubesKept::all : CubesKept::none);
+}
+
+uint64_t Simulation::radar_cells(const FrameResult& frame) const {
+  return state_->setup.elements.radar_cells(frame, CubesKept::all);
 }
 
 std::vector<RadarAxes> Simulation::radar_axes() const {

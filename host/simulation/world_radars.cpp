@@ -18,7 +18,7 @@ namespace wavetracer {
 namespace {
 
 constexpr size_t most_radar_links = 65536;
-constexpr uint64_t most_cells = uint64_t{1} << 26;  // a gigabyte in a frame
+constexpr uint64_t most_cells = uint64_t{1} << 26;  // limit for one link, whose cube takes 1 GiB while it is computed
 
 // An end that a radar names.
 struct NamedEnd {

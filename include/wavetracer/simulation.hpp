@@ -121,10 +121,13 @@ class Simulation {
   // positions and turns of the ends; the host computes them. The frame is one of this simulation. Throws ConfigError if
   // choice.paths has a row that the frame lacks, or if the frame has sums in place of paths.
   PathGradients gradient(const FrameResult& frame, const GradientChoice& choice = {});
-  // Returns what the radars of the configuration receive in a frame of this simulation, with their cubes. Frames of
-  // live worlds have none by themselves; other frames have it in FrameResult::radars, with the cubes that radar.cube
-  // asks for. Throws ConfigError if the frame has sums in place of paths.
-  std::vector<RadarRows> radars(const FrameResult& frame) const;
+  // Returns what the radars of the configuration receive in a frame of this simulation, with all cubes or with none.
+  // Frames of live worlds have none by themselves; other frames have it in FrameResult::radars, with the cubes that
+  // radar.cube asks for. Throws ConfigError if the frame has sums in place of paths, RuntimeError if it has too many
+  // cells.
+  std::vector<RadarRows> radars(const FrameResult& frame, bool with_cubes = true) const;
+  // Returns the number of complex values that all cubes of the radars in a frame have. It computes none of them.
+  uint64_t radar_cells(const FrameResult& frame) const;
   // The axes of their maps, for each [[radar]].
   std::vector<RadarAxes> radar_axes() const;
   const DeviceSummary& device() const;

@@ -150,6 +150,17 @@ with Server(config=WORLD + RADAR + LIVE) as server:
         client.hello()
         answer = client.ask(frame(0, 0.0, POSES, radar="maps"))
         expect(answer["code"] == "bad_value" and "must be one of none, detections, cubes" in answer["text"], answer)
+# Two cubes of 3 x 32 x 64 cells have 16 bytes a cell as columns, and 48 as JSON.
+for limit, encoding, size in ((196608, "cbor", None), (196607, "cbor", 196608), (196608, "json", 589824)):
+    with Server(config=WORLD + RADAR + LIVE, sets=[f"live.max_queue_bytes={limit}"]) as server:
+        with LiveClient(server.name, encoding=encoding) as client:
+            try:
+                found = client.channels(0.0, POSES, radar="cubes").radars
+                expect(size is None and len(found) == 2 and found[0].cube is not None, "too large a cube was given")
+            except LiveError as error:
+                expect(size is not None and error.reason == "too_large" and 'ask for "detections"' in str(error)
+                       and f"{size} bytes" in str(error), error)
+            compare(client.channels(0.1, POSES, radar="detections").radars, expected)
 with Server(config=WORLD + LIVE) as server:
     with LiveClient(server.name) as client:
         try:
