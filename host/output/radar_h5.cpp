@@ -117,10 +117,13 @@ void append_maps(FrameTables& tables, const std::string& group, const RadarRows&
 void append_cubes(FrameTables& tables, const std::string& group, const RadarRows& rows, const RadarAxes& axes) {
   const std::vector<hsize_t> shape{axes.rx_antennas, axes.tx_antennas, axes.doppler_hz.size(), axes.delay_s.size()};
   const auto part = [&](auto get) {
-    return of_rows<float>(rows, [&](const RadarRow& row, auto& out) {
-      out.reserve(out.size() + row.cube.size());
+    size_t cells = 0;
+    for (const RadarRow& row : rows) cells += row.cube.size();
+    std::vector<float> out;
+    out.reserve(cells);
+    for (const RadarRow& row : rows)
       for (const std::complex<double>& value : row.cube) out.push_back(static_cast<float>(get(value)));
-    });
+    return out;
   };
   RadarColumns add(tables, group + "/cube", "range-Doppler cubes of all antennas, in the order of frames");
   add("re", "sqrt(W)", "real part; shape (row, rx antenna, tx antenna, Doppler shift, delay)",
