@@ -28,6 +28,13 @@ void check_wave(const RadarConfig& radar, const std::string& key, double carrier
                    fmt::format("{} has bandwidth_hz = {:g}: half of it is more than the carrier of {:g} Hz, so a chirp "
                                "would begin below 0 Hz: give less than twice the carrier",
                                named, radar.bandwidth_hz, carrier_hz)});
+  if (radar.longest_delay_s() > radar.chirp_s)
+    out.push_back(
+        {{key, key + ".samples", key + ".bandwidth_hz", key + ".chirp_s"},
+         fmt::format("{} has samples = {} and bandwidth_hz = {:g}, so it would hear echoes up to {:g} s late, "
+                     "longer than its chirp, chirp_s = {:g}: give fewer samples, a larger bandwidth_hz, or a "
+                     "longer chirp_s",
+                     named, radar.samples, radar.bandwidth_hz, radar.longest_delay_s(), radar.chirp_s)});
   if (radar.seed && !radar.noise_figure_db)
     out.push_back({{key + ".seed"}, named + " has a seed, but no noise: give noise_figure_db, too, or remove seed"});
   const uint32_t least = 2 * radar.training + 1, cells = std::min(radar.chirps, radar.samples);

@@ -20,6 +20,11 @@ TEST_CASE("radars: keys that contradict each other, and names of groups") {
   CHECK(error("interval_s = 25e-6\nnoise_figure_db = 12\nseed = 3\npower_dbm = 12\nkind = \"bistatic\"") == "no error");
   check_contains(error("interval_s = 10e-6"), "front\" has interval_s = 1e-05, shorter than a chirp of 2e-05 s");
   check_contains(error("bandwidth_hz = 12e9"), "half of it is more than the carrier of 5.9e+09 Hz");
+  CHECK(error("samples = 200\nbandwidth_hz = 10e6") == "no error");  // just the chirp
+  check_contains(
+      error("samples = 300\nbandwidth_hz = 10e6"),
+      "front\" has samples = 300 and bandwidth_hz = 1e+07, so it would hear echoes up to 3e-05 s late, longer "
+      "than its chirp, chirp_s = 2e-05");
   check_contains(error("seed = 3"), "has a seed, but no noise: give noise_figure_db");
   check_contains(error("guard = 6"), "guard = 6 and training = 6");
   check_contains(error("training = 70"), "a square of 141 x 141 cells, but its map has 128 x 256");
