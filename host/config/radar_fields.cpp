@@ -23,9 +23,10 @@ std::vector<Field> end_fields() {
        .example = "\"front\""},
       {.name = "kind",
        .slot = r(&RadarConfig::kind),
-       .doc = "Which pairs of the transmitters and receivers below are radars. monostatic: both ends are on one "
-              "vehicle, which links.same_vehicle must allow, or both are fixed. bistatic: the ends are not on one "
-              "vehicle."},
+       .doc =
+           "Which pairs of the transmitters and receivers below are radars. With \"monostatic\", a pair is a radar if "
+           "both ends are on one vehicle, which links.same_vehicle must allow, or both are fixed. With "
+           "\"bistatic\", a pair is a radar if its ends are on two vehicles, or if at least one end is fixed."},
       {.name = "transmitter", .slot = r(&RadarConfig::transmitter), .doc = "Names of the ends that send" + names},
       {.name = "receiver", .slot = r(&RadarConfig::receiver), .doc = "Names of the ends that receive" + names},
   };
@@ -44,7 +45,7 @@ std::vector<Field> wave_fields() {
        .slot = r(&RadarConfig::chirp_s),
        .unit = "s",
        .range = {0, 3600, true},
-       .doc = "The duration of a chirp."},
+       .doc = "The duration of a chirp; at least samples / bandwidth_hz, the delay up to which echoes are heard."},
       {.name = "interval_s",
        .slot = r(&RadarConfig::interval_s),
        .unit = "s",
@@ -63,7 +64,7 @@ std::vector<Field> wave_fields() {
       {.name = "turns",
        .slot = r(&RadarConfig::turns),
        .doc = "true: the antennas of the transmitter send chirps in turns. false: codes tell them apart without any "
-              "error, and they send at a time."},
+              "error, and they send at the same time."},
       {.name = "power_dbm",
        .slot = r(&RadarConfig::power_dbm),
        .unit = "dBm",
@@ -79,7 +80,9 @@ std::vector<Field> wave_fields() {
        .example = "12.0"},
       {.name = "seed",
        .slot = r(&RadarConfig::seed),
-       .doc = "Only with noise_figure_db: of the noise, which also depends on the frame and the link. Not given: 0.",
+       .doc =
+           "Only with noise_figure_db: of the noise, which also depends on the radar's name, the frame, its time and the "
+           "link. Not given: 0.",
        .example = "1"},
   };
 }
@@ -89,16 +92,19 @@ std::vector<Field> output_fields() {
   return {
       {.name = "range_window",
        .slot = r(&RadarConfig::range_window),
-       .doc = "The window over samples: hann has the sidelobes that fall fastest, none the narrowest lobe."},
+       .doc =
+           "The window over samples. With \"hann\", sidelobes fall fast; with \"none\", the main lobe is narrowest."},
       {.name = "doppler_window", .slot = r(&RadarConfig::doppler_window), .doc = "The window over chirps."},
       {.name = "direct",
        .slot = r(&RadarConfig::direct),
-       .doc = "false: the direct path from the transmitter to the receiver is left out, as a radar's own filter does; "
-              "else it hides what is near."},
+       .doc = "false: the direct path from the transmitter to the receiver is left out, as the filter of a radar "
+              "does. With true, the direct path hides near targets."},
       {.name = "false_alarm",
        .slot = r(&RadarConfig::false_alarm),
        .range = {1e-300, 0.5},
-       .doc = "Probability that a cell of noise of one pair of antennas is above the threshold of detections."},
+       .doc =
+           "Probability that a cell of noise of one pair of antennas is above the threshold of detections. It holds "
+           "without windows: a window such as \"hann\" correlates neighbouring cells, so there are more false alarms."},
       {.name = "guard",
        .slot = r(&RadarConfig::guard),
        .unit = "cells",
