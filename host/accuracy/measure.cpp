@@ -88,7 +88,9 @@ std::vector<uint32_t> spread_frames(uint64_t of, uint32_t count) {
 std::optional<Measured> measure(const Config& config, const Setting& setting, const How& how) {
   Simulation simulation = [&] {
     const std::shared_ptr<void> guard = how.host.guard(how.keep);
-    return Simulation(config, how.device);
+    Config measured = config;
+    measured.radars.clear();  // they are made of paths and have none of their own
+    return Simulation(measured, how.device);
   }();
   simulation.observe(how.host.watch);
   Measured out;
