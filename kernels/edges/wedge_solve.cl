@@ -3,9 +3,9 @@
 // then the reflections between each end and its edge. It keeps paths whose points are inside edges and surfaces, in the
 // free sector of each wedge. Legs are not tested here (occlusion does that). On CPUs a work-item takes a run of
 // candidates, so that their paths follow each other.
-#include "lib/bend_bound.clh"
 #include "lib/fermat.clh"
 #include "lib/reflections.clh"
+#include "lib/weak_bends.clh"
 #include "wavetracer/device/arguments.h"
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -36,13 +36,6 @@ inline void take_way(const global ulong* table, const global wt_exact_surface* s
   for (uint k = 0; k < way->depth; ++k) way->images[k + 1] = wt_reflected(surfaces + way->chain[k], way->images[k]);
 }
 
-// Rows that are found, before their places are known.
-typedef struct {
-  uint count, transmitter[WT_TOGETHER], receiver[WT_TOGETHER], quarters[WT_TOGETHER], depth[WT_TOGETHER];
-  uint steps[WT_TOGETHER][WT_ROOM];
-  double3 points[WT_TOGETHER][WT_ROOM];
-} wt_bent_rows;
-
 inline int own_instance(uint instance, double4 end) { return instance != WT_NONE && instance == wt_end_instance(end); }
 
 // Solves the reflections between an end and its edge; 0 where that is no path. An antenna's vehicle is no mirror or
@@ -65,49 +58,12 @@ inline void prefetch_chains(const global ulong* table, const global wt_wedge_can
   }
 }
 
-// Is a path from image a over the point p of an edge to image b surely weaker than the floor? floor: a power, divided
-// by those of all constant factors. Paths over free ends have no floor.
-inline int is_weak_over_one(const global wt_wedge* v, double3 a, double3 b, double3 p, double floor,
-                            double wavelength) {
-  if (v->free_ends != 0u) return 0;
-  const double3 at = wt_in_wedge(v, a);
-  const double before_m = sqrt(wt_dot(p - a, p - a)), after_m = sqrt(wt_dot(b - p, b - p)), off_m = wt_from_edge(at);
-  const double sine = off_m / before_m, spread_m = before_m * after_m * sine * sine / (before_m + after_m);
-  const double most = wt_bend_between(v, at, wt_in_wedge(v, b), spread_m, wavelength, 1).amplitude;
-  return most * most < floor * (before_m * after_m * (before_m + after_m) * sine * sine);
-}
-
-// The same over the points p and q of two edges. Paths along a plane of both have no floor.
-inline int is_weak_over_two(const global wt_wedge* v, const global wt_wedge* w, double3 a, double3 b, double3 p,
-                            double3 q, double floor, double wavelength) {
-  if (wt_share_plane(v, w, (double3)(0.0, 0.0, 0.0))) return 0;
-  const double3 from = wt_in_wedge(v, a), to = wt_in_wedge(w, b);
-  const double before_m = sqrt(wt_dot(p - a, p - a)), between_m = sqrt(wt_dot(q - p, q - p)),
-               after_m = sqrt(wt_dot(b - q, b - q));
-  const double sine_v = wt_from_edge(from) / before_m, sine_w = wt_from_edge(to) / after_m;
-  const double spread_v = before_m * between_m / (before_m + between_m) * sine_v * sine_v;
-  const double spread_w = after_m * between_m / (after_m + between_m) * sine_w * sine_w;
-  const wt_bend_bound first = wt_bend_between(v, from, wt_in_wedge(v, q), spread_v, wavelength, 0);
-  const wt_bend_bound second = wt_bend_between(w, to, wt_in_wedge(w, p), spread_w, wavelength, 0);
-  const double pair = first.argument * second.argument > WT_FAR_EDGES ? WT_FAR_PAIR_BOUND : WT_PAIR_BOUND;
-  const double most = first.amplitude * second.amplitude * pair;
-  const double sines = sine_v * sine_w;
-  return most * most < floor * (before_m * between_m * after_m * (before_m + between_m + after_m) * sines * sines);
-}
-
-// The same for one edge or two; w: the second one, or null.
-inline int is_weak(const global wt_wedge* v, const global wt_wedge* w, double3 a, double3 b, double3 p, double3 q,
-                   const wt_solve_arguments* args) {
-  if (args->floors[w != 0] == 0.0) return 0;
-  return w ? is_weak_over_two(v, w, a, b, p, q, args->floors[1], (double)args->wavelength_m)
-           : is_weak_over_one(v, a, b, p, args->floors[0], (double)args->wavelength_m);
-}
-
-// Adds a candidate, unless it has no path. to: the way from the receiver.
-inline void solve_candidate(const global wt_exact_surface* surfaces, const global double* triangles,
-                            const global wt_exact_instance* instances, const global wt_wedge* wedges,
-                            const wt_wedge_candidate c, const wt_way* from, const wt_way* to,
-                            const wt_solve_arguments* args, wt_bent_rows* rows) {
+// Finds the points of the path of a candidate: those on its edges, and those of the reflections on either side. to: the
+// way from the receiver. Returns 0 where there is no path.
+inline int solve_candidate(const global wt_exact_surface* surfaces, const global double* triangles,
+                           const global wt_exact_instance* instances, const global wt_wedge* wedges,
+                           const wt_wedge_candidate c, const wt_way* from, const wt_way* to,
+                           const wt_solve_arguments* args, double3* on_edges, double3* points, double3* back_points) {
   const uint depth = from->depth, back = to->depth;
   const double3 a = from->images[depth], b = to->images[back];
   const global wt_wedge* v = wedges + c.wedges[0];
@@ -115,42 +71,81 @@ inline void solve_candidate(const global wt_exact_surface* surfaces, const globa
   const global wt_wedge* w = two ? wedges + c.wedges[1] : v;
   double x, y;
   if (two) {
-    if (!wt_shortest_over_two(v, w, a, b, &x, &y)) return;
+    if (!wt_shortest_over_two(v, w, a, b, &x, &y)) return 0;
   } else {
     x = y = wt_shortest_over(v, a, b);
   }
   const double wavelength = (double)args->wavelength_m;
   if (!two && v->free_ends != 0u) x = y = wt_at_free_end(v, x, wt_in_wedge(v, a), wt_in_wedge(v, b), wavelength);
-  if (!wt_within_edge(v, x) || !wt_within_edge(w, y)) return;
+  if (!wt_within_edge(v, x) || !wt_within_edge(w, y)) return 0;
   const double3 p = wt_on_edge(v, x), q = wt_on_edge(w, y);
-  if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return;  // edges that meet, at their corner
-  if (wt_is_faint(v, wt_in_wedge(v, a), wt_in_wedge(v, two ? q : b), wavelength)) return;
-  if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return;
+  if (two && wt_dot(q - p, q - p) <= WT_AT_EDGE_M * WT_AT_EDGE_M) return 0;  // edges that meet, at their corner
+  if (wt_is_faint(v, wt_in_wedge(v, a), wt_in_wedge(v, two ? q : b), wavelength)) return 0;
+  if (two && wt_is_faint(w, wt_in_wedge(w, p), wt_in_wedge(w, b), wavelength)) return 0;
   if (two && !wt_share_plane(v, w, q - p) && (!wt_in_free_space(v, p, q, 0.0) || !wt_in_free_space(w, q, p, 0.0)))
-    return;
-  if (is_weak(v, two ? w : 0, a, b, p, q, args)) return;
-  double3 *points = rows->points[rows->count], back_points[WT_MAX_DEPTH];
-  if (!solve_side(surfaces, triangles, instances, v, from->chain, depth, from->end, from->images, p, points)) return;
-  if (!solve_side(surfaces, triangles, instances, w, to->chain, back, to->end, to->images, q, back_points)) return;
+    return 0;
+  if (wt_is_weak(v, two ? w : 0, a, b, p, q, args)) return 0;
+  if (!solve_side(surfaces, triangles, instances, v, from->chain, depth, from->end, from->images, p, points)) return 0;
+  if (!solve_side(surfaces, triangles, instances, w, to->chain, back, to->end, to->images, q, back_points)) return 0;
+  on_edges[0] = p;
+  on_edges[1] = q;
+  return 1;
+}
 
-  const uint row = rows->count++, diffractions = two ? 2 : 1;
+inline uint edges_of(const wt_wedge_candidate* c) { return c->wedges[1] != WT_NONE ? 2 : 1; }
+
+#if WT_TOGETHER > 1
+// Rows that are found, before their places are known.
+typedef struct {
+  uint count, transmitter[WT_TOGETHER], receiver[WT_TOGETHER], quarters[WT_TOGETHER], depth[WT_TOGETHER];
+  uint steps[WT_TOGETHER][WT_ROOM];
+  double3 points[WT_TOGETHER][WT_ROOM];
+} wt_bent_rows;
+
+// Keeps the row of a path, whose first points are in their places already.
+inline void keep_row(const wt_wedge_candidate* c, const wt_way* from, const wt_way* to, const double3* on_edges,
+                     const double3* back_points, wt_bent_rows* rows) {
+  const uint row = rows->count++;
   rows->transmitter[row] = from->root;
-  rows->receiver[row] = c.receiver;
-  rows->quarters[row] = c.quarters;
-  rows->depth[row] = depth + diffractions + back;
+  rows->receiver[row] = c->receiver;
+  rows->quarters[row] = c->quarters;
+  rows->depth[row] = from->depth + edges_of(c) + to->depth;
   uint at = 0;
-  for (uint k = 0; k < depth; ++k, ++at) {
-    rows->steps[row][at] = WT_STEP_REFLECTION | from->chain[k];
+  for (; at < from->depth; ++at) rows->steps[row][at] = WT_STEP_REFLECTION | from->chain[at];
+  for (uint k = 0; k < edges_of(c); ++k, ++at) {
+    rows->points[row][at] = on_edges[k];
+    rows->steps[row][at] = WT_STEP_DIFFRACTION | c->wedges[k];
   }
-  for (uint k = 0; k < diffractions; ++k, ++at) {
-    rows->points[row][at] = k == 0 ? p : q;
-    rows->steps[row][at] = WT_STEP_DIFFRACTION | c.wedges[k];
-  }
-  for (uint k = back; k-- > 0; ++at) {
+  for (uint k = to->depth; k-- > 0; ++at) {
     rows->points[row][at] = back_points[k];
     rows->steps[row][at] = WT_STEP_REFLECTION | to->chain[k];
   }
 }
+#else
+// Writes the row of a path.
+inline void write_row(const wt_wedge_candidate* c, const wt_way* from, const wt_way* to, const double3* on_edges,
+                      const double3* points, const double3* back_points, size_t at, global wt_solved* row,
+                      global double* vertices, global uint* sequences) {
+  row->transmitter = from->root;
+  row->receiver = c->receiver;
+  row->depth = from->depth + edges_of(c) + to->depth;
+  row->blocked = 0;
+  row->node = WT_NONE;
+  row->quarters = c->quarters;
+  for (uint k = 0; k < from->depth; ++k, ++at) {
+    vstore3(points[k], at, vertices);
+    sequences[at] = WT_STEP_REFLECTION | from->chain[k];
+  }
+  for (uint k = 0; k < edges_of(c); ++k, ++at) {
+    vstore3(on_edges[k], at, vertices);
+    sequences[at] = WT_STEP_DIFFRACTION | c->wedges[k];
+  }
+  for (uint k = to->depth; k-- > 0; ++at) {
+    vstore3(back_points[k], at, vertices);
+    sequences[at] = WT_STEP_REFLECTION | to->chain[k];
+  }
+}
+#endif
 
 kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
                         const global wt_exact_surface* surfaces, const global double* triangles,
@@ -159,8 +154,10 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
                         global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
   const uint count = min(args.candidate_count, counters->wedge_candidates), begin = WT_TOGETHER * get_global_id(0);
   if (begin >= count) return;
-  const uint end = min(begin + WT_TOGETHER, count);
   wt_way from, to;
+  double3 on_edges[2], back_points[WT_MAX_DEPTH];
+#if WT_TOGETHER > 1
+  const uint end = min(begin + WT_TOGETHER, count);
   wt_bent_rows rows;
   rows.count = 0;
   for (uint i = begin; i < end; ++i) {
@@ -168,7 +165,9 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
     const wt_wedge_candidate c = candidates[i];
     take_way(table, surfaces, c.node, i == begin, origins, WT_NONE, &from);
     take_way(table, surfaces, c.back, i == begin, receivers, c.receiver, &to);
-    solve_candidate(surfaces, triangles, instances, wedges, c, &from, &to, &args, &rows);
+    if (solve_candidate(surfaces, triangles, instances, wedges, c, &from, &to, &args, on_edges, rows.points[rows.count],
+                        back_points))
+      keep_row(&c, &from, &to, on_edges, back_points, &rows);
   }
   const uint first = rows.count > 0 ? atomic_add(&counters->wedge_solved, rows.count) : 0;
   for (uint n = 0; n < rows.count && first + n < args.capacity; ++n) {
@@ -184,4 +183,17 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
       sequences[(size_t)slot * args.max_depth + k] = rows.steps[n][k];
     }
   }
+#else
+  prefetch_chains(table, candidates, begin, count);
+  const wt_wedge_candidate c = candidates[begin];
+  double3 points[WT_MAX_DEPTH];
+  take_way(table, surfaces, c.node, 1, origins, WT_NONE, &from);
+  take_way(table, surfaces, c.back, 1, receivers, c.receiver, &to);
+  if (!solve_candidate(surfaces, triangles, instances, wedges, c, &from, &to, &args, on_edges, points, back_points))
+    return;
+  const uint slot = atomic_inc(&counters->wedge_solved);
+  if (slot < args.capacity)
+    write_row(&c, &from, &to, on_edges, points, back_points, (size_t)slot * args.max_depth, solved + slot, vertices,
+              sequences);
+#endif
 }
