@@ -82,7 +82,8 @@ def of_run(file: str | pathlib.Path) -> bool:
 
 def names(file: str | pathlib.Path) -> list[str]:
     """The radars of a radar.h5."""
-    return _read(file, lambda stored: _names(file, stored))
+    found: list[str] = _read(file, lambda stored: _names(file, stored))
+    return found
 
 
 def _text(value: Any) -> str:

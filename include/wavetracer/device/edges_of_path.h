@@ -37,20 +37,21 @@ inline double wt_sine2(const wt_edge* edge) {  // sin^2 of the angle between edg
   return (1.0 - cosine) * (1.0 + cosine);
 }
 
-// Sets the last lengths of edges that follow each other; after_m: the way from the last of them to where their wave
-// ends.
+#if WT_TARGETS > 1
+// Sets the last lengths of the edges before a target; after_m: the way from the last of them to the target.
 inline void wt_end_edges(wt_edge* edges, wt_uint count, double after_m) {
   double path_m = 0.0;
   if (count > 0) edges[count - 1].after_m = after_m;
   for (wt_uint i = 0; i < count; ++i) path_m += edges[i].before_m;
   for (wt_uint i = 0; i < count; ++i) edges[i].path_m = path_m + after_m;
 }
+#endif
 
 // Finds the edges of the path, at most WT_EDGE_ROOM. Returns their number.
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
   wt_uint count = 0, first = 0;  // first: of those after a target
   wt_walk_leg leg = wt_first_leg(path);
-  double since_m = leg.length_m;
+  double since_m = leg.length_m, path_m = 0.0;
   for (wt_uint k = 0; k < path->depth; ++k) {
     const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
 #if WT_TARGETS > 1
@@ -79,7 +80,9 @@ inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_
     since_m += next.length_m;
     leg = next;
   }
-  wt_end_edges(edges + first, count - first, since_m);
+  if (count > first) edges[count - 1].after_m = since_m;
+  for (wt_uint i = first; i < count; ++i) path_m += edges[i].before_m;
+  for (wt_uint i = first; i < count; ++i) edges[i].path_m = path_m + since_m;
   return count;
 }
 
