@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <utility>
 
 #include "bodies/polygons.hpp"
 #include "radio/material.hpp"
+#include "scene/closed_mesh.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -52,18 +52,14 @@ std::string facet_problem(const Facet& facet, size_t materials) {
 }  // namespace
 
 bool is_closed(const Body& body) {
-  std::map<std::pair<Corner, Corner>, int> edges;
+  DirectedEdges<Corner> edges;
   double volume = 0;
   for (const Facet& facet : body.facets) {
     volume += glm::dot(area_vector(facet.corners), facet.corners[0]);
     for (size_t i = 0; i < facet.corners.size(); ++i)
       ++edges[{corner_of(facet.corners[i]), corner_of(facet.corners[(i + 1) % facet.corners.size()])}];
   }
-  for (const auto& [edge, count] : edges) {
-    const auto opposite = edges.find({edge.second, edge.first});
-    if (count != 1 || opposite == edges.end() || opposite->second != 1) return false;
-  }
-  return volume > 0;
+  return edges_pair_up(edges) && volume > 0;
 }
 
 void check_body(const Body& body) {

@@ -129,8 +129,8 @@ void write_radar_row(Cbor& out, const LiveFrame& frame, const RadarAnswer& radar
   numbers("frequency_hz", {radars.config.radio.frequency_hz});
   numbers("left_out", {static_cast<double>(row.left_out)});
   out.text("detections");
-  out.head(Major::map, detection_keys.size());
-  for (const DetectionKey& key : detection_keys) numbers(key.name, row.detections.*key.column);
+  out.head(Major::map, detection_columns.size());
+  for (const DetectionColumn& column : detection_columns) numbers(column.name, row.detections.*column.values);
   if (!radars.cubes) return;
   numbers("antennas", {static_cast<double>(axes.rx_antennas), static_cast<double>(axes.tx_antennas)});
   numbers("delay_s", axes.delay_s);

@@ -35,11 +35,11 @@ void write_row(Line& line, const LiveFrame& frame, const RadarAnswer& radars, si
   write_numbers(line, "left_out", {static_cast<double>(row.left_out)});
   line.key("detections");
   bool first = true;
-  for (const DetectionKey& key : detection_keys) {
+  for (const DetectionColumn& column : detection_columns) {
     line.raw(std::exchange(first, false) ? "{" : ",");
-    line.text(key.name);
+    line.text(column.name);
     line.raw(":");
-    const std::vector<double>& values = row.detections.*key.column;
+    const std::vector<double>& values = row.detections.*column.values;
     line.list(0, values.size(), [&](size_t i) { line.number(values[i]); });
   }
   line.raw("}");

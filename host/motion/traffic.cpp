@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/split_mix.hpp"
 #include "motion/track_motion.hpp"
 #include "motion/vehicle_types.hpp"
 #include "wavetracer/error.hpp"
@@ -27,23 +28,6 @@ constexpr double warm_up_s = 20;                         // time from standing i
 constexpr uint32_t slot_m = 16;  // length of lane in which one vehicle is placed at the beginning
 constexpr uint32_t none = 0xFFFFFFFFu;
 
-// SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014).
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed) {}
-  uint64_t next() {
-    uint64_t z = state_ += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  // Returns a whole number below `end`; the bias of the remainder is below 2^-32.
-  uint32_t below(uint32_t end) { return static_cast<uint32_t>(next() % end); }
-
- private:
-  uint64_t state_;
-};
-
 // Returns the highest speed from which a vehicle can still stop behind one of leader_m_s that brakes now, after its
 // reaction time.
 double safe_speed_m_s(double free_m, double leader_m_s) {
@@ -55,7 +39,7 @@ double safe_speed_m_s(double free_m, double leader_m_s) {
 struct Vehicle {
   uint32_t type;
   double length_m, wanted_m_s;
-  Random random;  // decides its turns
+  SplitMix random;  // decides its turns
   uint32_t lane;
   double along_m;  // position of its centre, from the beginning of the lane
   Turn turn = Turn::straight;
@@ -120,7 +104,7 @@ class Traffic {
       throw ConfigError(fmt::format("{} vehicles do not fit into the streets of {}x{} blocks, at most {} do",
                                     options.vehicles, options.grid.blocks_x, options.grid.blocks_y, slots.size()));
     }
-    Random random(options.seed);
+    SplitMix random(options.seed);
     for (uint32_t i = 0; i < options.vehicles; ++i) {
       std::swap(slots[i], slots[i + random.below(static_cast<uint32_t>(slots.size()) - i)]);
       const uint32_t percent = random.below(100), type = percent < 80 ? 0 : percent < 92 ? 1 : 2;
@@ -128,7 +112,7 @@ class Traffic {
       const double shift_m = random.below(17) / 8.0 - 1;
       const auto [lane, slot] = slots[i];
       vehicles_.push_back(
-          {type, types_[type].length_m, wanted_m_s, Random(random.next()), lane, (slot + 0.5) * slot_m + shift_m});
+          {type, types_[type].length_m, wanted_m_s, SplitMix(random.next()), lane, (slot + 0.5) * slot_m + shift_m});
       choose_turn(vehicles_.back());
       lanes_[lane].vehicles.push_back(i);
     }

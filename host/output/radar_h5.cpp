@@ -2,7 +2,6 @@
 // Each radar has a group of its name, with a row for each link in each frame. Maps have double precision, cubes single.
 #include "output/radar_h5.hpp"
 #include <fmt/format.h>
-#include <array>
 #include <span>
 #include "radar/radar_cube.hpp"
 #include "wavetracer/arrays.hpp"
@@ -131,22 +130,6 @@ void append_cubes(FrameTables& tables, const std::string& group, const RadarRows
   add("im", "sqrt(W)", "imaginary part; shape (row, rx antenna, tx antenna, Doppler shift, delay)",
       part([](const std::complex<double>& value) { return value.imag(); }), shape);
 }
-
-struct DetectionColumn {
-  const char *name, *unit, *description;
-  std::vector<double> RadarDetections::*values;
-};
-constexpr std::array detection_columns{
-    DetectionColumn{"range_m", "m", "half the length of the path", &RadarDetections::range_m},
-    DetectionColumn{"delay_s", "s", "delay of the path", &RadarDetections::delay_s},
-    DetectionColumn{"speed_m_s", "m/s", "speed at which a target comes nearer", &RadarDetections::speed_m_s},
-    DetectionColumn{"doppler_hz", "Hz", "Doppler shift", &RadarDetections::doppler_hz},
-    DetectionColumn{"power_dbm", "dBm", "power of the cell", &RadarDetections::power_dbm},
-    DetectionColumn{"threshold_dbm", "dBm", "threshold of the cell", &RadarDetections::threshold_dbm},
-    DetectionColumn{"azimuth_rad", "rad", "from ahead of the receiving antenna towards its left; NaN: not known",
-                    &RadarDetections::azimuth_rad},
-    DetectionColumn{"elevation_rad", "rad", "upwards, in the axes of the receiving antenna; NaN: not known",
-                    &RadarDetections::elevation_rad}};
 
 void append_detections(FrameTables& tables, const std::string& group, const RadarRows& rows, uint32_t frame) {
   const auto column = [&](auto get) {

@@ -5,12 +5,13 @@
 #include "passes/occlusion.hpp"
 #include <algorithm>
 #include <string>
-#include "wavetracer/device/arguments.h"
+#include "passes/legs_arguments.hpp"
 
 namespace wavetracer {
 namespace {
 
-constexpr uint32_t paths_together = 128;  // WT_SHARING x BLOCKS
+// Packets of a work-item on CPUs, and paths of a packet (WT_SHARING of the kernel).
+constexpr uint32_t packets_together = 8, paths_of_packet = 16;
 
 bool in_packets(const gpu::DeviceInfo& device, const DeviceScene& scene) {
   return device.cpu && !scene.definitions.contains("WT_INSTANCES");
@@ -20,7 +21,7 @@ gpu::Definitions build_of(const gpu::DeviceInfo& device, const DeviceScene& scen
   gpu::Definitions out = scene.definitions;
   if (const uint32_t most = path_tuning_of(device).leg_registers; most > 0)
     out["-cl-nv-maxrregcount"] = std::to_string(most);
-  if (in_packets(device, scene)) out["WT_PACKETS"] = "1";
+  if (in_packets(device, scene)) out["WT_PACKETS"] = std::to_string(packets_together) + "u";
   return out;
 }
 
@@ -34,6 +35,9 @@ Occlusion::Occlusion(gpu::Context& context, const DeviceScene& scene)
 void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                            Blockers* blockers, const StepTables& steps) {
   const auto test = [&](uint32_t first_leg, const gpu::Range& range) {
+    wt_legs_arguments args = legs_arguments(scene, solved, steps);
+    args.blocker_mask = Blockers::mask;
+    args.first_leg = first_leg;
     calls::occlusion::occlusion call{.nodes = scene.leg_nodes(),
                                      .triangles = scene.leg_leaves(),
                                      .moving = scene.moving,
@@ -49,23 +53,14 @@ void Occlusion::operator()(const DeviceScene& scene, const RadioEnds& ends, Solv
                                      .targets = steps.targets,
                                      .blockers = blockers ? &blockers->places : nullptr,
                                      .counters = counters.buffer(),
-                                     .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,
-                                                               .extent_m = scene.extent_m,
-                                                               .solved_count = solved.count,
-                                                               .solved_counter = solved.counter,
-                                                               .max_depth = solved.max_depth,
-                                                               .most = 0,
-                                                               .deepest = 0,
-                                                               .blocker_mask = Blockers::mask,
-                                                               .tile_count = steps.tile_count(),
-                                                               .first_leg = first_leg,
-                                                               .open = solved.open}};
+                                     .args = args};
     if (packets_) {
       call.packet_nodes = scene.packet_nodes2;
       call.packet_triangles = scene.triangles2;
     }
     kernel_(range, Stage::occlusion, call);
   };
+  constexpr uint32_t paths_together = packets_together * paths_of_packet;
   if (packets_) return test(0, {(size_t{solved.count} + paths_together - 1) / paths_together, 1});
   const auto legs = [&](size_t count) { return gpu::Range({solved.count, count, 1}, {work_.group, 1, 1}, 2); };
   test(0, legs(1));

@@ -3,7 +3,7 @@
 // One path per work-item.
 #include "passes/transmissions.hpp"
 #include <algorithm>
-#include "wavetracer/device/arguments.h"
+#include "passes/legs_arguments.hpp"
 
 namespace wavetracer {
 
@@ -12,6 +12,9 @@ Transmissions::Transmissions(gpu::Context& context, const DeviceScene& scene, ui
 
 void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, SolvedList& solved, Counters& counters,
                                const StepTables& steps) {
+  wt_legs_arguments args = legs_arguments(scene, solved, steps);
+  args.most = most_;
+  args.deepest = std::min(deepest_, solved.max_depth);
   kernel_(work_.range(solved.count), Stage::transmissions,
           calls::transmissions::transmissions{.nodes = scene.leg_nodes(),
                                               .triangles = scene.leg_leaves(),
@@ -28,17 +31,7 @@ void Transmissions::operator()(const DeviceScene& scene, const RadioEnds& ends, 
                                               .surface_of_tile = steps.surface_of_tile,
                                               .targets = steps.targets,
                                               .counters = counters.buffer(),
-                                              .args = wt_legs_arguments{.triangle_slots = scene.triangle_slots,
-                                                                        .extent_m = scene.extent_m,
-                                                                        .solved_count = solved.count,
-                                                                        .solved_counter = solved.counter,
-                                                                        .max_depth = solved.max_depth,
-                                                                        .most = most_,
-                                                                        .deepest = std::min(deepest_, solved.max_depth),
-                                                                        .blocker_mask = 0,
-                                                                        .tile_count = steps.tile_count(),
-                                                                        .first_leg = 0,
-                                                                        .open = solved.open}});
+                                              .args = args});
 }
 
 }  // namespace wavetracer

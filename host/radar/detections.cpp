@@ -61,8 +61,6 @@ double off_centre(double before_w, double here_w, double after_w) {
   return bend < 0 ? 0.5 * (before - after) / bend : 0;
 }
 
-double dbm(double power_w) { return 10 * std::log10(power_w) + 30; }
-
 }  // namespace
 
 std::vector<DetectedCell> detected_cells(const std::vector<double>& map_w, const RadarConfig& radar) {
@@ -97,8 +95,8 @@ RadarDetections detections_of(const std::vector<DetectedCell>& cells, const std:
     out.range_m.push_back(out.delay_s.back() * half_c);
     out.doppler_hz.push_back(axes.doppler_hz[n] + by_shift * shift_step);
     out.speed_m_s.push_back(out.doppler_hz.back() * half_c / carrier_hz);
-    out.power_dbm.push_back(dbm(here));
-    out.threshold_dbm.push_back(dbm(std::max(cell.threshold_w, 1e-300)));
+    out.power_dbm.push_back(dbm_of(here));
+    out.threshold_dbm.push_back(dbm_of(std::max(cell.threshold_w, 1e-300)));
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Detections of a map by a threshold that follows the mean of its surroundings (cell-averaging CFAR).
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "wavetracer/radar_config.hpp"
 
 namespace wavetracer {
+
+inline double dbm_of(double power_w) { return 10 * std::log10(power_w) + 30; }  // -inf for 0
 
 // A cell of a map that is the largest of its neighbours and above its threshold, W.
 struct DetectedCell {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/split_mix.hpp"
 #include "radar/beat_signal.hpp"
 
 namespace wavetracer {
@@ -14,25 +15,7 @@ namespace {
 
 constexpr double boltzmann_j_k = 1.380649e-23, room_k = 290;
 
-// The generator splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
-class NoiseStream {
- public:
-  explicit NoiseStream(uint64_t state) : state_(state) {}
-  uint64_t next() {
-    state_ += 0x9E3779B97F4A7C15u;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  // Evenly in (0, 1].
-  double uniform() { return (static_cast<double>(next() >> 11) + 1) * 0x1p-53; }
-
- private:
-  uint64_t state_;
-};
-
-uint64_t folded(uint64_t seed, uint64_t value) { return NoiseStream(seed ^ NoiseStream(value).next()).next(); }
+uint64_t folded(uint64_t seed, uint64_t value) { return SplitMix(seed ^ SplitMix(value).next()).next(); }
 
 }  // namespace
 
@@ -45,7 +28,7 @@ void add_noise(BeatSignal& signal, const RadarConfig& radar, uint32_t frame, dou
   for (const uint64_t value : {uint64_t{frame}, std::bit_cast<uint64_t>(time_s), uint64_t{link.tx}, uint64_t{link.rx}})
     seed = folded(seed, value);
   tbb::parallel_for(size_t{0}, signal.rx_antennas * signal.tx_antennas * signal.chirps, [&](size_t row) {
-    NoiseStream random(folded(seed, row));
+    SplitMix random(folded(seed, row));
     for (size_t i = row * signal.samples; i < (row + 1) * signal.samples; ++i) {
       // A complex number of this mean power (Box and Muller, 1958).
       const double size = std::sqrt(-power_w * std::log(random.uniform()));

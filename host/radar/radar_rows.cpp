@@ -4,8 +4,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
-
 #include "radar/arrival_angles.hpp"
 #include "radar/beat_signal.hpp"
 #include "radar/detections.hpp"
@@ -13,8 +11,6 @@
 
 namespace wavetracer {
 namespace {
-
-double dbm_of(double power_w) { return 10 * std::log10(power_w) + 30; }  // -inf for 0
 
 std::vector<double> spectrum_of(const std::vector<double>& map_w, size_t delays) {
   std::vector<double> out;

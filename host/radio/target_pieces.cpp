@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <map>
 #include <utility>
 
+#include "scene/closed_mesh.hpp"
 #include "wavetracer/error.hpp"
 
 namespace wavetracer {
@@ -20,18 +20,14 @@ using Corners = std::array<glm::dvec3, 3>;
 
 // True if each edge has one triangle on either side, and these turn the same way, and the volume is positive.
 bool bounds_volume(const Scene& model) {
-  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  DirectedEdges<uint32_t> edges;
   double volume = 0;
   for (const auto& [a, b, c] : model.triangles) {
     const glm::dvec3 p(model.vertices[a]), q(model.vertices[b]), r(model.vertices[c]);
     volume += glm::dot(p, glm::cross(q, r));
     for (const auto& edge : {std::pair{a, b}, {b, c}, {c, a}}) ++edges[edge];
   }
-  for (const auto& [edge, count] : edges) {
-    const auto opposite = edges.find({edge.second, edge.first});
-    if (count != 1 || opposite == edges.end()) return false;
-  }
-  return volume > 0;
+  return edges_pair_up(edges) && volume > 0;
 }
 
 // Halves triangles until no edge is longer than this.

@@ -62,7 +62,6 @@ TargetChains::TargetChains(gpu::Context& context, uint32_t interactions, const J
                            double longest_wavelength_m)
     : context_(context),
       limits_(limits),
-      most_depth_(limits.max_depth),
       local_(tuning_of(context.info()).exact.group),
       counters_(context),
       candidates_(context, interactions),
@@ -113,7 +112,7 @@ void TargetChains::sort(const DeviceScene& scene, SolvedList& ways, const RadioE
                                     .keys = list_.keys,
                                     .count = ways.count,
                                     .max_depth = ways.max_depth,
-                                    .most_depth = most_depth_,
+                                    .most_depth = limits_.max_depth,
                                     .hidden = list_.hidden});
   sort_(list_.keys, list_.order, ways.count, list_.key_bits());
   place_({ways.count, local_}, Stage::targets,

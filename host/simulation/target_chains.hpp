@@ -67,7 +67,7 @@ class TargetChains {
 
   gpu::Context& context_;
   JoinedPoints limits_;
-  uint32_t most_depth_, local_;
+  uint32_t local_;
   RadioEnds ends_;  // the ends that launch, and the points as receivers
   gpu::Buffer<uint32_t> nodes_;
   Counters counters_;

@@ -25,14 +25,17 @@ struct NamedEnd {
   uint32_t end, vehicle;  // no_vehicle: it is fixed
 };
 
+// Returns no_vehicle for an end that is fixed.
+uint32_t vehicle_of(const EndsOfRole& role, uint32_t end) {
+  return end < role.standing.size() ? no_vehicle : role.mounted[end - role.standing.size()].track;
+}
+
 std::vector<NamedEnd> named_ends(const std::string& pattern, const EndsOfRole& role, const std::string& key,
                                  const char* what) {
   const std::vector<RadioEnd>& ends = role.ends;
-  const size_t standing = role.standing.size();
   std::vector<NamedEnd> out;
   for (uint32_t i = 0; i < ends.size(); ++i)
-    if (matches(pattern, ends[i].name))
-      out.push_back({i, i < standing ? no_vehicle : role.mounted[i - standing].track});
+    if (matches(pattern, ends[i].name)) out.push_back({i, vehicle_of(role, i)});
   if (!out.empty()) return out;
   std::vector<std::string> names;
   for (const RadioEnd& end : ends) names.push_back(end.name);
@@ -71,10 +74,6 @@ std::vector<Link> named_pairs(const RadarConfig& radar, const std::vector<NamedE
 
 bool names_one_of(const std::vector<std::string>& patterns, const std::string& name) {
   return std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches(pattern, name); });
-}
-
-uint32_t vehicle_of(const EndsOfRole& role, uint32_t end) {
-  return end < role.standing.size() ? no_vehicle : role.mounted[end - role.standing.size()].track;
 }
 
 // Returns why [links] leaves out a pair, and what to do; empty if it does not.

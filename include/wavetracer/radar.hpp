@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The radars of a configuration ([[radar]]) in a frame: range-Doppler cubes, maps and detections.
 #pragma once
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,23 @@ struct RadarDetections {
   std::vector<double> azimuth_rad, elevation_rad;  // from ahead towards the left, and upwards
   size_t size() const { return delay_s.size(); }
 };
+
+// The columns of detections, in the order in which files and answers have them.
+struct DetectionColumn {
+  const char *name, *unit, *description;
+  std::vector<double> RadarDetections::*values;
+};
+inline constexpr std::array detection_columns{
+    DetectionColumn{"range_m", "m", "half the length of the path", &RadarDetections::range_m},
+    DetectionColumn{"delay_s", "s", "delay of the path", &RadarDetections::delay_s},
+    DetectionColumn{"speed_m_s", "m/s", "speed at which a target comes nearer", &RadarDetections::speed_m_s},
+    DetectionColumn{"doppler_hz", "Hz", "Doppler shift", &RadarDetections::doppler_hz},
+    DetectionColumn{"power_dbm", "dBm", "power of the cell", &RadarDetections::power_dbm},
+    DetectionColumn{"threshold_dbm", "dBm", "threshold of the cell", &RadarDetections::threshold_dbm},
+    DetectionColumn{"azimuth_rad", "rad", "from ahead of the receiving antenna towards its left; NaN: not known",
+                    &RadarDetections::azimuth_rad},
+    DetectionColumn{"elevation_rad", "rad", "upwards, in the axes of the receiving antenna; NaN: not known",
+                    &RadarDetections::elevation_rad}};
 
 // One link of a radar in a frame.
 struct RadarRow {

@@ -39,9 +39,8 @@ inline void hide(global wt_solved* solved, const global uint* sequences, uint i,
 }
 
 #ifdef WT_PACKETS
-// Blocks of 16 paths that a work-item takes, one after the other; what hid a leg of one hides those of the next. Longer
-// paths share the last entry.
-#define BLOCKS 8u
+// A work-item takes WT_PACKETS blocks of 16 paths, one after the other; what hid a leg of one block is tried first in
+// the next. Legs from this number on share the last entry.
 #define PACKET_LEGS 8u
 
 // All legs of the 16 paths from `first` on. Where blockers remember what hid paths, each leg is tested alone, since the
@@ -106,8 +105,8 @@ kernel void occlusion(const global WT_NODE* nodes, const global WT_LEAF* triangl
 #ifdef WT_PACKETS
   wt_last_hider last[PACKET_LEGS];
   for (uint leg = 0; leg < PACKET_LEGS; ++leg) last[leg].place = WT_NONE;
-  for (uint block = 0; block < BLOCKS; ++block) {
-    const uint first = WT_SHARING * (BLOCKS * get_global_id(0) + block);
+  for (uint block = 0; block < WT_PACKETS; ++block) {
+    const uint first = WT_SHARING * (WT_PACKETS * get_global_id(0) + block);
     if (first >= count) return;
     test_paths(nodes, triangles, moving, transmitters, receivers, surfaces, corners, solved, vertices, sequences,
                &tables, blockers, packet_nodes, packet_triangles, first, count, last, args);

@@ -34,6 +34,28 @@ max_depth = 4
 """
 
 
+
+
+def drive(lorry):
+    """A drive of one frame at 0 s: ego looks along +y, other meets it, and a lorry follows its waypoints."""
+    return f"""
+[[track]]
+id = "ego"
+waypoints = [[0.0, 3.0, -60.0, 0.0], [1.0, 3.0, -50.0, 0.0]]
+[[track]]
+id = "other"
+waypoints = [[0.0, -3.0, -30.0, 0.0], [1.0, -3.0, -45.0, 0.0]]
+[[track]]
+id = "lorry"
+type = "truck"
+waypoints = {lorry}
+[time]
+start_s = 0.0
+end_s = 0.0
+step_s = 0.1
+"""
+
+
 class Server:
     """A running server; `with` ends it."""
 

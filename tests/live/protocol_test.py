@@ -11,25 +11,10 @@ import subprocess
 import sys
 import tempfile
 
-from live_server import CONFIG, POSES, PROGRAM, SOURCE, Server, expect, frame, vehicle
+from live_server import CONFIG, POSES, PROGRAM, SOURCE, Server, drive, expect, frame, vehicle
 
-# A drive of one frame: ego looks along +y, other meets it, a truck turns the corner.
-TRACKS = """
-[[track]]
-id = "ego"
-waypoints = [[0.0, 3.0, -60.0, 0.0], [1.0, 3.0, -50.0, 0.0]]
-[[track]]
-id = "other"
-waypoints = [[0.0, -3.0, -30.0, 0.0], [1.0, -3.0, -45.0, 0.0]]
-[[track]]
-id = "lorry"
-type = "truck"
-waypoints = [[0.0, -20.0, 3.0, 0.0], [1.0, -28.0, 3.0, 0.0]]
-[time]
-start_s = 0.0
-end_s = 0.0
-step_s = 0.1
-"""
+# The truck turns the corner.
+TRACKS = drive("[[0.0, -20.0, 3.0, 0.0], [1.0, -28.0, 3.0, 0.0]]")
 
 
 def same_as_run():

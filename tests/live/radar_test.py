@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from live_server import PROGRAM, SOURCE, Server, expect, frame, vehicle
+from live_server import PROGRAM, SOURCE, Server, drive, expect, frame, vehicle
 
 sys.path.insert(0, os.path.join(SOURCE, "python"))
 try:
@@ -66,22 +66,7 @@ count = 3
 type = "truck"
 count = 1
 """
-TRACKS = """
-[[track]]
-id = "ego"
-waypoints = [[0.0, 3.0, -60.0, 0.0], [1.0, 3.0, -50.0, 0.0]]
-[[track]]
-id = "other"
-waypoints = [[0.0, -3.0, -30.0, 0.0], [1.0, -3.0, -45.0, 0.0]]
-[[track]]
-id = "lorry"
-type = "truck"
-waypoints = [[0.0, 3.0, -40.0, 0.0], [1.0, 3.0, -32.0, 0.0]]
-[time]
-start_s = 0.0
-end_s = 0.0
-step_s = 0.1
-"""
+TRACKS = drive("[[0.0, 3.0, -40.0, 0.0], [1.0, 3.0, -32.0, 0.0]]")
 POSES = [vehicle("ego", 3, -60, 90, velocity_m_s=[0, 10, 0], angular_velocity_rad_s=[0, 0, 0]),
          vehicle("other", -3, -30, -90, velocity_m_s=[0, -15, 0], angular_velocity_rad_s=[0, 0, 0]),
          vehicle("lorry", 3, -40, 90, "truck", velocity_m_s=[0, 8, 0], angular_velocity_rad_s=[0, 0, 0])]

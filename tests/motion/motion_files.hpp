@@ -13,6 +13,7 @@
 
 #include "check_contains.hpp"
 #include "motion/read.hpp"
+#include "motion/track_motion.hpp"
 #include "temporary_folder.hpp"
 #include "wavetracer/error.hpp"
 
@@ -49,6 +50,11 @@ inline std::string fcd(const std::string& timesteps) {
 // One line of an FCD file.
 inline std::string timestep(const std::string& time, const std::string& elements) {
   return "<timestep time=\"" + time + "\">" + elements + "</timestep>\n";
+}
+
+// A sample that moves along its heading.
+inline Sample sample_at(double time_s, glm::dvec3 position_m, double yaw_rad, double pitch_rad, double speed_m_s) {
+  return {time_s, position_m, yaw_rad, pitch_rad, speed_m_s, speed_m_s * heading(yaw_rad, pitch_rad)};
 }
 
 inline void check_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {

@@ -15,10 +15,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-Sample sample(double time_s, glm::dvec3 position_m, double yaw_rad, double pitch_rad, double speed_m_s) {
-  return {time_s, position_m, yaw_rad, pitch_rad, speed_m_s, speed_m_s * heading(yaw_rad, pitch_rad)};
-}
-
 // A drive of uneven steps with every kind of change, yaw through +-pi among them.
 Track wild_track() {
   std::mt19937_64 random(5);
@@ -28,7 +24,7 @@ Track wild_track() {
   glm::dvec3 p(400, -300, 10);
   for (int k = 0; k < 60; ++k) {
     const double speed = 20 * unit(random), pitch = 0.4 * (unit(random) - 0.5);
-    track.samples.push_back(sample(time_s, p, std::remainder(yaw, 2 * pi), pitch, speed));
+    track.samples.push_back(sample_at(time_s, p, std::remainder(yaw, 2 * pi), pitch, speed));
     const double step_s = 0.2 + unit(random);
     time_s += step_s;
     p += step_s * (speed + 2 * unit(random)) * heading(yaw, pitch);
@@ -42,8 +38,8 @@ Track circle(double radius_m, double speed_m_s, double step_s, int count) {
   Track track{"a", 0, {}, {0}};
   for (int k = 0; k < count; ++k) {
     const double angle = speed_m_s * step_s * k / radius_m;
-    track.samples.push_back(sample(step_s * k, radius_m * glm::dvec3(std::cos(angle), std::sin(angle), 0),
-                                   std::remainder(angle + pi / 2, 2 * pi), 0, speed_m_s));
+    track.samples.push_back(sample_at(step_s * k, radius_m * glm::dvec3(std::cos(angle), std::sin(angle), 0),
+                                      std::remainder(angle + pi / 2, 2 * pi), 0, speed_m_s));
   }
   return track;
 }
@@ -122,7 +118,7 @@ TEST_CASE("yaw takes the shorter way and never overshoots") {
   const double degree = pi / 180;
   for (int k = 0; k < 6; ++k) {
     const double yaw_deg[] = {170, 170, -170, -170, 100, 100};
-    track.samples.push_back(sample(k, {k, 0, 0}, yaw_deg[k] * degree, 0, 0));
+    track.samples.push_back(sample_at(k, {k, 0, 0}, yaw_deg[k] * degree, 0, 0));
   }
   const auto yaw_deg = [&](double time_s) {  // from 0 to 360
     const glm::dvec3 ahead = pose_at(track, time_s)->orientation * glm::dvec3(1, 0, 0);
@@ -139,14 +135,14 @@ TEST_CASE("yaw takes the shorter way and never overshoots") {
 
 TEST_CASE("the rate of yaw between uneven steps, by hand") {
   // 0.1 rad/s for 1 s, then 0.4 rad/s for 2 s: w = (1 + 2 * 2) / (3 * 3), and 0.1 * 0.4 / (w * 0.4 + (1 - w) * 0.1).
-  Track track{"a", 0, {sample(0, {}, 0, 0, 0), sample(1, {}, 0.1, 0, 0), sample(3, {}, 0.9, 0, 0)}, {0}};
+  Track track{"a", 0, {sample_at(0, {}, 0, 0, 0), sample_at(1, {}, 0.1, 0, 0), sample_at(3, {}, 0.9, 0, 0)}, {0}};
   check_near(pose_at(track, 0)->angular_velocity_rad_s, {0, 0, 0.1});
   check_near(pose_at(track, 1)->angular_velocity_rad_s, {0, 0, 0.15});
   check_near(pose_at(track, 3)->angular_velocity_rad_s, {0, 0, 0.4});
 }
 
 TEST_CASE("pitch turns about the vehicle's left: uphill is nose up") {
-  Track track{"a", 0, {sample(0, {0, 0, 0}, pi / 2, 0, 1), sample(1, {0, 1, 0}, pi / 2, 0.2, 1)}, {0}};
+  Track track{"a", 0, {sample_at(0, {0, 0, 0}, pi / 2, 0, 1), sample_at(1, {0, 1, 0}, pi / 2, 0.2, 1)}, {0}};
   const auto pose = pose_at(track, 0.5);
   check_near(pose->orientation * glm::dvec3(1, 0, 0), {0, std::cos(0.1), std::sin(0.1)});
   check_near(pose->angular_velocity_rad_s, {0.2, 0, 0});  // left of north is -x: nose up is a turn about +x

@@ -14,10 +14,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-Sample sample_at(double time_s, glm::dvec3 position_m, double yaw_rad, double pitch_rad, double speed_m_s) {
-  return {time_s, position_m, yaw_rad, pitch_rad, speed_m_s, speed_m_s * heading(yaw_rad, pitch_rad)};
-}
-
 Track bends() {
   Track track{"a", 0, {}, {0}};
   double yaw = 0.3, time_s = 2;

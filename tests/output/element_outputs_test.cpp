@@ -22,10 +22,8 @@ using Shape = std::vector<hsize_t>;
 
 TEST_CASE("responses, beams and fields of more carriers are written as they are, and read back") {
   const test::TemporaryFolder folder;
-  SampleRun sample;
-  ask_for_elements(sample.config);
-  std::vector<FrameResult> frames = sample.frames();
-  add_elements(sample.config, frames);
+  SampleElements sample;
+  const std::vector<FrameResult>& frames = sample.filled;
   const auto written = write_outputs(folder.path(), sample.run(), frames);
   REQUIRE(written.size() == 7);
   CHECK(written[1].filename() == "responses.h5");
@@ -79,10 +77,8 @@ TEST_CASE("responses, beams and fields of more carriers are written as they are,
 
 TEST_CASE("radars are written as they are: axes, rows of links, maps, cubes where they are wanted, detections") {
   const test::TemporaryFolder folder;
-  SampleRun sample;
-  ask_for_elements(sample.config);
-  std::vector<FrameResult> frames = sample.frames();
-  add_elements(sample.config, frames);
+  SampleElements sample;
+  const std::vector<FrameResult>& frames = sample.filled;
   const auto written = write_outputs(folder.path(), sample.run(), frames);
   const Reader radars(written[4]);
   CHECK(radars.attribute("/", "format") == "wavetracer radar");
@@ -126,10 +122,8 @@ TEST_CASE("radars are written as they are: axes, rows of links, maps, cubes wher
 
 TEST_CASE("links.csv has the best pair of beams of each link") {
   const test::TemporaryFolder folder;
-  SampleRun sample;
-  ask_for_elements(sample.config);
-  std::vector<FrameResult> frames = sample.frames();
-  add_elements(sample.config, frames);
+  SampleElements sample;
+  const std::vector<FrameResult>& frames = sample.filled;
   write_outputs(folder.path(), sample.run(), frames);
   std::istringstream csv(slurp(folder.path() / "links.csv"));
   std::vector<std::string> lines;
@@ -143,10 +137,8 @@ TEST_CASE("links.csv has the best pair of beams of each link") {
 
 TEST_CASE("limits of paths leave out the rows of all carriers, and no response") {
   const test::TemporaryFolder folder;
-  SampleRun sample;
-  ask_for_elements(sample.config);
-  std::vector<FrameResult> frames = sample.frames();
-  add_elements(sample.config, frames);
+  SampleElements sample;
+  const std::vector<FrameResult>& frames = sample.filled;
   sample.config.output.max_paths_per_link = 1;
   size_t rows = 0;
   for (const FrameResult& frame : frames)

@@ -73,4 +73,14 @@ inline void add_elements(const Config& config, std::vector<FrameResult>& frames)
   }
 }
 
+// A run that asks for them, and its frames with them.
+struct SampleElements : SampleRun {
+  std::vector<FrameResult> filled;
+  SampleElements() {
+    ask_for_elements(config);
+    filled = frames();
+    add_elements(config, filled);
+  }
+};
+
 }  // namespace wavetracer

@@ -10,17 +10,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-// A square window in the plane x = 1 that is a root, seen from the origin.
-wt_aperture window(double half) {
-  wt_aperture out{};
-  const double corners[12] = {1, -half, -half, 1, half, -half, 1, half, half, 1, -half, half};
-  std::ranges::copy(corners, out.corners);
-  out.count = 4;
-  out.node = WT_ROOT;
-  out.surface = out.own = WT_NONE;
-  return out;
-}
-
 struct Gathered {
   std::vector<std::vector<wt_beam_candidate>> of_aperture;
   std::vector<uint32_t> surface_of;  // for each facet
@@ -68,7 +57,8 @@ TEST_CASE("beam_gather: what rays meet first is among the candidates, and what a
   std::erase_if(triangles, [](const Corners& c) {
     return std::ranges::any_of(c, [](const glm::dvec3& p) { return glm::length(p) < 1.5; });
   });
-  const std::vector<wt_aperture> apertures{window(1), window(0.3), window(0.01)};
+  const std::vector<wt_aperture> apertures{window(-1, 1, -1, 1), window(-0.3, 0.3, -0.3, 0.3),
+                                           window(-0.01, 0.01, -0.01, 0.01)};
   const Gathered open = gather(triangles, apertures);
   Random random(5);
   for (uint32_t i = 0; i < as_many(3000, 40); ++i) {
@@ -93,11 +83,11 @@ TEST_CASE("beam_gather: what rays meet first is among the candidates, and what a
 
 TEST_CASE("beam_gather: many candidates grow the list, and an aperture that sees nothing has none") {
   const std::vector<Corners> triangles = loose_triangles(as_many(3000, 50), 0.4, 3);
-  wt_aperture away = window(0.5);
+  wt_aperture away = window(-0.5, 0.5, -0.5, 0.5);
   for (double& value : away.corners) value *= 100;
   for (int i = 0; i < 3; ++i) away.image[i] = i == 0 ? 50 : 0;  // it looks on from x = 50, where there is nothing
   for (int corner = 0; corner < 4; ++corner) away.corners[3 * corner] = 51;
-  std::vector<wt_aperture> apertures(as_many(600, 3), window(1));
+  std::vector<wt_aperture> apertures(as_many(600, 3), window(-1, 1, -1, 1));
   apertures.push_back(away);
   const Gathered all = gather(triangles, apertures);
   CHECK(all.of_aperture.back().empty());

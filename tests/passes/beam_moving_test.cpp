@@ -10,17 +10,6 @@ using namespace wavetracer::test;
 
 namespace {
 
-// A window in the plane x = 1, which has these bounds and is a root, seen from the origin.
-wt_aperture window(double low_y, double high_y, double low_z, double high_z) {
-  wt_aperture out{};
-  const double corners[12] = {1, low_y, low_z, 1, high_y, low_z, 1, high_y, high_z, 1, low_y, high_z};
-  std::ranges::copy(corners, out.corners);
-  out.count = 4;
-  out.node = WT_ROOT;
-  out.surface = out.own = WT_NONE;
-  return out;
-}
-
 // Is a point in sight of the origin through a window? A wall in the plane x = 3 hides what is behind its rectangle.
 struct Sight {
   double low_y, high_y, low_z, high_z;        // the window

@@ -17,6 +17,17 @@ namespace wavetracer::test {
 
 using Surfaces = std::vector<uint32_t>;
 
+// A window in the plane x = 1, which has these bounds and is a root, seen from the origin.
+inline wt_aperture window(double low_y, double high_y, double low_z, double high_z) {
+  wt_aperture out{};
+  const double corners[12] = {1, low_y, low_z, 1, high_y, low_z, 1, high_y, high_z, 1, low_y, high_z};
+  std::ranges::copy(corners, out.corners);
+  out.count = 4;
+  out.node = WT_ROOT;
+  out.surface = out.own = WT_NONE;
+  return out;
+}
+
 // The surfaces that a ray meets one after the other, at most max_depth of them.
 inline Surfaces met(const std::vector<Corners>& triangles, glm::dvec3 from, glm::dvec3 direction, size_t max_depth) {
   Surfaces out;

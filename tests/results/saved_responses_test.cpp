@@ -15,10 +15,8 @@ using test::remove_member;
 
 TEST_CASE("responses are read back frame by frame, and what is damaged is refused with words") {
   const test::TemporaryFolder folder;
-  SampleRun sample;
-  ask_for_elements(sample.config);
-  std::vector<FrameResult> frames = sample.frames();
-  add_elements(sample.config, frames);
+  SampleElements sample;
+  const std::vector<FrameResult>& frames = sample.filled;
   const auto written = [&](const char* name) {
     return write_outputs(folder.path() / name, sample.run(), frames)[0].parent_path() / "responses.h5";
   };

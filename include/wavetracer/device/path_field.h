@@ -65,21 +65,6 @@ inline wt_walk_leg wt_pass(const wt_field_world* world, const wt_path* path, wt_
   return leg;
 }
 
-#if WT_SCATTERS > 1 || WT_TARGETS > 1
-// The length of the path as far as the tile, cell or target that it scatters from, or else length_m, that of all of it.
-inline double wt_first_section(const wt_path* path, double length_m) {
-  double since_m = 0.0;
-  wt_double3 from = path->from;
-  for (wt_uint k = 0; k < path->depth; ++k) {
-    const wt_double3 to = wt_vertex(path, k);
-    since_m += wt_length3(to - from);
-    from = to;
-    if (wt_kind(path, k) == WT_STEP_SCATTERING || wt_kind(path, k) == WT_STEP_TARGET) return since_m;
-  }
-  return length_m;
-}
-#endif
-
 // Goes from vertex k over reflections, transmissions and scattering to the next edge or the end, and returns it.
 inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path, double length_m, wt_uint k,
                                 wt_wave* wave) {
@@ -158,23 +143,18 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 #endif
 
 #if WT_DIFFRACTS && WT_TARGETS > 1
-inline int wt_meets_target(const wt_path* path) {
-  for (wt_uint k = 0; k < path->depth; ++k)
-    if (wt_kind(path, k) == WT_STEP_TARGET) return 1;
-  return 0;
-}
-
-// Is there an edge before the target?
-inline int wt_bends_before_target(const wt_path* path) {
-  for (wt_uint k = 0; k < path->depth && wt_kind(path, k) != WT_STEP_TARGET; ++k)
-    if (wt_kind(path, k) == WT_STEP_DIFFRACTION) return 1;
-  return 0;
+// The vertex at the path's target, or its depth if it has none.
+inline wt_uint wt_target_vertex(const wt_path* path) {
+  wt_uint k = 0;
+  while (k < path->depth && wt_kind(path, k) != WT_STEP_TARGET) ++k;
+  return k;
 }
 
 // Goes over all vertices of a path over a target, with an edge before it or after it or both: a wave of an edge has its
-// own spreading, and the wave on the other side 1 / its length.
+// own spreading, and the wave on the other side 1 / its length. target: the vertex at the target.
 inline void wt_pass_beside_target(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
-                                  const wt_path* path, double length_m, wt_edge* edges, wt_uint count, wt_wave* wave) {
+                                  const wt_path* path, double length_m, wt_uint target, wt_edge* edges, wt_uint count,
+                                  wt_wave* wave) {
   double spread = 1.0;
   wt_uint k = 0;
   for (wt_uint i = 0; i < count; ++i) {
@@ -186,8 +166,8 @@ inline void wt_pass_beside_target(const wt_field_world* world, const wt_ordered_
     if (turns) wt_diffract_at(world, ordered, row, path, edges + i, &ends, &wave->transfer);
   }
   wt_pass_surfaces(world, path, length_m, k, wave);
-  const double first_m = wt_first_section(path, length_m);
-  const int before = wt_bends_before_target(path), after = count > (wt_uint)before;
+  const double first_m = wt_section_length(path, 0, path->from);
+  const int before = edges[0].at<target, after = edges[count - 1].at> target;
   wave->spread = spread / ((before ? 1.0 : first_m) * (after ? 1.0 : length_m - first_m));
 }
 #endif
@@ -199,8 +179,9 @@ inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* order
   wt_edge edges[WT_EDGE_ROOM];
   const wt_uint count = wt_edges_of(world, path, edges);
 #if WT_TARGETS > 1
-  if (count > 0 && wt_meets_target(path)) {
-    wt_pass_beside_target(world, ordered, row, path, length_m, edges, count, wave);
+  const wt_uint target = wt_target_vertex(path);
+  if (count > 0 && target < path->depth) {
+    wt_pass_beside_target(world, ordered, row, path, length_m, target, edges, count, wave);
     return wt_is_near_edge(world, edges, count);
   }
 #endif
@@ -243,7 +224,7 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   wave.spread = 1.0 / length_m;
   wave.since_m = 0.0;
 #if WT_SCATTERS > 1 || WT_TARGETS > 1
-  wave.section_m = wt_first_section(&path, length_m);
+  wave.section_m = wt_section_length(&path, 0, path.from);
 #else
   wave.section_m = length_m;
 #endif

@@ -113,25 +113,13 @@ inline void wt_waves_past_edge(const WT_GLOBAL wt_wedge* wedge, wt_uint step, co
   *waves = next;
 }
 
-// The length of the path from p, the stop before vertex k, to the next target, or to the receiver.
-inline double wt_length_to_target(const wt_path* path, wt_uint k, wt_double3 p) {
-  double length_m = 0.0;
-  for (; k < path->depth; ++k) {
-    const wt_double3 next = wt_vertex(path, k);
-    length_m += wt_length3(next - p);
-    p = next;
-    if ((wt_step(path, k) & WT_STEP_KIND) == WT_STEP_TARGET) return length_m;
-  }
-  return length_m + wt_length3(path->to - p);
-}
-
 // Finds the waves that a path belongs to. wedges: in the coordinates of the path. planes_of: for each surface, the
 // surface that stands for its plane. row: a number that no other path has. Returns whether the path is diffracted.
 inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges, const WT_GLOBAL wt_uint* planes_of,
                            double wavelength_m, wt_uint row, wt_waves* waves) {
   wt_uint bends = 0;
   for (wt_uint k = 0; k < path->depth; ++k) bends |= (wt_step(path, k) & WT_STEP_KIND) == WT_STEP_DIFFRACTION;
-  double length_m = bends ? wt_length_to_target(path, 0, path->from) : 0.0, since_m = 0.0;
+  double length_m = bends ? wt_section_length(path, 0, path->from) : 0.0, since_m = 0.0;
   wt_double3 from = path->from;
   waves->count = 0;
   wt_add_wave(waves, 0, 1.0);
@@ -142,7 +130,7 @@ inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges
     if (bends) since_m += wt_length3(leg);
     if (kind == WT_STEP_TARGET) {
       for (wt_uint i = 0; i < waves->count; ++i) waves->keys[i] = wt_mixed(waves->keys[i], step);
-      if (bends) length_m = wt_length_to_target(path, k + 1, at);
+      if (bends) length_m = wt_section_length(path, k + 1, at);
       since_m = 0.0;
     }
     if (kind == WT_STEP_SCATTERING) {

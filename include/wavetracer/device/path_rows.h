@@ -79,6 +79,20 @@ inline double wt_path_length(const wt_path* path) {
   return length + wt_length3(path->to - from);
 }
 
+// The length of the path from p, the stop before vertex k, to the next vertex that scatters (a tile, a cell or a point
+// of a target), or to the receiver.
+inline double wt_section_length(const wt_path* path, wt_uint k, wt_double3 p) {
+  double length = 0.0;
+  for (; k < path->depth; ++k) {
+    const wt_double3 to = wt_vertex(path, k);
+    const wt_uint kind = wt_step(path, k) & WT_STEP_KIND;
+    length += wt_length3(to - p);
+    if (kind == WT_STEP_SCATTERING || kind == WT_STEP_TARGET) return length;
+    p = to;
+  }
+  return length + wt_length3(path->to - p);
+}
+
 inline int wt_three_way(double a, double b) { return a < b ? -1 : a > b ? 1 : 0; }
 inline int wt_three_way_of_numbers(wt_uint a, wt_uint b) { return a < b ? -1 : a > b ? 1 : 0; }
 
