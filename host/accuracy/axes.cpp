@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include "config/contradictions.hpp"
+#include "config/edge_rays.hpp"
 
 namespace wavetracer::accuracy {
 namespace {
@@ -67,12 +68,18 @@ Setting of_edge_rays(uint64_t rays) { return {"edge_rays", grouped(rays), {fmt::
 
 // In place of the next one, where receivers launch no rays.
 std::optional<Axis> edge_axis(const Config& own) {
-  if (!own.trace.diffraction || own.trace.edge_rays == 0) return std::nullopt;
+  if (!own.trace.from_edges()) return std::nullopt;
   std::set<uint64_t> steps = {100, 300, 1000, 3000};
-  steps.insert(own.trace.edge_rays);
+  steps.insert(*own.trace.edge_rays);
   Axis axis{of_edge_rays(std::min<uint64_t>(3 * *steps.rbegin(), most_edge_rays)), {}};
   for (const uint64_t rays : steps) axis.settings.push_back(of_edge_rays(rays));
   return axis;
+}
+
+// May rays start at edges, in the frames of these settings or of others that are compared with them?
+bool may_start_at_edges(const Config& own) {
+  if (own.trace.edge_rays) return *own.trace.edge_rays > 0;
+  return !own.receiver_grids.empty() || own.receivers.size() > config::many_listeners;
 }
 
 // Does a setting need rays of receivers in place of those of edges? See check_edge_rays in host/config.
@@ -94,7 +101,7 @@ void without_edge_rays(Axis& axis, bool all) {
 // Begins at a few hundred, which maps of many receivers can afford. There is no axis with trace.rays = "auto", which
 // does not use this number.
 std::optional<Axis> listener_axis(const Config& own) {
-  if (!own.trace.diffraction || !own.trace.rays || own.trace.edge_rays > 0) return std::nullopt;
+  if (!own.trace.diffraction || !own.trace.rays || own.trace.from_edges()) return std::nullopt;
   std::set<uint64_t> steps;
   for (const uint64_t rays : {300, 1000, 3000, 10000, 30000})
     if (rays <= *own.trace.rays) steps.insert(rays);
@@ -143,7 +150,7 @@ std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(
         {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});
-  for (size_t i = 0; own.trace.edge_rays > 0 && i < all.size(); ++i) without_edge_rays(all[i], i >= mechanisms_from);
+  for (size_t i = 0; may_start_at_edges(own) && i < all.size(); ++i) without_edge_rays(all[i], i >= mechanisms_from);
   return all;
 }
 

@@ -95,6 +95,7 @@ std::optional<Measured> measure(const Config& config, const Setting& setting, co
   simulation.observe(how.host.watch);
   Measured out;
   out.device = simulation.device();
+  out.edge_rays = simulation.edge_rays();
   out.world_frames = simulation.frame_count();
   if (!setting.needs.empty()) {
     const Feature& feature = simulation.features().at(setting.needs);

@@ -16,6 +16,7 @@ namespace wavetracer::accuracy {
 
 struct Measured {
   DeviceSummary device;
+  uint64_t edge_rays = 0;  // see Simulation::edge_rays
   std::vector<Paths> frames;
   uint64_t paths = 0, links = 0;  // paths of these frames; links that were asked for
   uint64_t world_frames = 1;      // number of frames of the world, which these are a part of

@@ -44,7 +44,9 @@ class Measurement {
     out_.scene = own_.scene.file.empty() ? "city " + own_.scene.generate : own_.scene.file;
     out_.repeats = request_.repeats;
     if (!measure_own()) return out_;
-    const std::vector<Axis> all = axes(own_, out_.drive, request_.rays, request_.certify);
+    Config decided = own_;
+    if (measured_own_.edge_rays > 0) decided.trace.edge_rays = measured_own_.edge_rays;
+    const std::vector<Axis> all = axes(decided, out_.drive, request_.rays, request_.certify);
     for (const Axis& axis : all) out_.planned += axis.settings.size() + 1;
     for (const Axis& axis : all)
       if (!measure_axis(axis)) return out_;

@@ -122,9 +122,9 @@ std::string missed_unknown_line(const Run& run, const Totals& totals) {
   return fmt::format("{:<11}unknown{}: {}\n", of.frames > 0 ? "" : "missed", frames, missed_unknown_reason(run.config));
 }
 
-// Are there receivers that do not send? With diffraction, and without trace.edge_rays, they launch rays of their own.
+// Are there receivers that do not send? With diffraction, and without rays from edges, they launch rays of their own.
 bool receivers_launch(const Config& config) {
-  if (!config.trace.diffraction || config.trace.edge_rays > 0) return false;
+  if (!config.trace.diffraction) return false;
   std::unordered_set<std::string_view> senders;
   for (const RadioEnd& end : config.transmitters) senders.insert(end.name);
   return std::ranges::any_of(config.receivers, [&](const RadioEnd& end) { return !senders.contains(end.name); });
@@ -137,11 +137,11 @@ uint64_t diffracted_paths(const Totals& totals) {
 
 // The keys that make a run find more. Where most paths are diffracted, so are most of those that were missed: they need
 // the rays of both ends, and those of receivers are fewer.
-std::string more_rays(const Config& config, const Totals& totals) {
-  const TraceConfig& trace = config.trace;
+std::string more_rays(const Run& run, const Totals& totals) {
+  const TraceConfig& trace = run.config.trace;
   const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
-  if (trace.diffraction && trace.edge_rays > 0) return rays + " or trace.edge_rays";
-  if (!receivers_launch(config) || 2 * diffracted_paths(totals) <= totals.counts.paths) return rays;
+  if (run.summary.edge_rays > 0) return rays + " or of trace.edge_rays";
+  if (!receivers_launch(run.config) || 2 * diffracted_paths(totals) <= totals.counts.paths) return rays;
   return trace.rays ? "number of trace.diffraction_rays (at most trace.rays)"
                     : "trace.recall and number of trace.diffraction_rays";
 }
@@ -157,7 +157,7 @@ std::string missed_line(const Run& run, const Totals& totals) {
                      grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
                      grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
                      missed.power_share.low, missed.power_share.high,
-                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run.config, totals))) +
+                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run, totals))) +
          missed_unknown_line(run, totals);
 }
 

@@ -182,8 +182,10 @@ std::string old_plots(const fs::path& directory) {
 void say_ready(const Run& run, const TraceConfig& trace, bool warn, Progress& progress) {
   double ready = 0;
   for (const auto& [stage, seconds] : run.summary.setup_seconds) ready += seconds;
-  progress.line(fmt::format("ready after {:.2f} s on {}; {} from each transmitter ({})", ready, run.summary.device.name,
-                            launch_in_words(trace), run.config.transmitters.size()));
+  const std::string of_edges =
+      run.summary.edge_rays > 0 ? fmt::format(", {} from each edge that they see", grouped(run.summary.edge_rays)) : "";
+  progress.line(fmt::format("ready after {:.2f} s on {}; {} from each transmitter ({}){}", ready,
+                            run.summary.device.name, launch_in_words(trace), run.config.transmitters.size(), of_edges));
   if (warn)
     for (const std::string& warning : run.summary.warnings) progress.line("warning: " + warning);
 }

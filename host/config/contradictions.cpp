@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 
+#include "config/edge_rays.hpp"
 #include "config/value_text.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 #include "wavetracer/order_methods.hpp"

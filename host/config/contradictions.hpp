@@ -18,13 +18,12 @@ struct Contradiction {
 std::vector<Contradiction> contradictions(const Config& config);
 
 // Defined in table_checks.cpp: checks of arrays and several carriers, of vehicles and the time of their drive, of air
-// and places, of materials, of rays from edges.
+// and places, of materials.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
 void check_trajectories(const Config& config, std::vector<Contradiction>& out);
 void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
 void check_materials(const std::vector<MaterialConfig>& materials, std::vector<Contradiction>& out);
-void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
 
 // Defined in target_checks.cpp.
 void check_targets(const Config& config, std::vector<Contradiction>& out);

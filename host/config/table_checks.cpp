@@ -237,24 +237,4 @@ void check_materials(const std::vector<MaterialConfig>& materials, std::vector<C
   }
 }
 
-// Listeners know only the edges that transmitters see and the surfaces that rays reflect from, so paths over two edges,
-// through walls and by tiles that only receivers see would be lost.
-void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
-  const TraceConfig& trace = config.trace;
-  if (!trace.diffraction || trace.edge_rays == 0) return;
-  const auto refuse = [&](const char* key, const std::string& value, const char* instead) {
-    out.push_back({{"trace.edge_rays", key},
-                   fmt::format("trace.edge_rays = {} does not go with {} = {}: give trace.edge_rays = 0, so that "
-                               "receivers launch rays, or {}",
-                               trace.edge_rays, key, value, instead)});
-  };
-  if (trace.max_diffractions > 1)
-    refuse("trace.max_diffractions", std::to_string(trace.max_diffractions), "allow one diffraction");
-  if (trace.transmission) refuse("trace.transmission", "true", "set that to false");
-  if (trace.reflects_scattered())
-    refuse("trace.scattering_reflections", std::to_string(trace.scattering_reflections), "set that to 0");
-  if (trace.by_beams()) refuse("trace.discovery", "\"beams\"", "use \"rays\"");
-  if (config.cache.on()) refuse("cache.kind", fmt::format("\"{}\"", config.cache.kind.text()), "use \"none\"");
-}
-
 }  // namespace wavetracer::config

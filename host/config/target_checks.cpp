@@ -154,12 +154,12 @@ void check_companions(const Config& config, std::vector<Contradiction>& out) {
            fmt::format("trace.floor_db = {} says nothing of the power of waves that a target scatters: "
                        "remove trace.floor_db, or set trace.target to false",
                        *trace.floor_db));
-  if (trace.target_reflections > 0 && trace.diffraction && trace.edge_rays > 0)
+  if (trace.target_reflections > 0 && trace.diffraction && trace.edge_rays.value_or(0) > 0)
     refuse(
         {"trace.edge_rays", "trace.target_reflections"},
         fmt::format("trace.edge_rays = {} does not go with trace.target_reflections = {}: give trace.edge_rays = 0, so "
                     "that receivers launch rays, or set trace.target_reflections to 0",
-                    trace.edge_rays, trace.target_reflections));
+                    *trace.edge_rays, trace.target_reflections));
   for (size_t i = 0; trace.target_diffraction && i < config.target_models.size(); ++i)
     if (config.target_models[i].body())
       out.push_back(

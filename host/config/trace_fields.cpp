@@ -137,11 +137,13 @@ Table trace_table() {
            .slot = t(&TraceConfig::edge_rays),
            .unit = "rays per edge",
            .range = {0, 65536},
+           .none = "auto",
            .doc = "Only with diffraction, where nothing moves: the number of rays that start at each edge that a "
                   "transmitter sees, for each way on which it sees it. They go where the edge sends the wave, and "
                   "receivers try what passes near them, so receivers launch no rays. That is faster and finds more "
-                  "where there are many receivers, as in coverage maps: 1000 suffice for most. "
-                  "0: receivers launch diffraction_rays each."},
+                  "where there are many receivers, as in coverage maps. 0: receivers launch diffraction_rays each. "
+                  "auto: 3000 where nothing moves, more than 1000 receivers do not transmit, diffraction_rays is not "
+                  "given, and nothing is asked for that rays from edges cannot find; else 0."},
           {.name = "transmission",
            .slot = t(&TraceConfig::transmission),
            .doc = "Transmission straight through surfaces. Each surface is a slab whose thickness is "

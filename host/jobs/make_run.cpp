@@ -42,6 +42,7 @@ Run make_run(const Simulation& simulation, uint64_t frames_asked, const std::str
   RunSummary summary;
   summary.device = simulation.device();
   summary.order = simulation.order();
+  summary.edge_rays = simulation.edge_rays();
   summary.features = simulation.features();
   summary.setup_seconds = simulation.setup_seconds();
   summary.command_line = command_line;

@@ -191,6 +191,7 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
   json["shards"] = shards;
   json["repeat_count"] = summary.repeat_count;
   json["features"] = features(summary.features);
+  if (summary.edge_rays > 0) json["edge_rays"] = summary.edge_rays;
   json["counts"] = counts(totals, run.config.trace);
   json["paths_by_kind"] = path_counts(totals.kinds);
   put_missed(run, totals, json);

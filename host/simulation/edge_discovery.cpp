@@ -31,7 +31,7 @@ ListenerMap on_device(gpu::Context& context, const ListenerSquares& squares) {
 EdgeDiscovery::EdgeDiscovery(gpu::Context& context, const DeviceScene& scene, const TraceConfig& trace,
                              const Origins& origins, const FrameWatch& watch)
     : map_(on_device(context, *origins.squares)),
-      edge_rays_(context, static_cast<uint32_t>(trace.edge_rays), most_pieces, origins.count(), map_.low_m,
+      edge_rays_(context, static_cast<uint32_t>(*trace.edge_rays), most_pieces, origins.count(), map_.low_m,
                  map_.high_m),
       hear_(context, origins.count(), origins.transmitter_count(), listener_margin_m),
       max_depth_(trace.max_depth),

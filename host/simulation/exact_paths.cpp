@@ -89,7 +89,7 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
     if (trace.max_diffractions > 1) two.emplace(context, device_scene, scene, trace.transmission, floors);
     diffraction.emplace(context, Wedges(context, scene, world.fleet.models, world.fleet.instances, trace.free_edges),
                         trace.max_depth, depth.row, longest_wavelength_m, floors, std::move(two), frames_follow);
-    if (trace.edge_rays > 0)
+    if (trace.from_edges())
       diffraction->heard.emplace(HeardEdges{{context, device_scene, scene, false, most_pieces},
                                             {context, trace.max_depth, most_pieces, longest_wavelength_m}});
     if (depth.edges > 1) {

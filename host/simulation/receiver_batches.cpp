@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t least_receivers = 8192;  // a batch has them, unless the user asks for fewer
 // A receiver that launches rays has some 300 to 1500 sequences of about 350 bytes, one that hears edges some 100; they
 // may take a quarter of the memory.
-uint64_t bytes_of_launching(const TraceConfig& trace) { return uint64_t{4} * 350 * (trace.edge_rays > 0 ? 300 : 1500); }
+uint64_t bytes_of_launching(const TraceConfig& trace) { return uint64_t{4} * 350 * (trace.from_edges() ? 300 : 1500); }
 
 // The rows of a receiver that launches nothing, some 32 paths of 600 bytes with all lists; they may take a quarter of
 // the memory.

@@ -2,6 +2,7 @@
 // Each value follows from those before it.
 #include "simulation/run_plan.hpp"
 
+#include "config/edge_rays.hpp"
 #include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
 #include "scene/materials.hpp"
@@ -40,10 +41,11 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   World world = make_world(asked, scene);
   Config config = with_all_ends(asked, world);
   Features features = choose_features(config, scene, world);
-  const TraceConfig trace = with_features(config.trace, features);
+  TraceConfig trace = with_features(config.trace, features);
+  if (!trace.edge_rays) trace.edge_rays = world.resting ? config::edge_rays_of(config) : 0;
   Origins origins =
       make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.from_both_ends());
-  if (trace.diffraction && trace.edge_rays > 0) {
+  if (trace.from_edges()) {
     check_at_rest(world);
     origins = hearing_origins(world.receivers.standing, origins.transmitter_count(), listener_size_m);
   }

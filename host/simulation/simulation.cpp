@@ -152,6 +152,10 @@ std::vector<RadarAxes> Simulation::radar_axes() const {
 const DeviceSummary& Simulation::device() const { return state_->setup.device; }
 const OrderSummary& Simulation::order() const { return state_->setup.order_summary; }
 const Features& Simulation::features() const { return state_->plan().features; }
+uint64_t Simulation::edge_rays() const {
+  const TraceConfig& trace = state_->plan().trace;
+  return trace.from_edges() ? *trace.edge_rays : 0;
+}
 const StageSeconds& Simulation::setup_seconds() const { return state_->setup.stages.seconds(); }
 
 FrameResult Simulation::run_frame(uint32_t frame) {

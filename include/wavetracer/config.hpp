@@ -218,13 +218,14 @@ struct TraceConfig {
   bool free_edges = true;                                // edges of one face diffract as half planes
   bool edge_ends = false;                                // a static edge's wave ends with the wave of its corner
   std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000
-  uint64_t edge_rays = 0;                                // per edge and prefix that sees it; 0: receivers launch rays
-  double tile_m = 5;                                     // largest side length of a tile of scattering
-  uint32_t scattering_reflections = 0;                   // most before a tile and after it; 0: tiles are seen directly
-  std::optional<double> scattering_floor_db = {};        // gain below which such paths are left out; not given: none is
-  uint32_t target_reflections = 0;                       // most before a target and after it; 0: it is seen directly
-  bool target_diffraction = false;                       // one of the interactions on either side may be an edge
-  std::optional<double> target_floor_db = {};  // gain below which paths over targets are left out; else none is
+  // Per edge and prefix that sees it; 0: receivers launch rays; not set ("auto"): config::edge_rays_of.
+  std::optional<uint64_t> edge_rays = {};
+  double tile_m = 5;                               // largest side length of a tile of scattering
+  uint32_t scattering_reflections = 0;             // most before a tile and after it; 0: tiles are seen directly
+  std::optional<double> scattering_floor_db = {};  // gain below which such paths are left out; not given: none is
+  uint32_t target_reflections = 0;                 // most before a target and after it; 0: it is seen directly
+  bool target_diffraction = false;                 // one of the interactions on either side may be an edge
+  std::optional<double> target_floor_db = {};      // gain below which paths over targets are left out; else none is
   Directions directions = "horizon";
   Reception reception = "exact";
   double sphere_radius_m = 1.0;
@@ -237,6 +238,8 @@ struct TraceConfig {
   bool by_beams() const { return discovery == "beams"; }
   bool reflects_scattered() const { return scattering && scattering_reflections > 0; }
   bool reflects_echoes() const { return target && target_reflections > 0; }
+  // Do rays start at the edges of diffracted paths? "auto" must have been decided.
+  bool from_edges() const { return diffraction && edge_rays.value_or(0) > 0; }
   // Are paths joined from what both of their ends see? Then receivers launch rays, too.
   bool from_both_ends() const { return diffraction || reflects_scattered() || reflects_echoes(); }
 };

@@ -27,6 +27,7 @@ struct RunSummary {
   std::string version = WAVETRACER_VERSION;
   DeviceSummary device;
   OrderSummary order;
+  uint64_t edge_rays = 0;  // from each edge, as trace.edge_rays asks or "auto" chose; 0: receivers launched rays
   Features features;
   StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...
   std::string command_line;

@@ -133,6 +133,8 @@ class Simulation {
   const DeviceSummary& device() const;
   const OrderSummary& order() const;
   const Features& features() const;
+  // The number of rays from each edge, as trace.edge_rays asks or "auto" chose; 0 without diffraction.
+  uint64_t edge_rays() const;
   // Stages outside the frame: load, surfaces, build, compile, ...
   const StageSeconds& setup_seconds() const;
 

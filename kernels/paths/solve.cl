@@ -12,8 +12,8 @@
 
 #ifdef WT_BLOCKERS
 inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const global uint* blockers, uint mask,
-                  const global wt_exact_surface* surfaces, const global double* corners, const uint* chain, uint depth,
-                  uint node, uint receiver, double4 from, double4 to, const double3* points) {
+                  const global wt_exact_surface* surfaces, const uint* chain, uint depth, uint node, uint receiver,
+                  double4 from, double4 to, const double3* points) {
   const uint noted = blockers[wt_blocker_slot(node, receiver, mask)], k = noted >> WT_BLOCKER_SHIFT;
   if (noted == WT_NONE || k > depth) return 0;
   const wt_step_tables tables = {surfaces, 0, 0, 0, 0};
@@ -29,7 +29,7 @@ inline int hidden(const global WT_LEAF* triangles, uint triangle_slots, const gl
   const double3 before = k > 1 ? points[k - 2] : from.xyz;
   // Triangles of vehicles are not stored, so those of the antennas' vehicles need no exception.
   wt_complete_leg(&tables, before, k > 1 ? wt_rounding(before) : WT_ON_SURFACE_M, &leg);
-  return wt_obstructed_at(triangles, triangle_slots, surfaces, corners, &leg, noted & (WT_BLOCKER_PLACES - 1));
+  return wt_surely_obstructed_at(triangles, triangle_slots, surfaces, &leg, noted & (WT_BLOCKER_PLACES - 1));
 }
 
 inline void prefetch_blocker(const global uint* blockers, uint mask, const global wt_candidate* candidate) {
@@ -58,7 +58,7 @@ inline void find_row(const wt_followed_sequence* s, const global double4* transm
   double3* points = rows->points[rows->count];
   if (!wt_reflection_points(surfaces, triangles, instances, s->chain, s->depth, s->images, to.xyz, points)) return;
 #ifdef WT_BLOCKERS
-  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, triangles, s->chain, s->depth, s->node,
+  if (hidden(leaves, args.triangle_slots, blockers, args.blocker_mask, surfaces, s->chain, s->depth, s->node,
              candidates[i].receiver, transmitters[s->transmitter], to, points)) {
     atomic_inc(&counters->hidden);
     return;

@@ -68,13 +68,6 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   CHECK(advised());
   results.totals.links = 1745;
   CHECK(advice(run, results.totals).at(0).starts_with("line of sight on 1 of 1,745 links, "));
-  CHECK(advice(run, results.totals).at(0).find("edge_rays") == std::string::npos);
-  sample.config.receiver_grids.resize(1);
-  results.totals.frames = 1;
-  CHECK(contains(advice(run, results.totals).at(0),
-                 fmt::format("set it to true, with trace.edge_rays = 500 for this map (else each of its {} receivers "
-                             "launches rays), or ask",
-                             run.config.receivers.size())));
   results.totals.warnings = {"a link has no path; trace.diffraction = true may help"};
   CHECK_FALSE(advised());
   results.totals.warnings.clear();
@@ -86,39 +79,6 @@ TEST_CASE("without line of sight on most links, diffraction that is off is advis
   results.totals.counts.paths = 5;
   run.summary.features["diffraction"] = {true, {}};
   CHECK_FALSE(advised());
-}
-
-TEST_CASE("rays from edges are advised where the cells of a map launch more than a city's edges would") {
-  SampleRun sample;
-  sample.config.receiver_grids.resize(1);
-  sample.config.trace.diffraction = true;
-  Results results{totals_of(sample.frames()), {}, {}};
-  const Run run = sample.run();
-  const uint64_t of_transmitters = *sample.config.trace.rays * sample.config.transmitters.size();
-  results.totals.frames = 1;
-  const auto advised = [&](uint64_t rays_of_cells) {
-    results.totals.counts.rays = of_transmitters + rays_of_cells;
-    return !advice(run, results.totals).empty();
-  };
-  CHECK_FALSE(advised(99'999'999));
-  CHECK(advised(100'000'000));
-  CHECK(contains(advice(run, results.totals).at(0),
-                 "receivers launched 100,000,000 rays to find the edges that they see: trace.edge_rays = 500 starts"));
-  sample.config.trace.edge_rays = 100;
-  CHECK_FALSE(advised(100'000'000));
-  sample.config.trace.edge_rays = 0;
-  // Settings that rays from edges do not go with.
-  sample.config.trace.transmission = true;
-  CHECK_FALSE(advised(100'000'000));
-  sample.config.trace.transmission = false;
-  sample.config.trace.max_diffractions = 2;
-  CHECK_FALSE(advised(100'000'000));
-  sample.config.trace.max_diffractions = 1;
-  sample.config.trajectories.file = "drive.xml";
-  CHECK_FALSE(advised(100'000'000));
-  sample.config.trajectories.file = "";
-  results.totals.frames = 2;  // no map
-  CHECK_FALSE(advised(100'000'000));
 }
 
 TEST_CASE("the report counts paths by kind, those that there are") {
