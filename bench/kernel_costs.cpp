@@ -117,6 +117,7 @@ double candidates_of_beams(N n) {
 }
 // Those without a piece count too, since a round has as many groups as any other.
 double waiting_groups(N n) { return n.items("beam_visible/beam_waiting") / n.tuning.visible_lanes; }
+double united_apertures(N n) { return n.items("beam_unite/beam_unite") / n.tuning.visible_lanes; }
 
 constexpr KernelCost costs[] = {
     {"generate_rays/generate_rays", "reflections", "rays", rays, always<32>, always<20>},
@@ -152,6 +153,8 @@ constexpr KernelCost costs[] = {
      nothing},
     {"beam_visible/beam_waiting", "beams", "groups, one piece or none each", waiting_groups,
      always<sizeof(wt_waiting_piece)>, nothing},
+    {"beam_unite/beam_link", "beams", "apertures", items_of<"beam_unite/beam_link">, always<12>, nothing},
+    {"beam_unite/beam_unite", "beams", "apertures", united_apertures, always<2 * sizeof(wt_aperture)>, nothing},
 
     {"order_keys/launch_keys", "ordered", "rays", rays, always<4>, always<30>},
     {"generate_rays/generate_ordered", "ordered", "rays", rays, always<36>, always<20>},

@@ -104,6 +104,7 @@ void BeamTracing::set_world(const std::vector<Instance>& instances, std::span<co
   depth_ = (depth + 7) / 8 * 8;
   gather_.emplace(context_, depth_);
   if (!visible_) visible_.emplace(context_);
+  if (!unite_) unite_.emplace(context_);
 }
 
 // The set grows by parts of it being found anew, which is rare.
@@ -174,11 +175,8 @@ bool BeamTracing::follow(const DeviceScene& scene, const BeamTask& task, uint32_
     }
     if (!look(scene, apertures, step, set)) return false;
     if (walk.into) walk.into->depths.push_back(std::move(kept));
-    wt_beam_counters now = lists_.counters.read_one(0, Stage::beam_visible);
-    apertures = now.apertures;
-    now.apertures = 0;
-    lists_.counters.write(std::vector{now}, 0, Stage::beam_visible);
-    std::swap(lists_.apertures, lists_.next);
+    apertures = lists_.counters.read_one(0, Stage::beam_visible).apertures;
+    if (apertures > 0) apertures = (*unite_)(scene, lists_, apertures, set.trie());
   }
   return true;
 }

@@ -11,6 +11,7 @@
 
 #include "passes/beam_gather.hpp"
 #include "passes/beam_moving.hpp"
+#include "passes/beam_unite.hpp"
 #include "passes/beam_visible.hpp"
 #include "passes/sequences.hpp"
 #include "radio/reflectance_bounds.hpp"
@@ -110,6 +111,7 @@ class BeamTracing {
   BeamTreeBuilder tree_;
   std::optional<BeamGather> gather_;
   std::optional<BeamVisible> visible_;
+  std::optional<BeamUnite> unite_;
   std::optional<BeamMoving> moving_;
   uint32_t depth_ = 0;  // the trees of this depth that gather_ can walk
   BeamLists lists_;

@@ -39,8 +39,7 @@ inline int seen_whole(const wt_world* world, const wt_view* view, double3 apex, 
     if (counts->count + shared->pieces.shadow.count + 1 > WT_PIECES)
       wt_store_all_waiting(out, target->candidate, shared, counts);
     counts->patience -= WT_CUT_WORK;
-    wt_split(next, wall, &shared->pieces, counts);
-    return 0;
+    if (wt_split(next, wall, &shared->pieces, counts)) return 0;
   }
   return 1;
 }
