@@ -18,8 +18,24 @@ namespace {
 // The rows that a build of the kernel takes.
 enum class FieldRows { all, without_corners, listed };
 
-gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows rows) {
-  return {{"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
+// CPUs: the most and the fewest rows of a work-item; those of one shape are computed eight at once.
+constexpr uint32_t most_together = 512, fewest_together = 64;
+
+// Are rows computed eight at once where they can be? The lanes of kernels/lib/field8.clh have no walls of layers and no
+// losses on the way.
+bool takes_runs(const gpu::DeviceInfo& device, const FieldTables& tables, bool apart) {
+  return device.cpu && !apart && !tables.layered() && !tables.loses();
+}
+
+// The rows of a work-item: eight items for each core, so that cores end together.
+uint32_t rows_of_item(const gpu::DeviceInfo& device, uint32_t rows) {
+  const uint32_t items = 8 * std::max(1u, device.compute_units);
+  return std::clamp((rows / items + 7) / 8 * 8, fewest_together, most_together);
+}
+
+gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows rows, bool in_runs = false) {
+  return {{"WT_TOGETHER", std::to_string(in_runs ? most_together : 1) + "u"},
+          {"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
           {"WT_CORNER_EDGES", tables.corners && rows != FieldRows::without_corners ? "1" : "0"},
           {"WT_LISTED", rows == FieldRows::listed ? "1" : "0"},
           {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
@@ -42,7 +58,8 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
                bool corners_apart)
     : context_(context),
       apart_(edges > 0 && tables.corners && corners_apart),
-      kernel_(context, build_of(tables, edges, apart_ ? FieldRows::without_corners : FieldRows::all)),
+      in_runs_(takes_runs(context.info(), tables, apart_)),
+      kernel_(context, build_of(tables, edges, apart_ ? FieldRows::without_corners : FieldRows::all, in_runs_)),
       listed_build_(build_of(tables, edges, FieldRows::listed)),
       work_(tuning_of(context.info()).exact),
       transmitters_(tables.transmitters),
@@ -58,7 +75,9 @@ Fields::Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges,
                  .scatters = tables.scatters,
                  .air = tables.air,
                  .foliage_count = static_cast<uint32_t>(tables.foliages.size()),
-                 .reflections = tables.reflections},
+                 .reflections = tables.reflections,
+                 .rows_of_item = 1,
+                 .for_sums = 0},
       materials_(context.buffer(tables.materials, "materials")),
       materials_of_(context.buffer(tables.materials_of, "materials of surfaces")),
       surface_of_tile_(context.buffer(tables.surface_of_tile, {"surfaces of tiles", advice::tiles})),
@@ -120,7 +139,7 @@ calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
           .args = arguments_};
 }
 
-void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most) {
+void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most, bool for_sums) {
   if (inputs.ends.moved || !ends_[0]) set_ends(world);
   make_room(context_, rows_, most.rows, "path rows");
   make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
@@ -129,13 +148,16 @@ void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowC
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());
   arguments_.vertex_capacity = static_cast<uint32_t>(vertices_.size());
   arguments_.max_depth = inputs.visible.max_depth;
+  arguments_.for_sums = for_sums;
+  Work work = work_;
+  if (in_runs_) work = {arguments_.rows_of_item = rows_of_item(context_.info(), places), 1};
   if (apart_) {
     make_room(context_, listed_, places + size_t{1}, "rows past corners");
     const uint32_t none = 0;
     context_.fill(listed_, &none, sizeof none, 0, sizeof none, Stage::fields);
   }
   const calls::fields::fields call = call_of(inputs);
-  kernel_(work_.range(places), Stage::fields, call);
+  kernel_(work.range(places), Stage::fields, call);
   if (apart_) (*listed_kernel_)(work_.range(places), Stage::fields, call);
 }
 

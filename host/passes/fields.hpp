@@ -46,8 +46,9 @@ class Fields {
   Fields(gpu::Context& context, const FieldTables& tables, uint32_t edges, const glm::dvec3& origin_m,
          bool corners_apart);
 
-  // Computes the rows. most: the most rows and vertices that there may be.
-  void operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most);
+  // Computes the rows. most: the most rows and vertices that there may be. for_sums: link_sums alone reads them, so
+  // CPUs leave out angles, gains, and all of a vertex but its kind.
+  void operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most, bool for_sums = false);
   // Chooses rows by their numbers in the order of rows, which must ascend.
   RowChoice choose(const RowList& rows, std::span<const uint32_t> chosen) const;
   // Computes the chosen rows alone, in their order, after the frame of the inputs and before any other one.
@@ -82,7 +83,8 @@ class Fields {
 
  private:
   gpu::Context& context_;
-  bool apart_;  // paths past corners have a launch of their own, which takes them from a list
+  bool apart_;    // paths past corners have a launch of their own, which takes them from a list
+  bool in_runs_;  // work-items take runs of rows
   gpu::KernelOf<calls::fields::fields> kernel_;
   gpu::Definitions listed_build_;
   std::optional<gpu::KernelOf<calls::fields::fields>> listed_kernel_;  // built where it is needed first

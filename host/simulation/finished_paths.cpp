@@ -67,7 +67,8 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
     if (rows != Rows::summed && counts_ahead(expected)) begin_count(counters);
     last_.emplace(FieldInputs{scene, wedges, targets ? &targets->points() : nullptr, ends, visible, inside, distinct_,
                               distinct_.rows()});
-    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i) fields_[i](*last_, world, most);  // fields
+    for (size_t i = 0; i < (carriers ? fields_.size() : 1); ++i)
+      fields_[i](*last_, world, most, rows == Rows::summed);  // fields
   }
   if (rows == Rows::summed) {
     if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_, groups_.has_value());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // path_groups: the geometrical waves that each path of a frame belongs to, and its share in each of them
 // (wavetracer/device/path_groups.h), from rows in their order (distinct.cl). The host numbers them link by link.
+#include "lib/prefetch_path.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/path_groups.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -18,6 +19,7 @@ kernel void path_groups(const global wt_solved* solved, const global double* ver
   if (place >= args.row_count || rows[place] == WT_NO_ROW || before[place] >= args.row_capacity) return;
   const wt_path_list list = {solved,          vertices,    steps,          transmitter_places,
                              receiver_places, receiver_of, transmitter_of, args.max_depth};
+  if (WT_AHEAD > 1 && place + WT_AHEAD < args.row_count) wt_prefetch_path(&list, rows[place + WT_AHEAD]);
   const wt_path path = wt_path_of(&list, rows[place]);
   wt_waves waves;
   const uint bends = wt_waves_of(&path, wedges, planes_of, args.wavelength_m, place, &waves);

@@ -4,6 +4,7 @@
 // (wavetracer/device/path_rows.h); nothing is copied. Keys with a coarse length bring the rows of a link together; then
 // neighbours are compared exactly.
 #include "lib/count.clh"
+#include "lib/prefetch_path.clh"
 #include "wavetracer/device/arguments.h"
 #include "wavetracer/device/path_along.h"
 #pragma OPENCL FP_CONTRACT OFF
@@ -40,6 +41,14 @@ kernel void row_keys(const global wt_solved* solved, const global double* vertic
   keys[item] = row_key(args, path.transmitter * args.receiver_count + path.receiver, length_m);
 }
 
+// Begins to read the row at a place, if there is one. order, keys, lengths: see mark_rows.
+inline void prefetch_row(const wt_path_list* list, const global uint* keys, const global uint* order,
+                         const global double* lengths, uint place, wt_distinct_arguments args) {
+  if (WT_AHEAD == 1 || place >= args.row_count || keys[place] == WT_NONE) return;
+  wt_prefetch(lengths + order[place]);
+  wt_prefetch_path(list, (args.twins ? 1u : 2u) * order[place]);
+}
+
 // Marks the row at each sorted place: WT_ROW_STAYS, WT_ROW_IS_NEAR (an antenna touches the surface that reflects
 // there), or 0 where another row is the same path or one of which it is a part (path_along.h). The row that stays gets
 // the quarters of the others, too. wedges: may be null.
@@ -55,6 +64,7 @@ kernel void mark_rows(const global wt_solved* solved, const global double* verti
   if (keys[place] == WT_NONE) return;
   const wt_path_list list = {solved,    vertices,    steps,          transmitters,
                              receivers, receiver_of, transmitter_of, args.max_depth};
+  prefetch_row(&list, keys, order, lengths, place + WT_AHEAD, args);
   const uint scale = args.twins ? 1u : 2u, row = scale * order[place];
   const wt_path path = wt_path_of(&list, row);
   const double length_m = lengths[order[place]];
@@ -109,6 +119,7 @@ kernel void order_rows(const global wt_solved* solved, const global double* vert
   }
   const wt_path_list list = {solved,    vertices,    steps,          transmitters,
                              receivers, receiver_of, transmitter_of, args.max_depth};
+  prefetch_row(&list, keys, order, lengths, place + WT_AHEAD, args);
   const wt_path path = wt_path_of(&list, row);
   const double delay_s = lengths[order[place]] / WT_SPEED_OF_LIGHT;
   uint to = place;

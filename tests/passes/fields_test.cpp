@@ -5,135 +5,19 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <complex>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <random>
 
-#include "passes/field_world.hpp"
-#include "passes/wedges.hpp"
-#include "radio/fields.hpp"
-#include "wavetracer/device/path_rows.h"
+#include "passes/field_columns.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
 
 namespace {
-
-constexpr uint32_t no_path = WT_NO_ROW;
-
-bool same_columns(const Paths& a, const Paths& b) {
-  return a.frame == b.frame && a.tx == b.tx && a.rx == b.rx && a.depth == b.depth && a.delay_s == b.delay_s &&
-         a.gain_db == b.gain_db && a.a == b.a && a.aod_theta_rad == b.aod_theta_rad && a.aod_phi_rad == b.aod_phi_rad &&
-         a.aoa_theta_rad == b.aoa_theta_rad && a.aoa_phi_rad == b.aoa_phi_rad && a.doppler_hz == b.doppler_hz &&
-         a.quarters == b.quarters && a.vertex_offset == b.vertex_offset && a.vertex_position_m == b.vertex_position_m &&
-         a.vertex_interaction == b.vertex_interaction && a.vertex_surface == b.vertex_surface &&
-         a.vertex_instance == b.vertex_instance;
-}
-
-// Computes every third of these paths once more: those have their columns, in their order.
-void check_chosen(Fields& fields, const FieldInputs& inputs, const WorldState& state, const Paths& paths) {
-  std::vector<uint32_t> chosen;
-  for (uint32_t row = 0; row < paths.size(); row += 3) chosen.push_back(row);
-  const RowChoice choice = fields.choose(inputs.rows, chosen);
-  REQUIRE(choice.count == chosen.size());
-  fields.again(inputs, choice);
-  fields.begin_read_carrier({choice.count, 0});
-  context().finish();
-  const CarrierFields again = fields.carrier({choice.count, 0});
-  REQUIRE(again.a.size() == chosen.size());
-  for (size_t i = 0; i < chosen.size(); ++i) {
-    CHECK(again.a[i] == paths.a[chosen[i]]);
-    CHECK(again.gain_db[i] == paths.gain_db[chosen[i]]);
-  }
-  fields(inputs, state, {static_cast<uint32_t>(paths.size()), static_cast<uint32_t>(paths.vertex_position_m.size())});
-}
-
-// Computes rows at their places on the device. numbers: twice the number of a path, plus one for its way back, or
-// no_path. receiver_of, transmitter_of: ends in one place.
-Paths fields_of(const FieldWorld& world, const std::vector<uint32_t>& numbers, const std::vector<uint32_t>& receiver_of,
-                const std::vector<uint32_t>& transmitter_of) {
-  const auto places = static_cast<uint32_t>(numbers.size());
-  RowList list;
-  list.places = places;
-  std::vector<double> delays(places, 0);
-  std::vector<uint32_t> before(2 * places + 1);  // sums of ones, then of depths
-  RowCounts count;
-  for (uint32_t place = 0; place < places; ++place) {
-    before[place] = count.rows;
-    if (numbers[place] == no_path) continue;
-    delays[place] = world.length_m(numbers[place] / 2) / light_m_s;
-    ++count.rows;
-  }
-  for (uint32_t place = 0; place < places; ++place) {
-    before[places + place] = count.rows + count.vertices;
-    if (numbers[place] != no_path) count.vertices += static_cast<uint32_t>(world.rows[numbers[place] / 2].steps.size());
-  }
-  list.rows = context().buffer(numbers, "rows");
-  list.counts = context().buffer(before, "rows before");
-  list.delays = context().buffer(delays, "delays");
-  list.quarters = context().buffer(std::vector<uint8_t>(places, WT_ALL_QUARTERS), "quarters");
-
-  const DeviceScene scene = make_device_scene(context(), world.scene, false, 200);
-  const Wedges wedges(context(), world.scene, {}, {}, true);
-  const Distinct distinct(context(), receiver_of, transmitter_of);
-  const RadioEnds ends = make_radio_ends(context(), world.state.transmitters, world.state.receivers, {});
-  const SolvedList visible = upload_rows(world.rows, most_steps);
-  const FieldTables tables = make_field_tables(world.scene, world.config);
-  CHECK(tables.corners);
-  const FieldInputs inputs{scene, &wedges.list().wedges, nullptr, ends, visible, nullptr, distinct, list};
-  const auto computed = [&](bool apart) {
-    Fields fields(context(), tables, 1, world.scene.origin_m, apart);
-    fields(inputs, world.state, count);
-    return fields;
-  };
-  Fields together = computed(false);
-  together.begin_read(5, count);
-  together.size_room();
-  context().finish();
-  const Paths all_together = together.columns(count);
-  Fields fields = computed(true);
-  fields.begin_read(5, {count.rows / 2, count.vertices / 2});  // the rest is read once their number is known
-  fields.size_room();
-  context().finish();
-  Paths paths = fields.columns(count);
-  CHECK(same_columns(paths, all_together));
-  check_chosen(fields, inputs, world.state, paths);
-  for (const uint32_t expected : {count.rows, count.rows + count.rows / 8}) {  // in parts, if there are many
-    fields.begin_read(5, {expected, count.vertices + 7});
-    fields.size_room();
-    fields.fill_arriving(count);
-    context().finish();
-    Paths again = fields.columns(count);
-    CHECK(same_columns(again, paths));
-    fields.give_room(std::move(again));
-  }
-  return paths;
-}
-
-Paths in_order(const FieldWorld& world) {
-  std::vector<uint32_t> numbers;
-  for (uint32_t i = 0; i < world.rows.size(); ++i) numbers.push_back(2 * i);
-  const std::vector<uint32_t> alone(numbers.size(), WT_NONE);
-  return fields_of(world, numbers, alone, alone);
-}
-
-// The same rows by the host's evaluation of the same functions.
-Paths on_host(const FieldWorld& world) {
-  PathGeometry geometry;
-  for (uint32_t i = 0; i < world.rows.size(); ++i) {
-    const PathRow& row = world.rows[i];
-    geometry.tx.push_back(i);
-    geometry.rx.push_back(i);
-    geometry.quarters.push_back(WT_ALL_QUARTERS);
-    for (size_t k = 0; k < row.steps.size(); ++k) {
-      geometry.surface.push_back(row.steps[k] & ~WT_STEP_KIND);
-      geometry.interaction.push_back(static_cast<uint8_t>(WT_STEP_CODES >> 8 * (row.steps[k] >> WT_STEP_SHIFT)));
-      geometry.vertex.push_back(row.points[k]);
-    }
-    geometry.first.push_back(geometry.surface.size());
-  }
-  return FieldModel(world.scene, world.config).compute(5, geometry, world.state);
-}
 
 doctest::Approx within(double value, double relative) { return doctest::Approx(value).epsilon(relative).scale(0); }
 
@@ -146,7 +30,102 @@ std::array<std::complex<double>, 2> fresnel(double cosine) {
   return {(cosine - root) / (cosine + root), (e * cosine - root) / (e * cosine + root)};
 }
 
+// A place on the plane of the ground or of the wall where the way from a to b is mirrored.
+glm::dvec3 mirror_point(uint32_t surface, const glm::dvec3& a, const glm::dvec3& b) {
+  const int axis = surface == ground ? 2 : 1;
+  const double plane = surface == ground ? 0 : 8, from = std::abs(a[axis] - plane), to = std::abs(b[axis] - plane);
+  glm::dvec3 out = a + (b - a) * (from / (from + to));
+  out[axis] = plane;
+  return out;
+}
+
+// Wedges whose edges stand in the street: a half plane, walls that meet at right angles, and bends that are wider and
+// narrower. Faces are the ground's, the wall's and the screen's materials.
+void add_edges(Scene& scene) {
+  for (const double exterior : {2.0, 1.5, 1.4, 1.7, 1.02}) {
+    const double x = -10 + 5 * exterior;
+    scene.wedges.push_back({.start = {x, 2, 0},
+                            .along = {0, 0, 1},
+                            .length_m = 9,
+                            .face = {1, 0, 0},
+                            .normal = {0, 1, 0},
+                            .exterior_rad = exterior * std::numbers::pi,
+                            .surface = {exterior > 1.6 ? ground : screen, exterior > 1.9 ? ground : conducting_wall},
+                            .plane = {exterior > 1.6 ? ground : screen, exterior > 1.9 ? ground : conducting_wall}});
+  }
+}
+
+// Random paths of all shapes with up to three interactions: mirrors, and one edge of the wedges from `first` on.
+std::vector<PathRow> random_paths(const Scene& scene, uint32_t first, size_t count) {
+  std::mt19937 engine(7);
+  const auto random = [&] { return static_cast<uint32_t>(engine()); };
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
+  std::vector<PathRow> rows;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t before = random() % 3, after = random() % (3 - before), bends = random() % 4 > 0;
+    const auto edge = static_cast<uint32_t>(first + random() % (scene.wedges.size() - first));
+    const Wedge& wedge = scene.wedges[edge];
+    const auto place = [&] {  // in the free space of the wedge, some of them nearly on a face
+      const double angle = random() % 8 == 0 ? 1e-10 : uniform(0, std::min(wedge.exterior_rad, 0.9 * std::numbers::pi));
+      const double away_m = random() % 16 == 0 ? 0.03 : uniform(0.5, 5);
+      glm::dvec3 at = wedge.start + wedge.face * (away_m * std::cos(angle)) + wedge.normal * (away_m * std::sin(angle));
+      at.z = uniform(0.5, 8);
+      return at;
+    };
+    PathRow row{.from = place(), .to = place(), .steps = {}, .points = {}};
+    const glm::dvec3 at = wedge.start + wedge.along * uniform(1, 8);
+    if (bends && random() % 8 == 0) row.to = at + (at - row.from);             // on the boundary of the shadow
+    if (!bends && random() % 8 == 0) row.to = row.from + glm::dvec3{0, 0, 2};  // the ground is met at its normal
+    const auto mirrors = [&](uint32_t number, const glm::dvec3& a, const glm::dvec3& b) {
+      glm::dvec3 from = a;
+      for (uint32_t k = 0; k < number; ++k) {
+        const uint32_t surface = random() % 3 == 0 ? conducting_wall : ground;
+        row.steps.push_back(WT_STEP_REFLECTION | surface);
+        row.points.push_back(mirror_point(surface, from, b));
+        from = row.points.back();
+        if (random() % 2 == 0) from.x += 0.5;  // the next leg has a length
+      }
+    };
+    mirrors(before, row.from, bends ? at : row.to);
+    if (bends) {
+      row.steps.push_back(WT_STEP_DIFFRACTION | edge);
+      row.points.push_back(at);
+      mirrors(after, at, row.to);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// The bits of all coefficients, so that zeros have their signs.
+std::vector<uint64_t> coefficient_bits(const Paths& paths) {
+  std::vector<uint64_t> out;
+  for (const auto& matrix : paths.a)
+    for (const std::complex<double>& a : matrix)
+      out.insert(out.end(), {std::bit_cast<uint64_t>(a.real()), std::bit_cast<uint64_t>(a.imag())});
+  return out;
+}
+
 }  // namespace
+
+TEST_CASE("fields: many paths of all shapes, which CPUs compute eight at once, have the host's bits") {
+  for (const std::string antenna : {"isotropic", "dipole"}) {
+    CAPTURE(antenna);
+    FieldWorld world({}, antenna);
+    const auto first = static_cast<uint32_t>(world.scene.wedges.size());
+    add_edges(world.scene);
+    const std::vector<PathRow> rows = random_paths(world.scene, first, as_many(700, 100));
+    const Scene scene = world.scene;
+    world = FieldWorld(rows, antenna);
+    world.scene = scene;
+    world.config.trace.transmission = false;
+    const Paths found = in_order(world), expected = on_host(world);
+    REQUIRE(found.size() == rows.size());
+    CHECK(same_columns(found, expected));
+    CHECK(coefficient_bits(found) == coefficient_bits(expected));
+    CHECK(std::ranges::count(found.depth, 3) > found.size() / 10);
+  }
+}
 
 TEST_CASE("fields: a path in sight has Friis' gain, its delay, its angles and the Doppler shift of its ends") {
   const FieldWorld world({field_row({-30, 1, 2}, {6, 0, 5}, {}, {}), field_row({3, -4, 1}, {3, 2, 9}, {}, {})},

@@ -250,6 +250,8 @@ typedef struct {
   wt_air air;
   wt_uint foliage_count;  // kinds of vegetation
   wt_uint reflections;    // the most reflections of a path
+  wt_uint rows_of_item;   // CPUs: the rows that a work-item takes
+  wt_uint for_sums;       // not 0: link_sums alone reads the rows, and CPUs leave out what it does not need
 } wt_fields_arguments;
 
 typedef struct {

@@ -8,7 +8,24 @@
 namespace wavetracer::device {
 #endif
 
-// The row at `place`, and its vertices from first_vertex on. origin: of recentred coordinates in those of the file.
+// The vertices of a path, from first_vertex on. origin: of recentred coordinates in those of the file.
+inline void wt_write_vertices(const wt_field_world* world, const wt_path* path, wt_double3 origin, wt_uint first_vertex,
+                              WT_GLOBAL wt_vertex_row* vertices) {
+  for (wt_uint k = 0; k < path->depth; ++k) {
+    const wt_uint step = wt_step(path, k);
+    const wt_double3 p = wt_vertex(path, k) + origin;
+    WT_GLOBAL wt_vertex_row* vertex = vertices + first_vertex + k;
+    vertex->position[0] = p.x;
+    vertex->position[1] = p.y;
+    vertex->position[2] = p.z;
+    vertex->surface = wt_local_number(world, step);
+    vertex->instance = wt_step_instance(world, step);
+    vertex->interaction = wt_interaction(step);
+    vertex->padding = 0;
+  }
+}
+
+// The row at `place`, and its vertices.
 inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
                          wt_double3 origin, wt_uint first_vertex, WT_GLOBAL wt_path_row* row,
                          WT_GLOBAL wt_vertex_row* vertices) {
@@ -29,18 +46,7 @@ inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ord
     row->a[2 * i] = field.a[i].x;
     row->a[2 * i + 1] = field.a[i].y;
   }
-  for (wt_uint k = 0; k < path.depth; ++k) {
-    const wt_uint step = wt_step(&path, k);
-    const wt_double3 p = wt_vertex(&path, k) + origin;
-    WT_GLOBAL wt_vertex_row* vertex = vertices + first_vertex + k;
-    vertex->position[0] = p.x;
-    vertex->position[1] = p.y;
-    vertex->position[2] = p.z;
-    vertex->surface = wt_local_number(world, step);
-    vertex->instance = wt_step_instance(world, step);
-    vertex->interaction = wt_interaction(step);
-    vertex->padding = 0;
-  }
+  wt_write_vertices(world, &path, origin, first_vertex, vertices);
 }
 
 #ifndef __OPENCL_VERSION__
