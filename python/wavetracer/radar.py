@@ -62,6 +62,10 @@ class Waveform:
         if self.interval_s is not None and not number(self.interval_s, "interval_s") >= self.chirp_s:
             raise ConfigError(f"interval_s of a radar is {self.interval_s}, shorter than a chirp of {self.chirp_s} s: give "
                               "at least chirp_s")
+        if self.longest_delay_s > self.chirp_s:
+            raise ConfigError(f"samples of a radar are {self.samples} and bandwidth_hz is {self.bandwidth_hz:g}, so it would "
+                              f"hear echoes up to {self.longest_delay_s:g} s late, longer than its chirp, chirp_s = "
+                              f"{self.chirp_s:g}: give fewer samples, a larger bandwidth_hz, or a longer chirp_s")
         number(self.power_dbm, "power_dbm")
         if self.noise_figure_db is not None:
             number(self.noise_figure_db, "noise_figure_db")

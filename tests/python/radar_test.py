@@ -204,6 +204,8 @@ def check_misuse():
     refused(lambda: radar.Waveform(0, 1e-5), "bandwidth_hz")
     refused(lambda: radar.Waveform(1e9, 1e-5, interval_s=5e-6), "at least chirp_s")
     refused(lambda: radar.Waveform(1e9, 1e-5, chirps=1), "2 or more")
+    refused(lambda: radar.Waveform(1e9, 1e-6, samples=1001), "longer than its chirp")
+    assert radar.Waveform(1e9, 1e-6, samples=1000).longest_delay_s == 1e-6
     paths = made([30e-9], [0], [1], names=(("t", "u"), ("r",)))
     refused(lambda: radar.cube(paths, WAVE), "choose one with tx=")
     cube = radar.cube(made([30e-9], [0], [1]), WAVE)
