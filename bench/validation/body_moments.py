@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Radar cross sections of a small metal box by physical optics (`wavetracer scene radar`) beside the method of moments
-(bempp-cl of PyPI; the electric field integral equation with functions of Rao, Wilton and Glisson).
+"""Radar cross sections of small metal boxes by physical optics (`wavetracer scene radar`) beside the method of moments
+(moments.py).
 
-Usage: body_moments.py PROGRAM FOLDER. The Python needs bempp-cl, numba, numpy, scipy. Prints a table in Markdown: the
-levels of both methods, both ends at one azimuth, and the largest difference within 10 dB of the strongest level. A sphere is computed first,
-whose cross section is known, and the script stops if the moments miss it by 0.3 dB.
+Usage: body_moments.py PROGRAM FOLDER [CELLS]. The Python needs numpy and scipy. CELLS: cells in a wavelength, 8 if not
+given. Prints tables in Markdown: the levels of both methods, both ends at one azimuth, and the largest difference within
+10 dB of the strongest level. A sphere is computed first, whose cross section is known, and the script stops if the
+moments miss it by 0.3 dB.
 """
 import csv
 import io
@@ -13,15 +14,13 @@ import pathlib
 import subprocess
 import sys
 
-import bempp_cl.api as bempp
+import moments
 import numpy as np
-import scipy.linalg
 
 WAVELENGTH = 0.1
 SPEED_OF_LIGHT_M_S = 299792458.0
 WAVE_NUMBER = 2 * np.pi / WAVELENGTH
-SIZE = np.array([2.0, 1.5, 1.0]) * WAVELENGTH
-STEP = WAVELENGTH / 8
+BOXES = ((2.0, 1.5, 1.0), (3.0, 1.0, 1.5))  # sizes in wavelengths
 
 
 def box_mesh(size, step):
@@ -54,38 +53,9 @@ def sphere_mesh(radius, step):
     return radius * bent / np.linalg.norm(bent, axis=1)[:, None], triangles
 
 
-@bempp.callable(complex=True, parameterized=True)
-def trace(x, n, domain, result, wave):
-    """The trace E x n of a plane wave: `wave` has its direction and its polarization."""
-    turn = np.exp(-1j * WAVE_NUMBER * (x[0] * wave[0] + x[1] * wave[1] + x[2] * wave[2]))
-    result[0] = turn * (wave[4] * n[2] - wave[5] * n[1])
-    result[1] = turn * (wave[5] * n[0] - wave[3] * n[2])
-    result[2] = turn * (wave[3] * n[1] - wave[4] * n[0])
-
-
-class Moments:
-    """The matrix of a conducting body, factored once for all waves."""
-
-    def __init__(self, vertices, triangles):
-        grid = bempp.Grid(vertices.T.copy(), triangles.T.astype(np.uint32))
-        self.div, self.curl = bempp.function_space(grid, "RWG", 0), bempp.function_space(grid, "SNC", 0)
-        operator = bempp.operators.boundary.maxwell.electric_field(self.div, self.div, self.curl, WAVE_NUMBER)
-        self.factors = scipy.linalg.lu_factor(bempp.as_matrix(operator.weak_form()))
-        self.unknowns = self.div.global_dof_count
-
-    def cross_section_m2(self, look, polarization):
-        """The cross section back to a source in the direction `look`, with both fields along `polarization`."""
-        wave = np.concatenate([look, polarization])
-        right = bempp.GridFunction(self.div, dual_space=self.curl, fun=trace, function_parameters=wave).projections(self.curl)
-        current = bempp.GridFunction(self.div, coefficients=scipy.linalg.lu_solve(self.factors, right))
-        far = bempp.operators.far_field.maxwell.electric_field(self.div, look[:, None], WAVE_NUMBER)
-        field = far.evaluate(current)[:, 0]
-        return 4 * np.pi * abs(np.dot(field, polarization)) ** 2
-
-
-def physical_optics(program, folder, polarization, azimuths):
+def physical_optics(program, folder, size, polarization, azimuths):
     """The program's cross sections of the box in dB over 1 m^2, both ends at the same azimuth."""
-    vertices, triangles = box_mesh(SIZE, 10.0)
+    vertices, triangles = box_mesh(size, 10.0)
     mesh = folder / "box.obj"
     mesh.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist())
                     + "".join("f " + " ".join(str(i + 1) for i in t) + "\n" for t in triangles.tolist()))
@@ -95,30 +65,36 @@ def physical_optics(program, folder, polarization, azimuths):
     return np.array([float(row[f"{polarization}_{polarization}_dbsm"]) for row in csv.DictReader(io.StringIO(out.stdout))])
 
 
-def main(program, folder):
-    folder.mkdir(parents=True, exist_ok=True)
-    sphere = Moments(*sphere_mesh(0.2 * WAVELENGTH, WAVELENGTH / 20))
-    found = sphere.cross_section_m2(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]))
-    known = mie_back_m2(0.2 * WAVELENGTH)
-    print(f"sphere of ka = {0.4 * np.pi:.2f}: {10 * np.log10(found):.2f} dBsm by moments with {sphere.unknowns} unknowns, "
-          f"{10 * np.log10(known):.2f} dBsm by the series of Mie")
-    if abs(10 * np.log10(found / known)) > 0.3:
-        sys.exit("body_moments.py: the moments miss the sphere by more than 0.3 dB; refine its mesh")
-    box, azimuths = Moments(*box_mesh(SIZE, STEP)), np.arange(0.0, 91.0, 5.0)
-    print(f"box of 2 x 1.5 x 1 wavelengths, {box.unknowns} unknowns\n\n"
+def compare(program, folder, size, cells):
+    body = moments.Moments(*box_mesh(size, WAVELENGTH / cells), WAVE_NUMBER)
+    azimuths = np.arange(0.0, 91.0, 5.0)
+    print(f"\nbox of {' x '.join(f'{s / WAVELENGTH:g}' for s in size)} wavelengths, {body.unknowns} unknowns\n\n"
           "| azimuth (degrees) | polarization | moments (dBsm) | physical optics (dBsm) | difference (dB) |\n"
           "| --- | --- | --- | --- | --- |", flush=True)
     for name in ("theta", "phi"):
-        levels, moments = physical_optics(program, folder, name, azimuths), []
+        levels, found = physical_optics(program, folder, size, name, azimuths), []
         for azimuth, level in zip(azimuths, levels):
             look = np.array([np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth)), 0.0])
             field = np.array([0.0, 0.0, 1.0]) if name == "theta" else np.array([-look[1], look[0], 0.0])
-            moments.append(10 * np.log10(box.cross_section_m2(look, field)))
-            print(f"| {azimuth:.0f} | {name} | {moments[-1]:.2f} | {level:.2f} | {level - moments[-1]:.2f} |", flush=True)
-        off = np.abs(np.array(moments) - levels)
-        lobes = np.array(moments) > max(moments) - 10
+            found.append(10 * np.log10(body.cross_section_m2(look, field)))
+            print(f"| {azimuth:.0f} | {name} | {found[-1]:.2f} | {level:.2f} | {level - found[-1]:.2f} |", flush=True)
+        off = np.abs(np.array(found) - levels)
+        lobes = np.array(found) > max(found) - 10
         print(f"| within 10 dB of the strongest | {name} | | | largest {off[lobes].max():.2f} |\n"
               f"| the others | {name} | | | median {np.median(off[~lobes]):.2f}, largest {off[~lobes].max():.2f} |", flush=True)
+
+
+def main(program, folder, cells):
+    folder.mkdir(parents=True, exist_ok=True)
+    sphere = moments.Moments(*sphere_mesh(0.2 * WAVELENGTH, WAVELENGTH / 20), WAVE_NUMBER)
+    found = sphere.cross_section_m2(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+    known = mie_back_m2(0.2 * WAVELENGTH)
+    print(f"sphere of ka = {0.4 * np.pi:.2f}: {10 * np.log10(found):.2f} dBsm by moments with {sphere.unknowns} unknowns, "
+          f"{10 * np.log10(known):.2f} dBsm by the series of Mie", flush=True)
+    if abs(10 * np.log10(found / known)) > 0.3:
+        sys.exit("body_moments.py: the moments miss the sphere by more than 0.3 dB; refine its mesh")
+    for size in BOXES:
+        compare(program, folder, np.array(size) * WAVELENGTH, cells)
 
 
 def mie_back_m2(radius):
@@ -136,4 +112,4 @@ def mie_back_m2(radius):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], pathlib.Path(sys.argv[2]))
+    main(sys.argv[1], pathlib.Path(sys.argv[2]), float(sys.argv[3]) if len(sys.argv) > 3 else 8.0)
