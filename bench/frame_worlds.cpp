@@ -117,6 +117,12 @@ void scatter_off_bodies(Config& config) {
   config.parked = {cars};
 }
 
+// The same with waves that bounce between two facets of a body.
+void bounce_in_bodies(Config& config) {
+  scatter_off_bodies(config);
+  config.target_models[0].bounces = 2;
+}
+
 void sense_behind_edges(Config& config) {
   sense(config);
   diffract(config, 1);
@@ -175,6 +181,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
   add("targets", sense);
   add("targets behind edges", sense_behind_edges);
   add("bodies", scatter_off_bodies);
+  add("bounces", bounce_in_bodies);
   add("diffraction", [](Config& c) { diffract(c, 1); });
   add("edge rays", [](Config& c) {
     diffract(c, 1);

@@ -61,6 +61,8 @@ double onlooking_nodes(N n) { return n.items("point_prefixes/onlookers") / n.tun
 double points_of_prefixes(N n) {
   return n.items("target_edges/target_edges") / n.tuning.join_lanes * static_cast<double>(n.frame.world.targets.size());
 }
+// Chains of facets of bodies with all links, from both ends, of which a work-item takes several.
+double bounced_chains(N n) { return n.items("target_bounces/target_bounces") * n.tuning.points.per_item; }
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 // The sequences that rays have met, where a work-item or several take one.
 template <Name kernel>
@@ -200,6 +202,8 @@ constexpr KernelCost costs[] = {
      always<sizeof(wt_solved) + 3 * sizeof(double) + 2 * sizeof(uint32_t)>, nothing, true},
     {"target_edges/target_edges", "targets behind edges", "points of prefixes", points_of_prefixes, nothing,
      always<30>},
+    {"target_bounces/target_bounces", "bounces", "chains of links", bounced_chains, nothing,
+     always<static_cast<size_t>(2 * image_operations + point_operations)>, true},
     {"targets/target_bodies", "bodies", "paths", items_of<"targets/target_bodies">,
      always<sizeof(wt_solved) + sizeof(uint32_t)>, nothing, true},
     {"wedge_prefixes/wedge_prefixes", "diffraction", "sequences", items_of<"wedge_prefixes/wedge_prefixes">, always<12>,

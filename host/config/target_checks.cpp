@@ -49,7 +49,8 @@ void check_custom(const TargetModelConfig& model, const std::string& key, std::v
 }
 
 // A body has the facets and the materials of its vehicle.
-void check_body_model(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
+void check_body_model(const Config& config, const TargetModelConfig& model, const std::string& key,
+                      std::vector<Contradiction>& out) {
   const auto refuse = [&](const char* name) {
     out.push_back({{key + "." + name},
                    fmt::format("[[target_model]] {} has kind = \"body\", whose facets and materials are those of the "
@@ -62,11 +63,12 @@ void check_body_model(const TargetModelConfig& model, const std::string& key, st
   if (!model.points_m.empty()) refuse("points_m");
   if (model.xpr_db) refuse("xpr_db");
   if (model.size_m) refuse("size_m");
-  if (model.on.empty())
-    out.push_back({{key + ".on"},
-                   fmt::format("[[target_model]] {} has kind = \"body\" and no on, so no vehicle has it: name vehicles "
-                               "or their types by on",
-                               toml_string(model.name))});
+  if (model.on.empty() && std::ranges::find(config.targets, model.name, &TargetConfig::model) == config.targets.end())
+    out.push_back(
+        {{key + ".on"},
+         fmt::format("[[target_model]] {} has kind = \"body\" and no on, and no [[target]] has it, so no body "
+                     "is it: name vehicles or their types by on, or add a [[target]] with a vehicle_type",
+                     toml_string(model.name))});
 }
 
 void check_kind(const TargetModelConfig& model, const std::string& key, std::vector<Contradiction>& out) {
@@ -121,10 +123,6 @@ void check_parts(const Config& config, const std::vector<std::string>& models, s
                        toml_string(part.model), spelling_hint(part.model, models))});
     check_part(part, key, out);
   }
-  if (config.trace.target && !config.target_parts.empty() && !config.live_vehicles.empty())
-    out.push_back({{"target_part.0", "live_vehicle.0"},
-                   "[[target_part]] does not go with [[live_vehicle]]: a wheel turns with the way from the start of a "
-                   "track, and live vehicles have no tracks; remove the parts, or set trace.target to false"});
 }
 
 bool has_targets(const Config& config) {
@@ -160,14 +158,6 @@ void check_companions(const Config& config, std::vector<Contradiction>& out) {
         fmt::format("trace.edge_rays = {} does not go with trace.target_reflections = {}: give trace.edge_rays = 0, so "
                     "that receivers launch rays, or set trace.target_reflections to 0",
                     *trace.edge_rays, trace.target_reflections));
-  for (size_t i = 0; trace.target_diffraction && i < config.target_models.size(); ++i)
-    if (config.target_models[i].body())
-      out.push_back(
-          {{"trace.target_diffraction", fmt::format("target_model.{}.kind", i)},
-           fmt::format("trace.target_diffraction = true does not go with [[target_model]] {} of kind = "
-                       "\"body\", whose pieces take waves from antennas and mirrors only: set it to false, or "
-                       "use another kind",
-                       toml_string(config.target_models[i].name))});
   if (trace.target_diffraction && (!trace.diffraction || trace.target_reflections == 0))
     refuse({"trace.target_diffraction", "trace.diffraction", "trace.target_reflections"},
            fmt::format("trace.target_diffraction = true needs trace.diffraction = true and trace.target_reflections of "
@@ -188,10 +178,20 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
                      fmt::format("[[target_model]] {} has kind = \"{}\" and piece_m, which only a body has: remove "
                                  "piece_m, or use kind = \"body\"",
                                  toml_string(model.name), model.kind.word())});
+    if (model.bounces && !model.body())
+      out.push_back({{key + ".bounces"},
+                     fmt::format("[[target_model]] {} has kind = \"{}\" and bounces, which only a body has: remove "
+                                 "bounces, or use kind = \"body\"",
+                                 toml_string(model.name), model.kind.word())});
+    if (config.trace.target && model.body() && model.bounces.value_or(1) > std::max(config.trace.max_depth, 1u))
+      out.push_back({{key + ".bounces", "trace.max_depth"},
+                     fmt::format("[[target_model]] {} has bounces = {}, but paths have at most trace.max_depth = {} "
+                                 "interactions: raise trace.max_depth, or lower bounces",
+                                 toml_string(model.name), *model.bounces, config.trace.max_depth)});
     if (model.custom())
       check_custom(model, key, out);
     else if (model.body())
-      check_body_model(model, key, out);
+      check_body_model(config, model, key, out);
     else
       check_kind(model, key, out);
   }
@@ -203,11 +203,11 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
            fmt::format("target.model = {}: there is no [[target_model]] of this name{}; add one, or name another",
                        toml_string(model), spelling_hint(model, names))});
     const auto found = std::ranges::find(config.target_models, model, &TargetModelConfig::name);
-    if (found != config.target_models.end() && found->body())
-      out.push_back({{fmt::format("target.{}.model", i)},
-                     fmt::format("target.model = {} has kind = \"body\", but a [[target]] has no body: let a vehicle "
-                                 "stand there ([[parked]] or [[track]]), which the model selects by on",
-                                 toml_string(model))});
+    if (found != config.target_models.end() && found->body() && config.targets[i].vehicle_type.empty())
+      out.push_back({{fmt::format("target.{}.model", i), fmt::format("target.{}.vehicle_type", i)},
+                     fmt::format("target.model = {} has kind = \"body\", but [[target]] {} has no vehicle_type, whose "
+                                 "body would scatter: name a [[vehicle_type]] by vehicle_type",
+                                 toml_string(model), toml_string(config.targets[i].name))});
   }
   check_parts(config, names, out);
   check_companions(config, out);

@@ -41,6 +41,28 @@ std::vector<Field> custom_fields() {
   };
 }
 
+// The keys of a body.
+std::vector<Field> body_fields() {
+  const auto m = [](auto member) { return at(&Config::target_models, member); };
+  return {
+      {.name = "piece_m",
+       .slot = m(&TargetModelConfig::piece_m),
+       .unit = "m",
+       .range = {0.01, 1e3},
+       .doc = "Only with kind = \"body\": the longest edge of the pieces into which facets are cut. Each piece is "
+              "a point with one path for each link, is lit or hidden as a whole, and has one delay and one "
+              "angle. Its phase is right up to some metres from an end (64 cuts of a piece). Not given: 0.25.",
+       .example = "0.1"},
+      {.name = "bounces",
+       .slot = m(&TargetModelConfig::bounces),
+       .range = {1, 3},
+       .doc = "Only with kind = \"body\": the most facets of the body that a wave meets: all but one are "
+              "mirrors, and one is cut into pieces that scatter. Corners need 2 or 3, and at most "
+              "trace.max_depth. Not given: 1, single scattering.",
+       .example = "2"},
+  };
+}
+
 }  // namespace
 
 Table target_model_table() {
@@ -87,60 +109,59 @@ Table target_model_table() {
                .doc = "Length, width and height, from which the places of points follow. Not given: the size "
                       "of the vehicle, or at a [[target]] that of 3GPP for the kind.",
                .example = "[4.5, 1.8, 1.5]"},
-              {.name = "piece_m",
-               .slot = m(&TargetModelConfig::piece_m),
-               .unit = "m",
-               .range = {0.01, 1e3},
-               .doc =
-                   "Only with kind = \"body\": the longest edge of the pieces into which facets are cut. Each piece is "
-                   "a point with one path for each link, is lit or hidden as a whole, and has one delay and one "
-                   "angle. Its phase is right up to some metres from an end (64 cuts of a piece). Not given: 0.25.",
-               .example = "0.1"},
           },
       .append = append<&Config::target_models>,
       .count = count<&Config::target_models>,
       .optional = true};
   std::ranges::move(custom_fields(), std::inserter(out.fields, out.fields.begin() + 4));
+  std::ranges::move(body_fields(), std::back_inserter(out.fields));
   return out;
 }
 
 Table target_table() {
   const auto m = [](auto member) { return at(&Config::targets, member); };
-  return {.name = "target",
-          .doc = "A target that stands in all frames.",
-          .fields =
-              {
-                  {.name = "name",
-                   .slot = m(&TargetConfig::name),
-                   .required = true,
-                   .doc = "Unique among targets.",
-                   .example = "\"pedestrian\""},
-                  {.name = "model",
-                   .slot = m(&TargetConfig::model),
-                   .required = true,
-                   .doc = "Name of its [[target_model]].",
-                   .example = "\"car\""},
-                  {.name = "position_m",
-                   .slot = m(&TargetConfig::position_m),
-                   .unit = "m",
-                   .range = places,
-                   .required = true,
-                   .doc = "The middle of its footprint, in the coordinates of the scene file.",
-                   .example = "[10.0, 0.0, 0.0]"},
-                  {.name = "orientation_deg",
-                   .slot = m(&TargetConfig::orientation_deg),
-                   .unit = "degrees",
-                   .range = angles,
-                   .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
-                  {.name = "velocity_m_s",
-                   .slot = m(&TargetConfig::velocity_m_s),
-                   .unit = "m/s",
-                   .range = speeds,
-                   .doc = "Its velocity along the axes of the scene file, for Doppler shifts alone: it stays there."},
-              },
-          .append = append<&Config::targets>,
-          .count = count<&Config::targets>,
-          .optional = true};
+  return {
+      .name = "target",
+      .doc = "A target that stands in all frames.",
+      .fields =
+          {
+              {.name = "name",
+               .slot = m(&TargetConfig::name),
+               .required = true,
+               .doc = "Unique among targets.",
+               .example = "\"pedestrian\""},
+              {.name = "model",
+               .slot = m(&TargetConfig::model),
+               .required = true,
+               .doc = "Name of its [[target_model]].",
+               .example = "\"car\""},
+              {.name = "position_m",
+               .slot = m(&TargetConfig::position_m),
+               .unit = "m",
+               .range = places,
+               .required = true,
+               .doc = "The middle of its footprint, in the coordinates of the scene file.",
+               .example = "[10.0, 0.0, 0.0]"},
+              {.name = "orientation_deg",
+               .slot = m(&TargetConfig::orientation_deg),
+               .unit = "degrees",
+               .range = angles,
+               .doc = "Yaw, pitch, roll: intrinsic rotations about z, y, x."},
+              {.name = "velocity_m_s",
+               .slot = m(&TargetConfig::velocity_m_s),
+               .unit = "m/s",
+               .range = speeds,
+               .doc = "Its velocity along the axes of the scene file, for Doppler shifts alone: it stays there."},
+              {.name = "vehicle_type",
+               .slot = m(&TargetConfig::vehicle_type),
+               .doc = "Name of a [[vehicle_type]], whose mesh or body stands there: it hides waves, passes and "
+                      "reflects them as bodies of vehicles do, and its size is that of the target. A model of kind = "
+                      "\"body\" needs it. Empty: there is no body.",
+               .example = "\"hatchback\""},
+          },
+      .append = append<&Config::targets>,
+      .count = count<&Config::targets>,
+      .optional = true};
 }
 
 }  // namespace wavetracer::config

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr size_t max_id_bytes = 128;  // limit of ids and types
 constexpr size_t max_token_bytes = 4096;
-constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6;
+constexpr double max_coordinate_m = 1e7, max_time_s = 1e12, max_speed = 1e6, max_travelled_m = 1e12;
 
 // The keys of one object; each is read by name.
 class Object {
@@ -138,7 +138,7 @@ glm::dquat orientation_of(const Object& vehicle) {
 LivePose pose_of(const json& value) {
   const Object vehicle(
       value, "vehicle",
-      {"id", "type", "position_m", "yaw_deg", "orientation", "velocity_m_s", "angular_velocity_rad_s"});
+      {"id", "type", "position_m", "yaw_deg", "orientation", "velocity_m_s", "angular_velocity_rad_s", "travelled_m"});
   LivePose out{.id = vehicle.id("id"),
                .type = vehicle.id("type"),
                .position_m = vehicle.vector("position_m", max_coordinate_m),
@@ -148,6 +148,7 @@ LivePose pose_of(const json& value) {
   if (vehicle.has("velocity_m_s")) out.velocity_m_s = vehicle.vector("velocity_m_s", max_speed);
   if (vehicle.has("angular_velocity_rad_s"))
     out.angular_velocity_rad_s = vehicle.vector("angular_velocity_rad_s", max_speed);
+  if (vehicle.has("travelled_m")) out.travelled_m = vehicle.number("travelled_m", max_travelled_m);
   return out;
 }
 

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "motion/pose.hpp"
-
 namespace wavetracer {
 namespace {
 
@@ -21,21 +19,9 @@ constexpr std::array<std::pair<double, double>, 4> rule{{{0.1834346424956498, 0.
                                                          {0.7966664774136267, 0.2223810344533745},
                                                          {0.9602898564975363, 0.1012285362903763}}};
 
-Travelled velocities_of(const Pose& pose) {
-  const glm::dquat back = glm::conjugate(pose.orientation);
-  return {.velocity_m_s = back * pose.velocity_m_s, .rate_rad_s = back * pose.angular_velocity_rad_s};
-}
-
 void add_over(Travelled& sum, const Track& track, double from_s, double to_s) {
-  const double half_s = 0.5 * (to_s - from_s), middle_s = 0.5 * (from_s + to_s);
-  for (const auto& [place, weight] : rule)
-    for (const double side : {-1.0, 1.0}) {
-      const auto pose = pose_at(track, middle_s + side * place * half_s);
-      if (!pose) continue;
-      const Travelled now = velocities_of(*pose);
-      sum.way_m += now.velocity_m_s * (weight * half_s);
-      sum.turn_rad += now.rate_rad_s * (weight * half_s);
-    }
+  add_way(
+      sum, [&](double time_s) { return pose_at(track, time_s); }, from_s, to_s);
 }
 
 bool continues(const Track& track, size_t sample) {
@@ -43,6 +29,23 @@ bool continues(const Track& track, size_t sample) {
 }
 
 }  // namespace
+
+Travelled velocities_of(const Pose& pose) {
+  const glm::dquat back = glm::conjugate(pose.orientation);
+  return {.velocity_m_s = back * pose.velocity_m_s, .rate_rad_s = back * pose.angular_velocity_rad_s};
+}
+
+void add_way(Travelled& sum, const std::function<std::optional<Pose>(double)>& pose, double from_s, double to_s) {
+  const double half_s = 0.5 * (to_s - from_s), middle_s = 0.5 * (from_s + to_s);
+  for (const auto& [place, weight] : rule)
+    for (const double side : {-1.0, 1.0}) {
+      const auto at = pose(middle_s + side * place * half_s);
+      if (!at) continue;
+      const Travelled now = velocities_of(*at);
+      sum.way_m += now.velocity_m_s * (weight * half_s);
+      sum.turn_rad += now.rate_rad_s * (weight * half_s);
+    }
+}
 
 Travel::Travel(const Track& track) : at_samples_(track.samples.size()) {
   for (size_t k = 1; k < track.samples.size(); ++k) {

@@ -21,6 +21,10 @@ inline constexpr const char* points =
     "(links.max_distance_m, links.transmitters, links.receivers), or choose a device with more memory";
 inline constexpr const char* pieces =
     "Raise target_model.piece_m, make fewer bodies targets (target_model.on), or choose a device with more memory";
+// Chains of facets of bodies, and paths by them.
+inline constexpr const char* bounces =
+    "Lower target_model.bounces, raise target_model.piece_m, make fewer bodies targets (target_model.on), ask for fewer "
+    "links at a time (links.max_distance_m, links.transmitters, links.receivers), or choose a device with more memory";
 // Lists of paths over targets.
 inline constexpr const char* targets =
     "Lower trace.target_reflections, make fewer vehicles targets (target_model.on), ask for fewer links at a time "

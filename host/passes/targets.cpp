@@ -38,7 +38,7 @@ void TargetRows::launch(const DeviceScene& scene, const RadioEnds& ends, uint32_
       work_.range(rows), Stage::targets,
       calls::targets::targets{.links = links_.pairs(),
                               .points = points_,
-                              .powers = floor_ > 0 ? &powers_ : nullptr,
+                              .powers = powers(),
                               .transmitters = ends.transmitters,
                               .receivers = ends.receivers,
                               .surfaces = scene.exact_surfaces,
@@ -101,13 +101,14 @@ TargetBodies::TargetBodies(gpu::Context& context, const std::vector<uint32_t>& i
       group_(tuning_of(context.info()).exact.group),
       is_body_(context.buffer(is_body, "bodies that are targets")) {}
 
-void TargetBodies::operator()(const DeviceScene& scene, SolvedList& solved, Counters& counters,
-                              const StepTables& steps) {
+void TargetBodies::operator()(const DeviceScene& scene, SolvedList& solved, Counters& counters, const StepTables& steps,
+                              const TargetRows& targets) {
   if (solved.count == 0) return;
   kernel_({solved.count, group_}, Stage::targets,
           calls::targets::target_bodies{.surfaces = scene.exact_surfaces,
                                         .wedges = steps.wedges,
                                         .surface_of_tile = steps.surface_of_tile,
+                                        .points = targets.points(),
                                         .is_body = is_body_,
                                         .solved = solved.headers,
                                         .sequences = solved.sequences,

@@ -37,6 +37,9 @@ class TargetRows {
   SolvedList& operator()(const DeviceScene& scene, const RadioEnds& ends);
   const gpu::Buffer<wt_target_point>& points() const { return points_; }
   uint32_t count() const { return count_; }
+  // Those of TargetLimits; null without a floor.
+  const gpu::Buffer<double>* powers() const { return floor_ > 0 ? &powers_ : nullptr; }
+  double floor() const { return floor_; }
   // The number of paths that the last call left out, because they are surely below the floor.
   uint64_t weak() const { return weak_; }
 
@@ -59,13 +62,15 @@ class TargetRows {
   SolvedList solved_;
 };
 
-// target_bodies: paths have no mirrors, tiles and edges on bodies that are targets themselves.
+// target_bodies: paths have no mirrors, tiles and edges on bodies that are targets themselves, but for the mirrors of
+// bounces within a body (target_bounces.hpp).
 class TargetBodies {
  public:
   // is_body: not 0 for each instance whose body is a target; there is one.
   TargetBodies(gpu::Context& context, const std::vector<uint32_t>& is_body);
   // Marks solved paths with a step on such a body as obstructed.
-  void operator()(const DeviceScene& scene, SolvedList& solved, Counters& counters, const StepTables& steps);
+  void operator()(const DeviceScene& scene, SolvedList& solved, Counters& counters, const StepTables& steps,
+                  const TargetRows& targets);
 
  private:
   gpu::KernelOf<calls::targets::target_bodies> kernel_;

@@ -91,7 +91,9 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
     tables.targets = target_laws(config.target_models, config.target_parts, models);
     set_materials(tables, instances);
   }
-  tables.reflects_echoes = config.trace.reflects_echoes();
+  tables.reflects_echoes =
+      config.trace.reflects_echoes() ||
+      (config.trace.target && std::ranges::any_of(config.target_models, &TargetModelConfig::bounces_within));
   tables.scatters = config.trace.scattering;
   tables.reflects_scattered = config.trace.reflects_scattered();
   if (!tables.scatters) return tables;

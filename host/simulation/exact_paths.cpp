@@ -124,6 +124,7 @@ void ExactPaths::add_targets(gpu::Context& context, const World& world, const Tr
   if (!bodies.empty()) target_bodies.emplace(context, bodies);
   targets.emplace(context, static_cast<uint32_t>(world.targets.points.size()), tracing_depth(trace).row,
                   TargetLimits{.floor = floor, .powers = powers, .sides = !bodies.empty()});
+  if (!world.targets.bounces.empty()) target_bounces.emplace(context, world.targets.bounces, tracing_depth(trace).row);
   if (trace.target_reflections == 0) return;
   JoinedPoints limits = limits_of(trace);
   limits.floor = floor;
@@ -137,7 +138,7 @@ void ExactPaths::check_legs(const DeviceScene& scene, const RadioEnds& ends, Sol
                             bool remember) {
   const StepTables steps{diffraction ? &diffraction->wedges.list().wedges : nullptr,
                          scatter ? &scatter->tiles().surfaces : nullptr, targets ? &targets->points() : nullptr};
-  if (target_bodies) (*target_bodies)(scene, solved, counters, steps);
+  if (target_bodies) (*target_bodies)(scene, solved, counters, steps, *targets);
   if (transmissions)
     (*transmissions)(scene, ends, solved, counters, steps);
   else

@@ -10,6 +10,7 @@
 #include "passes/occlusion.hpp"
 #include "passes/scatter.hpp"
 #include "passes/solve.hpp"
+#include "passes/target_bounces.hpp"
 #include "passes/targets.hpp"
 #include "passes/transmissions.hpp"
 #include "passes/visible.hpp"
@@ -35,10 +36,11 @@ struct ExactPaths {
   // Places the targets of a frame, if there are any. listeners: the receivers that launch rays.
   void place_targets(const WorldState& world, const std::vector<uint32_t>& listeners);
   // The number of kinds of paths: specular, diffracted, scattered off surfaces, without and with reflections, off
-  // vegetation, and off targets, without and with reflections.
+  // vegetation, and off targets, without reflections, with bounces within a body, and with reflections.
   uint64_t kinds() const {
     return 1 + uint64_t{diffraction.has_value()} + uint64_t{scatter.has_value()} + uint64_t{scattered.has_value()} +
-           uint64_t{crowns.has_value()} + uint64_t{targets.has_value()} + uint64_t{target_chains != nullptr};
+           uint64_t{crowns.has_value()} + uint64_t{targets.has_value()} + uint64_t{target_bounces.has_value()} +
+           uint64_t{target_chains != nullptr};
   }
 
   uint32_t max_depth;
@@ -52,6 +54,7 @@ struct ExactPaths {
   std::optional<Crowns> crowns;
   std::optional<TargetRows> targets;
   std::optional<TargetBodies> target_bodies;    // set if bodies of vehicles are targets
+  std::optional<TargetBounces> target_bounces;  // set if waves bounce within bodies that are targets
   std::unique_ptr<TargetChains> target_chains;  // with trace.target_reflections, else null
   std::optional<Occlusion> occlusion;           // this or the next one is set
   std::optional<Transmissions> transmissions;

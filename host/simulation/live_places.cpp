@@ -12,48 +12,27 @@
 
 #include "base/spelling.hpp"
 #include "base/times.hpp"
+#include "simulation/live_motion.hpp"
 #include "simulation/name_pattern.hpp"
 #include "wavetracer/names.hpp"
 
 namespace wavetracer {
 namespace {
 
-// This is faster than any vehicle on the ground: such a step is a jump, whose speed would give meaningless Doppler
-// shifts.
-constexpr double jump_m_s = 150;
 constexpr double most_m_s = 1000, most_rad_s = 100;  // limits of given velocities
-constexpr double unit_tolerance = 1e-3;              // tolerance of an orientation's length
+constexpr double most_travelled_m = 1e9;
+constexpr double unit_tolerance = 1e-3;  // tolerance of an orientation's length
+
+// The way by which parts of the vehicle turn in this pose.
+Travelled travelled_of(const LiveTraffic::Vehicle& vehicle, const Pose& pose) {
+  Travelled out = velocities_of(pose);
+  out.way_m = vehicle.way_m;
+  out.turn_rad = vehicle.turn_rad;
+  return out;
+}
 
 bool within(const glm::dvec3& v, double most) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;  // false for NaN
-}
-
-// The angular velocity that turns one orientation into the other, the shorter way, in this time.
-glm::dvec3 turning(const glm::dquat& from, const glm::dquat& to, double seconds) {
-  glm::dquat turn = to * glm::conjugate(from);
-  if (turn.w < 0) turn = -turn;
-  const glm::dvec3 axis(turn.x, turn.y, turn.z);
-  const double sine = glm::length(axis);
-  return sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / sine / seconds) : glm::dvec3(0);
-}
-
-// Quaternions that have unit length up to rounding stay unchanged.
-glm::dquat unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) <= 1e-12 ? q : glm::normalize(q); }
-
-// The pose at the share u of the way between two poses; see LivePlaces::between.
-Pose pose_between(const LiveTraffic::Vehicle& from, const LiveTraffic::Vehicle& to, double duration_s, double u) {
-  const glm::dvec3 way_m = to.position_m - from.position_m, even_m_s = way_m / duration_s;
-  if (glm::length(even_m_s) > jump_m_s) {
-    const LiveTraffic::Vehicle& at = u < 1 ? from : to;
-    return {at.position_m, at.orientation, glm::dvec3(0), glm::dvec3(0)};
-  }
-  const Cubic<glm::dvec3> cubic(way_m, from.velocity_m_s.value_or(even_m_s), to.velocity_m_s.value_or(even_m_s),
-                                duration_s, u);
-  const glm::dvec3 turn_rad_s = turning(from.orientation, to.orientation, duration_s);
-  const double rate = glm::length(turn_rad_s);
-  const glm::dquat turned =
-      rate > 0 ? glm::angleAxis(rate * duration_s * u, turn_rad_s / rate) * from.orientation : from.orientation;
-  return {from.position_m + cubic.value, unit(turned), cubic.rate, turn_rad_s};
 }
 
 }  // namespace
@@ -126,6 +105,8 @@ void LivePlaces::check(const LivePose& pose) const {
     refuse("bad_value", fmt::format("a component of velocity_m_s is beyond {} m/s", most_m_s));
   if (!within(pose.angular_velocity_rad_s.value_or(glm::dvec3(0)), most_rad_s))
     refuse("bad_value", fmt::format("a component of angular_velocity_rad_s is beyond {} rad/s", most_rad_s));
+  if (!(std::abs(pose.travelled_m.value_or(0)) <= most_travelled_m))
+    refuse("bad_value", fmt::format("travelled_m is {}, beyond {} m", *pose.travelled_m, most_travelled_m));
 }
 
 // Finds the first free place of the vehicle's type, and takes it.
@@ -165,7 +146,7 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
   for (const LivePose& pose : poses) {
     const auto known = traffic.vehicles.find(pose.id);
     const bool stays = known != traffic.vehicles.end();
-    LiveTraffic::Vehicle now{0, pose.position_m, unit(pose.orientation), pose.velocity_m_s};
+    LiveTraffic::Vehicle now{0, pose.position_m, live_unit(pose.orientation), pose.velocity_m_s};
     if (stays) {
       now.place = known->second.place;
     } else {
@@ -175,17 +156,23 @@ std::vector<PlacedPose> LivePlaces::place(LiveTraffic& traffic, double time_s, s
     bool jumped = false;
     if (stays && passed_s > 0) {
       const glm::dvec3 velocity_m_s = (pose.position_m - known->second.position_m) / passed_s;
-      jumped = glm::length(velocity_m_s) > jump_m_s;
+      jumped = glm::length(velocity_m_s) > live_jump_m_s;
       if (!jumped) {
         placed.velocity_m_s = velocity_m_s;
         if (!now.velocity_m_s) now.velocity_m_s = velocity_m_s;
-        const glm::dvec3 turn_rad_s = turning(known->second.orientation, now.orientation, passed_s);
+        const glm::dvec3 turn_rad_s = live_turning(known->second.orientation, now.orientation, passed_s);
         if (within(turn_rad_s, most_rad_s)) placed.angular_velocity_rad_s = turn_rad_s;
       }
     }
     placed.velocity_m_s = pose.velocity_m_s.value_or(placed.velocity_m_s);
     placed.angular_velocity_rad_s = pose.angular_velocity_rad_s.value_or(placed.angular_velocity_rad_s);
-    out.push_back({now.place, placed, pose.id, !stays || jumped});
+    if (stays) {
+      const Travelled gone = live_travelled(known->second, now, std::max(passed_s, 0.0), 1);
+      now.way_m = gone.way_m;
+      now.turn_rad = gone.turn_rad;
+    }
+    now.way_m.x = pose.travelled_m.value_or(now.way_m.x);
+    out.push_back({now.place, placed, pose.id, !stays || jumped, travelled_of(now, placed)});
     next.vehicles.emplace(pose.id, now);
   }
   next.earlier = std::move(traffic.vehicles);
@@ -204,11 +191,15 @@ std::vector<PlacedPose> LivePlaces::between(const LiveTraffic& traffic, double t
   std::vector<PlacedPose> out;
   const auto alone = [&](const LiveTraffic::Vehicles& in, const LiveTraffic::Vehicles& other) {
     for (const auto& [id, vehicle] : in)
-      if (!other.contains(id))
+      if (!other.contains(id)) {
         out.push_back({vehicle.place,
                        {vehicle.position_m - origin_m_, vehicle.orientation,
                         vehicle.velocity_m_s.value_or(glm::dvec3(0)), glm::dvec3(0)},
-                       id});
+                       id,
+                       false,
+                       {}});
+        out.back().travelled = travelled_of(vehicle, out.back().pose);
+      }
   };
   if (time_s <= traffic.earlier_s + tolerance_s) alone(traffic.earlier, traffic.vehicles);
   if (time_s >= traffic.time_s - tolerance_s) alone(traffic.vehicles, traffic.earlier);
@@ -216,7 +207,8 @@ std::vector<PlacedPose> LivePlaces::between(const LiveTraffic& traffic, double t
   for (const auto& [id, to] : traffic.vehicles) {
     const auto from = traffic.earlier.find(id);
     if (from == traffic.earlier.end()) continue;
-    out.push_back({to.place, pose_between(from->second, to, duration_s, u), id});
+    out.push_back({to.place, live_pose(from->second, to, duration_s, u), id, false,
+                   live_travelled(from->second, to, duration_s, u)});
     out.back().pose.position_m -= origin_m_;
   }
   return out;

@@ -8,6 +8,7 @@
 
 #include "motion/pose.hpp"
 #include "motion/trajectories.hpp"
+#include "motion/travel.hpp"
 #include "simulation/world_models.hpp"
 #include "wavetracer/live.hpp"
 
@@ -18,6 +19,7 @@ struct PlacedPose {
   Pose pose;       // recentred
   std::string id;
   bool arrives = false;  // it was not present in the frame before, or has jumped
+  Travelled travelled = {};
 };
 
 class LivePlaces {

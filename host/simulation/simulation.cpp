@@ -89,11 +89,9 @@ double Simulation::time_s(uint32_t frame) const { return state_->plan().world.cl
 const Config& Simulation::config() const { return state_->plan().asked; }
 const std::vector<Instance>& Simulation::instances() const { return state_->plan().world.fleet.instances; }
 std::vector<SensedTarget> Simulation::targets() const {
-  const World& world = state_->plan().world;
   std::vector<SensedTarget> out;
-  for (const Target& target : world.targets.all)
-    out.push_back(
-        {target.name, target.model, target.track ? world.fleet.instance_of_track[*target.track] : no_instance});
+  for (const Target& target : state_->plan().world.targets.all)
+    out.push_back({target.name, target.model, target.instance});
   return out;
 }
 const std::vector<Scene>& Simulation::models() const { return state_->plan().world.fleet.models; }

@@ -106,6 +106,10 @@ void solve_targets(ExactPaths& exact, const DeviceScene& scene, const RadioEnds&
                    const See& see, const Take& take, const Tell& tell, Uncounted& out) {
   see((*exact.targets)(scene, ends));  // targets
   out.weak += exact.targets->weak();
+  if (exact.target_bounces) {
+    see((*exact.target_bounces)(scene, ends, *exact.targets));  // target_bounces
+    out.weak += exact.target_bounces->weak();
+  }
   if (!exact.target_chains) return;
   chain_targets(exact, scene, ends, set, nodes, take).add_to(out);  // candidates, solve, targets, sort, point_join
   tell();

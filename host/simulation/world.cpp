@@ -42,8 +42,10 @@ WorldState world_at(const World& world, double time_s, const std::vector<Vehicle
   WorldState out;
   out.time_s = time_s;
   const Fleet& fleet = world.fleet;
-  for (size_t i = 0; i < fleet.instances.size(); ++i)
+  for (size_t i = 0; i < fleet.track_of_instance.size(); ++i)
     out.instances.push_back(placement_of(fleet.models[fleet.instances[i].model], vehicles[fleet.track_of_instance[i]]));
+  for (const StandingBody& body : fleet.standing)
+    out.instances.push_back(placement_of(fleet.models[body.model], {body.pose, true}));
   out.transmitters = ends_at(world.transmitters, fleet, world.ground, vehicles);
   out.receivers = ends_at(world.receivers, fleet, world.ground, vehicles);
   out.targets = targets_at(world.targets, fleet, vehicles, time_s);
@@ -79,7 +81,9 @@ World make_world(const Config& config, const Scene& scene) {
       recentred(live ? live->tracks() : load_trajectories(config, vehicles, places), scene.origin_m);
   WorldEnds standing{standing_ends(standing_transmitters(config, places), scene.origin_m),
                      standing_ends(standing_receivers(config, scene, places), scene.origin_m)};
-  Fleet fleet = make_fleet(std::move(trajectories), std::move(vehicles), scene);
+  std::vector<StandingBody> standing_bodies_of_targets = standing_bodies(config, vehicles, scene.origin_m);
+  Fleet fleet =
+      make_fleet(std::move(trajectories), std::move(standing_bodies_of_targets), config, std::move(vehicles), scene);
   WorldEnds ends = with_mounts(std::move(standing), config.mounts, fleet, ground, !live);
   Targets targets = make_targets(config, fleet, ends, scene.origin_m, !live);
   LinkRules links = link_rules(config.links, ends);
@@ -120,7 +124,7 @@ WorldState World::state(double time_s, const std::vector<PlacedPose>& placed) co
   std::vector<VehicleState> vehicles;
   vehicles.reserve(fleet.trajectories.tracks.size());
   for (const Track& track : fleet.trajectories.tracks) vehicles.push_back({*pose_at(track, 0), false});
-  for (const PlacedPose& at : placed) vehicles[at.place] = {at.pose, true};
+  for (const PlacedPose& at : placed) vehicles[at.place] = {at.pose, true, at.travelled};
   WorldState out = world_at(*this, time_s, vehicles);
   out.arrivals = std::ranges::any_of(placed, &PlacedPose::arrives);
   return out;
@@ -131,6 +135,8 @@ LiveNames World::names(const std::vector<PlacedPose>& placed) const {
   for (const PlacedPose& at : placed) ids[at.place] = at.id;
   LiveNames out{names_of(transmitters, fleet, ids), names_of(receivers, fleet, ids), {}};
   for (const uint32_t track : fleet.track_of_instance) out.instances.push_back(ids[track]);
+  for (size_t i = 0; i < fleet.standing.size(); ++i)
+    out.instances.push_back(fleet.instances[fleet.instance_of_standing(i)].id);
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "simulation/world_trajectories.hpp"
 #include "wavetracer/device/records.h"
@@ -13,26 +14,47 @@
 
 namespace wavetracer {
 
-Fleet make_fleet(Trajectories trajectories, VehicleModels vehicles, const Scene& scene) {
+namespace {
+
+// Adds an instance, and numbers its surfaces and wedges behind those before it.
+class InstanceNumbers {
+ public:
+  InstanceNumbers(const Scene& scene, const VehicleModels& vehicles)
+      : vehicles_(vehicles), next_surface_(scene.surfaces.size()), next_wedge_(scene.wedges.size()) {}
+
+  void add(Fleet& to, const std::string& id, const std::string& type, uint32_t model) {
+    to.instances.push_back({id, type, model, static_cast<uint32_t>(next_surface_), static_cast<uint32_t>(next_wedge_)});
+    next_surface_ += vehicles_.models()[model].surfaces.size();
+    next_wedge_ += vehicles_.models()[model].wedges.size();
+    if (next_surface_ > ~WT_STEP_KIND || next_wedge_ >= 1u << 27)
+      throw RuntimeError(
+          fmt::format("the scene and {} vehicles have more than 2^29 surfaces or 2^27 edges: use models "
+                      "with fewer faces, or shorter trajectories",
+                      to.instances.size()));
+  }
+
+ private:
+  const VehicleModels& vehicles_;
+  uint64_t next_surface_, next_wedge_;
+};
+
+}  // namespace
+
+Fleet make_fleet(Trajectories trajectories, std::vector<StandingBody> standing, const Config& config,
+                 VehicleModels vehicles, const Scene& scene) {
   Fleet out;
-  uint64_t next_surface = scene.surfaces.size(), next_wedge = scene.wedges.size();
+  InstanceNumbers numbers(scene, vehicles);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
     const VehicleType& type = trajectories.types[track.type];
     const std::optional<uint32_t> model = vehicles.model_of(type, track.id);
     out.instance_of_track.push_back(model ? static_cast<uint32_t>(out.instances.size()) : no_instance);
     if (!model) continue;
-    out.instances.push_back(
-        {track.id, type.name, *model, static_cast<uint32_t>(next_surface), static_cast<uint32_t>(next_wedge)});
+    numbers.add(out, track.id, type.name, *model);
     out.track_of_instance.push_back(k);
-    next_surface += vehicles.models()[*model].surfaces.size();
-    next_wedge += vehicles.models()[*model].wedges.size();
-    if (next_surface > ~WT_STEP_KIND || next_wedge >= 1u << 27)
-      throw RuntimeError(
-          fmt::format("the scene and {} vehicles have more than 2^29 surfaces or 2^27 edges: use models "
-                      "with fewer faces, or shorter trajectories",
-                      out.instances.size()));
   }
+  for (const StandingBody& body : standing) numbers.add(out, config.targets[body.target].name, body.type, body.model);
+  out.standing = std::move(standing);
   out.trajectories = std::move(trajectories);
   out.models = std::move(vehicles).take_models();
   return out;

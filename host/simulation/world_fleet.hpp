@@ -3,10 +3,13 @@
 // Everything is in coordinates of the recentred scene.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "motion/pose.hpp"
 #include "motion/trajectories.hpp"
+#include "motion/travel.hpp"
+#include "simulation/standing_bodies.hpp"
 #include "simulation/world_models.hpp"
 #include "wavetracer/scene.hpp"
 #include "wavetracer/world_state.hpp"
@@ -18,18 +21,24 @@ struct Fleet {
   std::vector<Scene> models;  // they are recentred like any Scene; placement_of() takes their origin into account
   std::vector<Instance> instances;
   std::vector<uint32_t> instance_of_track;  // no_instance where the vehicle has no body
-  std::vector<uint32_t> track_of_instance;
+  std::vector<uint32_t> track_of_instance;  // those of tracks; further instances are bodies that stand
+  std::vector<StandingBody> standing;
+
+  // The instance of a body that stands, by its place in `standing`.
+  uint32_t instance_of_standing(size_t i) const { return static_cast<uint32_t>(track_of_instance.size() + i); }
 };
 
-// The fleet of these tracks. vehicles: they build the body of each type once. Surfaces and wedges of instances are
-// numbered behind those of the scene. Throws ConfigError or InputError for a body that cannot be made, RuntimeError for
-// more surfaces or edges than a sequence can name.
-Fleet make_fleet(Trajectories trajectories, VehicleModels vehicles, const Scene& scene);
+// The fleet of these tracks and bodies that stand. vehicles: they build the body of each type once. Surfaces and wedges
+// of instances are numbered behind those of the scene. Throws ConfigError or InputError for a body that cannot be made,
+// RuntimeError for more surfaces or edges than a sequence can name.
+Fleet make_fleet(Trajectories trajectories, std::vector<StandingBody> standing, const Config& config,
+                 VehicleModels vehicles, const Scene& scene);
 
 // A vehicle at one instant. Where it is absent, it is as it was last, or will be first.
 struct VehicleState {
   Pose pose;
   bool present;
+  std::optional<Travelled> travelled = {};  // in a live world: its way; else it follows from its track
 };
 VehicleState vehicle_at(const Track& track, double time_s);
 

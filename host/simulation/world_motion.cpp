@@ -19,7 +19,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 std::vector<double> reaches(const World& world) {
   const Fleet& fleet = world.fleet;
   std::vector<double> out(fleet.trajectories.tracks.size(), 0);
-  for (size_t i = 0; i < fleet.instances.size(); ++i) {
+  for (size_t i = 0; i < fleet.track_of_instance.size(); ++i) {
     const Scene& model = fleet.models[fleet.instances[i].model];
     double& reach = out[fleet.track_of_instance[i]];
     for (const glm::dvec3& p : model.vertices) reach = std::max(reach, glm::length(model.origin_m + p));

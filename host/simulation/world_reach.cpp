@@ -95,6 +95,11 @@ double from_ground_m(const MountedEnd& end, const Trajectories& trajectories, co
   return out;
 }
 
+// A bound of the distance of a body's corners from the middle of its footprint.
+double radius_of(const Scene& model) {
+  return glm::length(glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper)));
+}
+
 // Returns the largest distance of antennas, points of targets and corners of the body from each vehicle, by track.
 std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Targets& targets, const Scene& scene) {
   std::vector<double> out(fleet.trajectories.tracks.size(), 0);
@@ -104,11 +109,9 @@ std::vector<double> radii_m(const Fleet& fleet, const WorldEnds& ends, const Tar
           std::max(out[end.track], glm::length(end.offset_m) + from_ground_m(end, fleet.trajectories, scene));
   for (const TargetPoint& point : targets.points)
     if (const auto track = targets.all[point.target].track) out[*track] = std::max(out[*track], point.reach_m());
-  for (size_t i = 0; i < fleet.instances.size(); ++i) {
-    const Scene& model = fleet.models[fleet.instances[i].model];
-    const glm::dvec3 far_m = glm::max(glm::abs(model.origin_m + model.lower), glm::abs(model.origin_m + model.upper));
+  for (size_t i = 0; i < fleet.track_of_instance.size(); ++i) {
     double& radius_m = out[fleet.track_of_instance[i]];
-    radius_m = std::max(radius_m, glm::length(far_m));
+    radius_m = std::max(radius_m, radius_of(fleet.models[fleet.instances[i].model]));
   }
   return out;
 }
@@ -127,6 +130,12 @@ double reach_of(const Fleet& fleet, const WorldEnds& ends, const Targets& target
     const glm::dvec3 at = position_at(target.pose, point.part ? point.part->pivot_m : point.arm_m);
     reach.add_end(fmt::format("target \"{}\"", target.name), at);
     if (point.part) reach.add_box(at, at, point.part->arm_m);
+  }
+  for (const StandingBody& body : fleet.standing) {
+    const glm::dvec3 far_m(radius_of(fleet.models[body.model]));
+    const std::string name = fleet.instances[fleet.instance_of_standing(&body - fleet.standing.data())].id;
+    reach.add_end(fmt::format("a corner of target \"{}\"", name), body.pose.position_m + far_m);
+    reach.add_box(body.pose.position_m, body.pose.position_m, far_m.x);
   }
   const std::vector<double> radius_m = radii_m(fleet, ends, targets, scene);
   for (size_t k = 0; k < radius_m.size(); ++k) {

@@ -9,9 +9,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "radio/antenna.hpp"
+#include "radio/body_bounces.hpp"
 #include "radio/target_laws.hpp"
 #include "simulation/name_pattern.hpp"
 #include "wavetracer/device/vector.h"
@@ -47,6 +49,32 @@ void add_target(Targets& to, Target target, const TargetModelConfig& model, cons
   to.all.push_back(std::move(target));
 }
 
+// The chains of bounces within bodies, which are made once for each target model and model of a vehicle.
+class BodyChains {
+ public:
+  BodyChains(const Config& config, const Fleet& fleet, const TargetLaws& laws)
+      : config_(config), fleet_(fleet), laws_(laws) {}
+
+  // Adds those of the target that was added last; model: its number.
+  void add(Targets& to, size_t model, const Instance& body) {
+    const TargetModelConfig& of = config_.target_models[model];
+    const auto [chains, is_new] = made_.try_emplace({model, body.model});
+    if (is_new)
+      chains->second = bounces_of_body(fleet_.models[body.model], laws_.bodies[model][body.model].pieces,
+                                       of.bounces.value_or(1), of.name);
+    for (const BodyBounce& chain : chains->second)
+      to.bounces.push_back({.point = to.all.back().first_point + chain.piece,
+                            .count = chain.count,
+                            .mirrors = {body.first_surface + chain.mirrors[0], body.first_surface + chain.mirrors[1]}});
+  }
+
+ private:
+  const Config& config_;
+  const Fleet& fleet_;
+  const TargetLaws& laws_;
+  std::map<std::pair<size_t, uint32_t>, std::vector<BodyBounce>> made_;
+};
+
 // Sets the bounds of what the point sends.
 void bound(TargetPoint& point, const TargetLaws& laws) {
   const device::wt_target_law& law = laws.laws[point.law];
@@ -74,7 +102,9 @@ std::vector<std::optional<Travel>> travels_of(const Targets& targets, const Traj
 }
 
 // The way of a target at a time. One that stands is on a treadmill: parts turn with its velocity.
-Travelled travelled_by(const Targets& targets, const Target& target, const Fleet& fleet, double time_s) {
+Travelled travelled_by(const Targets& targets, const Target& target, const Fleet& fleet,
+                       const std::vector<VehicleState>& vehicles, double time_s) {
+  if (target.track && vehicles[*target.track].travelled) return *vehicles[*target.track].travelled;
   if (target.track) return targets.travels[*target.track]->at(fleet.trajectories.tracks[*target.track], time_s);
   const glm::dvec3 velocity_m_s = glm::conjugate(target.pose.orientation) * target.pose.velocity_m_s;
   return {.way_m = velocity_m_s * time_s, .velocity_m_s = velocity_m_s};
@@ -125,6 +155,16 @@ const Instance& body_of_vehicle(const Fleet& fleet, uint32_t track, const Target
   return fleet.instances[instance];
 }
 
+// The body of a target that stands, or null.
+const Instance* standing_instance(const Fleet& fleet, uint32_t target) {
+  for (size_t i = 0; i < fleet.standing.size(); ++i)
+    if (fleet.standing[i].target == target) return &fleet.instances[fleet.instance_of_standing(i)];
+  return nullptr;
+}
+
+// Length, width and height of a body.
+std::optional<glm::dvec3> body_size(const Scene& model) { return model.upper - model.lower; }
+
 // by_id: the vehicles of the world are tracks, which on may name.
 void require_vehicles(const Config& config, const Trajectories& trajectories, bool by_id) {
   std::vector<std::string> names;
@@ -147,6 +187,7 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
   if (!config.trace.target) return out;
   const TargetLaws laws = target_laws(config.target_models, config.target_parts, fleet.models);
   const Trajectories& trajectories = fleet.trajectories;
+  BodyChains bounces(config, fleet, laws);
   require_vehicles(config, trajectories, by_id);
   for (uint32_t k = 0; k < trajectories.tracks.size(); ++k) {
     const Track& track = trajectories.tracks[k];
@@ -158,19 +199,24 @@ Targets make_targets(const Config& config, const Fleet& fleet, const WorldEnds& 
       check_body(fleet, ends, k, model);
       const glm::dvec3 size_m{type.length_m, type.width_m, type.height_m};
       const Instance* body = model.body() ? &body_of_vehicle(fleet, k, model) : nullptr;
-      add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k}, model, config.target_parts,
-                 size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m],
+      const uint32_t instance = fleet.instance_of_track[k];
+      add_target(out, {.name = track.id + "/" + model.name, .model = {}, .track = k, .instance = instance}, model,
+                 config.target_parts, size_m.z > 0 ? std::optional(size_m) : std::nullopt, laws.first[m],
                  body ? &laws.bodies[m][body->model] : nullptr, body ? body->first_surface : 0);
+      if (body) bounces.add(out, m, *body);
     }
   }
   for (const TargetConfig& standing : config.targets) {
     const TargetModelConfig& model = model_of(config, standing.model);
-    const Pose pose{.position_m = vector_of(standing.position_m) - origin_m,
-                    .orientation = glm::quat_cast(rotation_of(standing.orientation_deg)),
-                    .velocity_m_s = vector_of(standing.velocity_m_s),
-                    .angular_velocity_rad_s = glm::dvec3(0)};
-    add_target(out, {.name = standing.name, .model = {}, .track = {}, .pose = pose}, model, config.target_parts, {},
-               laws.first[static_cast<size_t>(&model - config.target_models.data())]);
+    const auto m = static_cast<size_t>(&model - config.target_models.data());
+    const Instance* stands = standing_instance(fleet, static_cast<uint32_t>(&standing - config.targets.data()));
+    const Instance* body = model.body() ? stands : nullptr;
+    Target target{.name = standing.name, .model = {}, .track = {}, .pose = standing_pose(standing, origin_m)};
+    if (stands) target.instance = static_cast<uint32_t>(stands - fleet.instances.data());
+    add_target(out, std::move(target), model, config.target_parts,
+               stands ? body_size(fleet.models[stands->model]) : std::nullopt, laws.first[m],
+               body ? &laws.bodies[m][body->model] : nullptr, body ? body->first_surface : 0);
+    if (body) bounces.add(out, m, *body);
   }
   check_points(out);
   for (TargetPoint& point : out.points) bound(point, laws);
@@ -183,7 +229,7 @@ std::vector<uint32_t> body_instances(const Targets& targets, const Fleet& fleet)
   for (const TargetPoint& point : targets.points) {
     if (point.surface == no_target_surface) continue;
     out.resize(fleet.instances.size(), 0);
-    out[fleet.instance_of_track[*targets.all[point.target].track]] = 1;
+    out[targets.all[point.target].instance] = 1;
   }
   return out;
 }
@@ -209,14 +255,14 @@ std::vector<TargetState> targets_at(const Targets& targets, const Fleet& fleet,
     const Pose& pose = rides ? vehicles[*target.track].pose : target.pose;
     PartPlace place{point.arm_m, glm::dvec3(0)};
     if (point.part) {
-      if (rolling != point.target) travelled = travelled_by(targets, target, fleet, time_s);
+      if (rolling != point.target) travelled = travelled_by(targets, target, fleet, vehicles, time_s);
       rolling = point.target;
       place = place_of(*point.part, travelled);
     }
     out.push_back({.position_m = position_at(pose, place.arm_m),
                    .rotation = glm::mat3_cast(pose.orientation),
                    .velocity_m_s = velocity_at(pose, place.arm_m) + pose.orientation * place.velocity_m_s,
-                   .instance = rides ? fleet.instance_of_track[*target.track] : no_instance,
+                   .instance = target.instance,
                    .law = point.law,
                    .present = !rides || vehicles[*target.track].present,
                    .surface = point.surface,

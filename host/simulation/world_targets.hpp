@@ -11,15 +11,17 @@
 #include "simulation/world_ends.hpp"
 #include "simulation/world_fleet.hpp"
 #include "wavetracer/config.hpp"
+#include "wavetracer/device/points.h"
 #include "wavetracer/world_state.hpp"
 
 namespace wavetracer {
 
 struct Target {
-  std::string name, model;        // VEHICLE/MODEL for a vehicle; the name of the [[target_model]]
-  std::optional<uint32_t> track;  // the vehicle
-  Pose pose = {};                 // pose of a target that stands, recentred
-  uint32_t first_point = 0;       // its points follow each other
+  std::string name, model;          // VEHICLE/MODEL for a vehicle; the name of the [[target_model]]
+  std::optional<uint32_t> track;    // the vehicle
+  uint32_t instance = no_instance;  // its body
+  Pose pose = {};                   // pose of a target that stands, recentred
+  uint32_t first_point = 0;         // its points follow each other
   uint32_t point_count = 0;
 };
 
@@ -43,6 +45,7 @@ struct TargetPoint {
 struct Targets {
   std::vector<Target> all;
   std::vector<TargetPoint> points;
+  std::vector<wt_target_bounce> bounces;       // within the bodies of targets
   std::vector<std::optional<Travel>> travels;  // by track: the ways of those that have parts; empty without any
 
   bool empty() const { return points.empty(); }

@@ -24,6 +24,9 @@ struct LivePose {
   // Not given: computed from the last two poses. It is 0 if there is no earlier pose, if time did not go forward, or if
   // the vehicle would have been faster than 150 m/s, which counts as a jump.
   std::optional<glm::dvec3> velocity_m_s, angular_velocity_rad_s;  // scene axes
+  // The way that the vehicle has gone ahead, by which its wheels and limbs turn ([[target_part]]), from a start of the
+  // caller's. Not given: counted from the frames that were sent, from the first one with the vehicle on.
+  std::optional<double> travelled_m = {};
 };
 
 // A vehicle that cannot be placed. Nothing has changed when this is thrown.
@@ -54,6 +57,7 @@ struct LiveTraffic {
     glm::dvec3 position_m{0};  // file coordinates
     glm::dquat orientation{1, 0, 0, 0};
     std::optional<glm::dvec3> velocity_m_s = {};  // given, or computed from two poses
+    glm::dvec3 way_m{0}, turn_rad{0};             // integrals of its velocities along its own axes
   };
   using Vehicles = std::map<std::string, Vehicle, std::less<>>;  // by id
   Vehicles vehicles;                                             // vehicles of the last frame

@@ -31,9 +31,12 @@ struct TargetModelConfig {  // [[target_model]]
   std::optional<std::array<double, 3>> size_m = {};  // length, width, height; not given: that of the vehicle or kind
 
   std::optional<double> piece_m = {};  // with kind = "body": largest edge of a piece; not given: 0.25
+  std::optional<uint32_t> bounces =
+      {};  // with kind = "body": facets in a chain, the last of which scatters; not given: 1
 
   bool custom() const { return kind == "custom"; }
   bool body() const { return kind == "body"; }
+  bool bounces_within() const { return body() && bounces.value_or(1) > 1; }
 };
 
 // A wheel rolls with its vehicle; a limb swings as it walks.
@@ -60,6 +63,7 @@ struct TargetConfig {  // [[target]]: a target that stands
   std::array<double, 3> position_m{0, 0, 0};       // the middle of its footprint, file coordinates
   std::array<double, 3> orientation_deg{0, 0, 0};  // yaw, pitch, roll (intrinsic z, y, x)
   std::array<double, 3> velocity_m_s{0, 0, 0};     // file axes; for Doppler shifts only
+  std::string vehicle_type = {};                   // the type whose body stands there; empty: there is none
 };
 
 }  // namespace wavetracer

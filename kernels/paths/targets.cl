@@ -5,30 +5,9 @@
 #include "lib/count.clh"
 #include "lib/images.clh"
 #include "lib/prefetch.clh"
+#include "lib/target_point.clh"
 #include "wavetracer/device/points.h"
 #pragma OPENCL FP_CONTRACT OFF
-
-// Does the vehicle that carries the end also carry the point? Then the end does not see it.
-inline int carries(const global wt_target_point* point, double4 end) {
-  return point->instance != WT_NONE && point->instance == wt_end_instance(end);
-}
-
-// Returns the side of its surface from which p sees the point: 1 above, 2 below; 0 where it does not, from the dark
-// side or along the surface. Other points have no sides, and are seen from everywhere.
-inline uint seen_side(const global wt_target_point* point, const global wt_exact_surface* surfaces, double3 p) {
-  if (point->surface == WT_NONE) return 3;
-  const double above = wt_above(surfaces + point->surface, p);
-  if (above > WT_ON_SURFACE_M) return point->present & WT_POINT_LIT_ABOVE ? 1 : 0;
-  if (above < -WT_ON_SURFACE_M) return point->present & WT_POINT_LIT_BELOW ? 2 : 0;
-  return 0;
-}
-
-// Is the path by the point surely weaker than the floor? power: a bound of its gain if both of its parts are 1 m long.
-inline int is_weak(const global wt_target_point* point, double power, double floor, double3 from, double3 to) {
-  const double3 p = (double3)(point->position[0], point->position[1], point->position[2]);
-  const double3 before = p - from, after = p - to;
-  return power < floor * (wt_dot(before, before) * wt_dot(after, after));
-}
 
 // A work-item takes rows_per_item rows. links: transmitter and receiver; rows are ordered by links, then by points. No
 // ray found these rows, so every quarter of a launch counts as having found them. Rows of targets that are absent, or
@@ -36,7 +15,7 @@ inline int is_weak(const global wt_target_point* point, double power, double flo
 // piece of a body.
 // counts: null, or then rows that would be marked are left out, and others written wherever there is room: their number
 // is added to its first word, and to the others, with a carry, that of paths below the floor. powers: for each point,
-// see is_weak; null without a floor.
+// see wt_is_weak_by; null without a floor.
 kernel void targets(const global uint2* links, const global wt_target_point* points, const global double* powers,
                     const global double4* transmitters, const global double4* receivers,
                     const global wt_exact_surface* surfaces, global wt_solved* solved, global double* vertices,
@@ -50,12 +29,12 @@ kernel void targets(const global uint2* links, const global wt_target_point* poi
     const uint number = row % args.points;
     const global wt_target_point* point = points + number;
     const double4 from = transmitters[link.x], to = receivers[link.y];
-    const uint blocked = !point->present || carries(point, from) || carries(point, to) ||
-                         !(seen_side(point, surfaces, from.xyz) & seen_side(point, surfaces, to.xyz));
+    const uint blocked = !point->present || wt_carries(point, from) || wt_carries(point, to) ||
+                         !(wt_seen_side(point, surfaces, from.xyz) & wt_seen_side(point, surfaces, to.xyz));
     uint slot = row;
     if (counts) {
       if (blocked) continue;
-      if (powers && is_weak(point, powers[number], args.floor, from.xyz, to.xyz)) {
+      if (powers && wt_is_weak_by(point, powers[number], args.floor, from.xyz, to.xyz)) {
         ++weak;
         continue;
       }
@@ -69,12 +48,10 @@ kernel void targets(const global uint2* links, const global wt_target_point* poi
     solved[slot].node = WT_NONE;
     solved[slot].quarters = WT_ALL_QUARTERS;
     const size_t at = (size_t)slot * args.max_depth;
-    vstore3((double3)(point->position[0], point->position[1], point->position[2]), at, vertices);
+    vstore3(wt_point_place(point), at, vertices);
     sequences[at] = WT_STEP_TARGET | number;
   }
-  if (weak == 0) return;
-  const uint before = atomic_add(counts + 1, weak);
-  if (before + weak < before) atomic_inc(counts + 2);
+  wt_count_weak(counts + 1, weak);
 }
 
 // A work-item takes one row of solve, whose receiver is a point: the point becomes its last vertex. keys: wt_point_key
@@ -89,27 +66,40 @@ kernel void target_rows(const global wt_target_point* points, const global doubl
   const uint number = solved[i].receiver, depth = solved[i].depth;
   const global wt_target_point* point = points + number;
   keys[i] = hidden;
-  if (solved[i].blocked || depth >= most_depth || !point->present || carries(point, ends[solved[i].transmitter]))
+  if (solved[i].blocked || depth >= most_depth || !point->present || wt_carries(point, ends[solved[i].transmitter]))
     return;
   const size_t at = (size_t)i * max_depth + depth;
-  const uint side = seen_side(point, surfaces, depth > 0 ? vload3(at - 1, vertices) : ends[solved[i].transmitter].xyz);
+  const uint side =
+      wt_seen_side(point, surfaces, depth > 0 ? vload3(at - 1, vertices) : ends[solved[i].transmitter].xyz);
   if (side == 0) return;
-  vstore3((double3)(point->position[0], point->position[1], point->position[2]), at, vertices);
+  vstore3(wt_point_place(point), at, vertices);
   sequences[at] = WT_STEP_TARGET | number;
   solved[i].depth = depth + 1;
   keys[i] = wt_point_key(number, side == 1);
 }
 
+// The body that the row's point of a target is a piece of, or WT_NONE.
+inline uint body_of_row(const global wt_target_point* points, const global uint* steps, uint depth) {
+  for (uint k = 0; k < depth; ++k) {
+    if ((steps[k] & WT_STEP_KIND) != WT_STEP_TARGET) continue;
+    const global wt_target_point* point = points + (steps[k] & ~WT_STEP_KIND);
+    return point->surface == WT_NONE ? WT_NONE : point->instance;
+  }
+  return WT_NONE;
+}
+
 // A work-item takes one row. Bodies that are targets themselves neither mirror waves nor scatter or diffract them in
-// other ways, since their facets send all of these: rows with such a step are marked as obstructed. is_body: not 0 for
-// each instance whose body is a target. wedges, surface_of_tile: null where steps name none; tiles from tile_count on
-// are cells of vegetation.
+// other ways, since their facets send all of these: rows with such a step are marked as obstructed, but for bounces of
+// target_bounces, whose mirrors are on the body of their piece. is_body: not 0 for each instance whose body is a
+// target. wedges, surface_of_tile: null where steps name none; tiles from tile_count on are cells of vegetation.
 kernel void target_bodies(const global wt_exact_surface* surfaces, const global wt_wedge* wedges,
-                          const global uint* surface_of_tile, const global uint* is_body, global wt_solved* solved,
-                          const global uint* sequences, const global wt_counters* counters, uint count,
-                          uint solved_counter, uint max_depth, uint tile_count) {
+                          const global uint* surface_of_tile, const global wt_target_point* points,
+                          const global uint* is_body, global wt_solved* solved, const global uint* sequences,
+                          const global wt_counters* counters, uint count, uint solved_counter, uint max_depth,
+                          uint tile_count) {
   const uint i = get_global_id(0);
   if (i >= wt_length(counters, solved_counter, count)) return;
+  const uint own = body_of_row(points, sequences + (size_t)i * max_depth, solved[i].depth);
   for (uint k = 0; k < solved[i].depth; ++k) {
     const uint step = sequences[(size_t)i * max_depth + k], number = step & ~WT_STEP_KIND, kind = step & WT_STEP_KIND;
     uint instance = WT_NONE;
@@ -117,6 +107,7 @@ kernel void target_bodies(const global wt_exact_surface* surfaces, const global 
     if (kind == WT_STEP_DIFFRACTION && wedges) instance = wedges[number].instance;
     if (kind == WT_STEP_SCATTERING && surface_of_tile && number < tile_count)
       instance = surfaces[surface_of_tile[number]].instance;
+    if (kind == WT_STEP_REFLECTION && instance == own) continue;
     if (instance != WT_NONE && is_body[instance]) solved[i].blocked = 1;
   }
 }

@@ -54,12 +54,12 @@ TEST_CASE("targets: models that there are not, and what targets do not go with")
   check_contains(error("trace.target_diffraction = true\ntrace.target_reflections = 1\n"),
                  "trace.target_diffraction = true needs trace.diffraction = true");
   const std::string body = "[[target_model]]\nname = \"b\"\nkind = \"body\"\non = \"*\"\n";
-  check_contains(error_of(scene +
-                          "trace.diffraction = true\ntrace.target_diffraction = true\n"
-                          "trace.target_reflections = 1\n" +
-                          ends + body),
-                 "trace.target_diffraction = true does not go with [[target_model]] \"b\"");
-  check_contains(error_of(scene + ends + "[[target_model]]\nname = \"b\"\nkind = \"body\"\n"), "and no on");
+  CHECK(error_of(scene +
+                 "trace.diffraction = true\ntrace.target_diffraction = true\n"
+                 "trace.target_reflections = 1\n" +
+                 ends + body) == "no error");
+  check_contains(error_of(scene + ends + "[[target_model]]\nname = \"b\"\nkind = \"body\"\n"),
+                 "and no on, and no [[target]] has it");
   const std::string edges = "trace.diffraction = true\ntrace.edge_rays = 100\ntrace.target_reflections = 1\n";
   check_contains(error(edges), "trace.edge_rays = 100 does not go with trace.target_reflections = 1");
   for (const std::string keys :
@@ -69,7 +69,7 @@ TEST_CASE("targets: models that there are not, and what targets do not go with")
   }
 }
 
-TEST_CASE("parts of targets: keys of their kinds, axes, models that there are not, and live vehicles") {
+TEST_CASE("parts of targets: keys of their kinds, axes, and models that there are not") {
   const auto error = [&](const std::string& keys, const std::string& of = "car") {
     return error_of(scene + ends + model("kind = \"vehicle\"") + "[[target_part]]\nmodel = \"" + of +
                     "\"\npivot_m = [1, 0.8, 0.3]\nrcs_dbsm = -15\n" + keys + "\n");
@@ -100,7 +100,16 @@ TEST_CASE("bodies as targets: keys that they do not have, pieces, and places wit
   check_contains(error("kind = \"body\"\nbistatic_db = [1, 1, 1]"), "remove bistatic_db");
   check_contains(error("kind = \"body\"\npiece_m = 0"), "piece_m");
   check_contains(error("kind = \"agv\"\npiece_m = 0.1"), "has kind = \"agv\" and piece_m, which only a body has");
-  check_contains(error_of(scene + ends + model("kind = \"body\"") + at("car")), "but a [[target]] has no body");
+  check_contains(error_of(scene + ends + model("kind = \"body\"") + at("car")),
+                 "has no vehicle_type, whose body would");
+  CHECK(error_of(scene + ends + model("kind = \"body\"") + at("car") + "vehicle_type = \"lorry\"\n") == "no error");
+  const std::string bounces = "kind = \"body\"\non = \"passenger\"\nbounces = ";
+  CHECK(error(bounces + "3") == "no error");
+  check_contains(error(bounces + "4"), "bounces");
+  check_contains(error(bounces + "0"), "bounces");
+  check_contains(error("kind = \"agv\"\nbounces = 1"), "has kind = \"agv\" and bounces, which only a body has");
+  check_contains(error_of(scene + "trace.max_depth = 1\n" + ends + model(bounces + "2")),
+                 "has bounces = 2, but paths have at most trace.max_depth = 1 interactions");
   const std::string floor = "trace.target_floor_db = -150\n";
   check_contains(error_of(scene + floor + ends), "trace.target_floor_db = -150 leaves out paths over targets");
   CHECK(error_of(scene + floor + ends + model("kind = \"agv\"") + at("car")) == "no error");

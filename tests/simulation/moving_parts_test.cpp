@@ -10,6 +10,7 @@
 #include "simulation/radar_world.hpp"
 #include "simulation/target_parts.hpp"
 #include "wavetracer/error.hpp"
+#include "wavetracer/live.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -181,4 +182,63 @@ TEST_CASE("wheels do not slip: the lowest point rests, the highest is twice as f
       CHECK(rolls_m_s == doctest::Approx(angle > 0 ? -centre_m_s : centre_m_s));
     }
   }
+}
+
+// A car that goes straight on at 12 m/s, driven and live.
+TEST_CASE("wheels of a live vehicle turn as those of a drive: by the frames that were sent, or by the way it tells") {
+  const SceneFile file(far_plate);
+  Config drive = world_of(file, {{0, 10, 1, 0}, {3, 46, 1, 0}});
+  drive.tracks.resize(1);
+  drive.target_models.resize(1);
+  drive.target_parts.resize(2);
+  drive.time = {0, 3, 0.25};
+  Config config = drive;
+  config.tracks.clear();
+  config.time = {};
+  config.live_vehicles = {{.type = "passenger", .count = 1}};
+  config.live.margin_m = 600;
+  Simulation driven(drive), live(config);
+  const auto pose = [](double time_s) -> LivePose {
+    LivePose out;
+    out.id = "car";
+    out.type = "passenger";
+    out.position_m = {10 + 12 * time_s, 1, 0};
+    return out;
+  };
+  const auto compare = [&](const Paths& found, double time_s, bool shifts) {
+    const Paths wanted = driven.run_frame(static_cast<uint32_t>(std::lround(time_s / 0.25))).paths;
+    const auto a = rows_of(found), b = rows_of(wanted);
+    CAPTURE(time_s);
+    REQUIRE(b.size() == 13);  // the car's own point and six of each wheel
+    REQUIRE(a.size() == b.size());
+    for (const auto& [key, i] : a) {
+      CHECK(std::abs(found.delay_s[i] - wanted.delay_s[b.at(key)]) < 1e-16);
+      if (shifts) CHECK(std::abs(found.doppler_hz[i] - wanted.doppler_hz[b.at(key)]) < 1e-4);
+    }
+  };
+  LiveTraffic traffic;
+  for (const double time_s : {0.0, 0.5, 1.0, 2.5})
+    compare(live.run_poses(traffic, time_s, {{pose(time_s)}}).result.paths, time_s, time_s > 0);
+  for (const double time_s : {1.25, 2.0, 2.5}) compare(live.run_between(traffic, time_s).result.paths, time_s, true);
+
+  // Another source of poses begins late, and says how far its car has gone.
+  LiveTraffic late;
+  for (const double time_s : {1.5, 2.0, 3.0}) {
+    LivePose told = pose(time_s);
+    told.travelled_m = 12 * time_s;
+    compare(live.run_poses(late, time_s, {{told}}).result.paths, time_s, time_s > 1.5);
+  }
+  LivePose wrong = pose(3.5);
+  wrong.travelled_m = 1e10;
+  CHECK_THROWS_WITH_AS(live.run_poses(late, 3.5, {{wrong}}),
+                       "vehicle \"car\": travelled_m is 10000000000, beyond 1000000000 m", PoseError);
+
+  // A jump does not turn the wheels: after it they are as they were, and the car is elsewhere.
+  LiveTraffic jumping;
+  live.run_poses(jumping, 0, {{pose(0)}});
+  live.run_poses(jumping, 0.5, {{pose(0.5)}});
+  const glm::dvec3 way_m = jumping.vehicles.at("car").way_m;
+  live.run_poses(jumping, 0.6, {{pose(40)}});
+  CHECK(jumping.vehicles.at("car").way_m == way_m);
+  CHECK(way_m.x == doctest::Approx(6).epsilon(1e-12));
 }

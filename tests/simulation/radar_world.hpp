@@ -26,7 +26,8 @@ inline void add_target(Config& config, TargetModelConfig model, const glm::dvec3
   config.targets.push_back({.name = "target" + std::to_string(config.targets.size()),
                             .model = model.name,
                             .position_m = {at.x, at.y, at.z},
-                            .orientation_deg = turned});
+                            .orientation_deg = turned,
+                            .vehicle_type = {}});
   config.target_models.push_back(model);
 }
 

@@ -84,8 +84,8 @@ inline wt_uint wt_pass_surfaces(const wt_field_world* world, const wt_path* path
 #if WT_TARGETS
     if ((step & WT_STEP_KIND) == WT_STEP_TARGET) {
       wave->section_m = length_m - wave->since_m;
-      const wt_wave_map point = wt_wave_of_point(world, step & ~WT_STEP_KIND, leg.direction, wave->leg.direction,
-                                                 wave->since_m, length_m - wave->since_m);
+      const wt_wave_map point =
+          wt_wave_of_point(world, path, k, leg.direction, wave->leg.direction, wave->since_m, length_m - wave->since_m);
       wt_map(&wave->transfer, point.from, point.to, point.matrix);
       wave->spread = 1.0 / (wave->since_m * (length_m - wave->since_m));
       continue;

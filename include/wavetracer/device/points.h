@@ -70,4 +70,24 @@ typedef struct {
   wt_uint padding;
 } wt_targets_arguments;
 
+// The most facets in a chain of bounces within a body: all but one are mirrors, and one scatters.
+#define WT_MOST_BOUNCES 3u
+
+// A chain of bounces (kernels/paths/target_bounces.cl): mirrors of a body, in their order from an end, and the piece of
+// it that scatters after them.
+typedef struct {
+  wt_uint point;       // the piece: a point of a target
+  wt_uint count;       // the number of mirrors
+  wt_uint mirrors[2];  // surfaces of the world
+} wt_target_bounce;
+
+typedef struct {
+  double floor;  // paths that are surely weaker are left out; only with powers of points
+  wt_ulong first_row, end_row;
+  wt_uint bounces;  // the number of chains
+  wt_uint rows_per_item;
+  wt_uint max_depth;  // vertices that a row has room for
+  wt_uint capacity;
+} wt_target_bounces_arguments;
+
 #endif

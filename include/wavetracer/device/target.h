@@ -70,12 +70,13 @@ inline double wt_cross_section(const WT_GLOBAL wt_target_law* law, const WT_GLOB
   return section_db;
 }
 
-// The wave that point `number` sends on: the amplitude is sqrt(section / 4 pi), in metres as in wt_scatter. Both bases
-// belong to directions away from the point, so the matrix is the same for the way back (eq. 7.9.2-5 without random
-// phases). before_m, after_m: the lengths of the path on both sides of the point. Another kind of point, with a matrix
-// of its own, is another branch here.
-inline wt_wave_map wt_wave_of_point(const wt_field_world* world, wt_uint number, wt_double3 k_in, wt_double3 k_out,
-                                    double before_m, double after_m) {
+// The wave that the point at vertex k of the path sends on: the amplitude is sqrt(section / 4 pi), in metres as in
+// wt_scatter. Both bases belong to directions away from the point, so the matrix is the same for the way back (eq.
+// 7.9.2-5 without random phases). before_m, after_m: the lengths of the path on both sides of the point. Another kind
+// of point, with a matrix of its own, is another branch here.
+inline wt_wave_map wt_wave_of_point(const wt_field_world* world, const wt_path* path, wt_uint k, wt_double3 k_in,
+                                    wt_double3 k_out, double before_m, double after_m) {
+  const wt_uint number = wt_number(path, k);
   const WT_GLOBAL wt_target_point* point = world->targets + number;
   const WT_GLOBAL wt_target_law* law = world->laws + point->law;
   wt_wave_map wave;
@@ -83,8 +84,9 @@ inline wt_wave_map wt_wave_of_point(const wt_field_world* world, wt_uint number,
   wave.to = wt_target_basis(point->rotation, k_out);
 #if WT_FACETS
   if (law->lobe_count == WT_FACET_LAW) {
-    wave.matrix = wt_facet_wave(world, point, world->facets + law->first_lobe, k_in, k_out, before_m, after_m,
-                                wave.from, wave.to);
+    const wt_beside_facet beside = wt_beside_piece(world, path, k, before_m, after_m);
+    wave.matrix =
+        wt_facet_wave(world, point, world->facets + law->first_lobe, k_in, k_out, &beside, wave.from, wave.to);
     return wave;
   }
 #endif
