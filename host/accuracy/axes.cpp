@@ -32,10 +32,15 @@ std::set<uint64_t> ray_steps(std::optional<uint64_t> own, study::RayRange range)
   return steps;
 }
 
-// Beams take the place of the reference of rays. Then all other settings of the axis must ask for rays.
+// Settings of numbers of rays need rays.
+void ask_for_rays(std::vector<Setting>& settings) {
+  for (Setting& setting : settings) setting.keys.push_back("trace.discovery=rays");
+}
+
+// Beams take the place of the reference of rays.
 void certify_axis(Axis& axis) {
   axis.reference = {"rays", "beams", {"trace.discovery=beams"}};
-  for (Setting& setting : axis.settings) setting.keys.push_back("trace.discovery=rays");
+  ask_for_rays(axis.settings);
 }
 
 Axis ray_axis(const Config& own, bool drive, study::RayRange range) {
@@ -133,17 +138,17 @@ bool beams_are_cheap(const Config& config) {
   constexpr uint32_t few_reflections = 6;
   const TraceConfig& trace = config.trace;
   const bool reflections_alone = !trace.diffraction && !trace.transmission && !trace.scattering;
-  Config by_beams = config;
-  by_beams.trace.discovery = "beams";
-  const bool needs_rays = std::ranges::any_of(config::contradictions(by_beams), [](const config::Contradiction& found) {
-    return std::ranges::find(found.keys, "trace.discovery") != found.keys.end();
-  });
-  return reflections_alone && trace.max_depth <= few_reflections && !needs_rays;
+  return reflections_alone && trace.max_depth <= few_reflections && !config::needs_rays(config);
 }
 
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify) {
   std::vector<Axis> all = {ray_axis(own, drive, rays), depth_axis(own)};
-  if (certify || own.trace.by_beams()) certify_axis(all.front());
+  if (certify || own.trace.by_beams()) {
+    certify_axis(all.front());
+  } else if (own.trace.discovery == "auto") {
+    all.front().reference.keys.push_back("trace.discovery=rays");
+    ask_for_rays(all.front().settings);
+  }
   if (const auto listeners = listener_axis(own)) all.push_back(*listeners);
   if (const auto edges = edge_axis(own)) all.push_back(*edges);
   const size_t mechanisms_from = all.size();

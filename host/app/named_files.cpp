@@ -57,7 +57,9 @@ void check_inputs(const Config& config) {
 }
 
 std::string launch_in_words(const TraceConfig& trace) {
-  return trace.by_beams() ? "beams" : fmt::format("{} rays", trace.rays ? grouped(*trace.rays) : "auto");
+  if (trace.by_beams()) return "beams";
+  return fmt::format("{}{} rays", trace.discovery == "auto" ? "beams or " : "",
+                     trace.rays ? grouped(*trace.rays) : "auto");
 }
 
 void check_output_folder(const fs::path& folder) {

@@ -12,7 +12,8 @@ namespace wavetracer::app {
 // parsed, and that both have the same streets. Throws InputError or ConfigError.
 void check_inputs(const Config& config);
 
-// Returns what an end sends out in search of paths: a number of rays, "auto rays", or "beams".
+// Returns what an end sends out in search of paths: a number of rays, "auto rays", "beams", or both
+// where the choice waits for the scene.
 std::string launch_in_words(const TraceConfig& trace);
 
 // Checks that the folder, or its nearest existing ancestor, can be written to. Throws RuntimeError.

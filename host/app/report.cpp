@@ -82,6 +82,7 @@ std::string feature_line(const Run& run) {
     if (kind.code == scattering) features.emplace_back("scattering_reflections", trace.reflects_scattered());
   }
   for (const char* loss : {"vegetation", "air"}) features.emplace_back(loss, false);
+  features.emplace_back("beams", trace.discovery == "auto");
   std::string on, off;
   for (const auto& [key, asked] : features) {
     const auto found = run.summary.features.find(key);
@@ -183,14 +184,13 @@ std::string certificate_line(const Totals& totals) {
 // Says what tracing did, for users who tune it.
 std::string tracing_lines(const Run& run, const Totals& totals) {
   const FrameCounts& n = totals.counts;
-  const uint64_t traced = traced_segments(totals);
   std::string rate;
   if (const double per_second = segments_per_second(totals); per_second > 0)
     rate = fmt::format(", {}rays/s while tracing", short_number(per_second));
   const std::string order = run.summary.order.reason.empty() ? "" : "order      " + run.summary.order.reason + "\n";
   return order +
-         fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", grouped(n.rays), grouped(traced),
-                     grouped(n.hits), rate) +
+         fmt::format("rays       {} launched, {} traced over all depths, {} hits{}\n", grouped(n.rays),
+                     grouped(traced_segments(totals)), grouped(n.hits), rate) +
          cache_line(totals.cache) + sequence_line(run, n);
 }
 

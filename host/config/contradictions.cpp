@@ -106,14 +106,16 @@ void check_discoveries(const Config& config, Found& out) {
 }
 
 // Beams find sequences without rays, so nothing can be taken from rays.
+std::vector<RayTaker> refused_by_beams(const Config& config) {
+  std::vector<RayTaker> out = takers_of_rays(config);
+  if (const double s = config.trace.discover_every_s; s > 0)
+    out.push_back({"trace.discover_every_s", fmt::format("trace.discover_every_s = {} spares frames their rays", s)});
+  return out;
+}
+
 void check_beams(const Config& config, Found& out) {
-  const TraceConfig& trace = config.trace;
-  if (!trace.by_beams()) return;
-  std::vector<RayTaker> takers = takers_of_rays(config);
-  if (trace.discover_every_s > 0)
-    takers.push_back({"trace.discover_every_s",
-                      fmt::format("trace.discover_every_s = {} spares frames their rays", trace.discover_every_s)});
-  for (const RayTaker& taker : takers)
+  if (!config.trace.by_beams()) return;
+  for (const RayTaker& taker : refused_by_beams(config))
     out.push_back({{"trace.discovery", taker.key},
                    fmt::format("trace.discovery = \"beams\" launches no rays, but {}: "
                                "remove {}, or use trace.discovery = \"rays\"",
@@ -253,6 +255,10 @@ void check_ends(const Config& config, Found& out) {
 }
 
 }  // namespace
+
+bool needs_rays(const Config& config) {
+  return !refused_by_beams(config).empty() || edge_rays_of(config, config.trace) > 0;
+}
 
 std::vector<Contradiction> contradictions(const Config& config) {
   Found out;

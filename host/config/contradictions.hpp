@@ -17,6 +17,9 @@ struct Contradiction {
 
 std::vector<Contradiction> contradictions(const Config& config);
 
+// Does something need rays, so that trace.discovery = "beams" is refused?
+bool needs_rays(const Config& config);
+
 // Defined in table_checks.cpp: checks of arrays and several carriers, of vehicles and the time of their drive, of air
 // and places, of materials.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);

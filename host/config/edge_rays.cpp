@@ -28,8 +28,7 @@ struct Obstacle {
 
 // Listeners know only the edges that transmitters see and the surfaces that rays reflect from, so paths over two edges,
 // through walls and by tiles that only receivers see would be lost.
-std::vector<Obstacle> obstacles(const Config& config) {
-  const TraceConfig& trace = config.trace;
+std::vector<Obstacle> obstacles(const Config& config, const TraceConfig& trace) {
   std::vector<Obstacle> out;
   if (trace.max_diffractions > 1)
     out.push_back({"trace.max_diffractions", std::to_string(trace.max_diffractions), "allow one diffraction"});
@@ -46,19 +45,18 @@ std::vector<Obstacle> obstacles(const Config& config) {
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.diffraction || trace.edge_rays.value_or(0) == 0) return;
-  for (const Obstacle& obstacle : obstacles(config))
+  for (const Obstacle& obstacle : obstacles(config, trace))
     out.push_back({{"trace.edge_rays", obstacle.key},
                    fmt::format("trace.edge_rays = {} does not go with {} = {}: give trace.edge_rays = 0, so that "
                                "receivers launch rays, or {}",
                                *trace.edge_rays, obstacle.key, obstacle.value, obstacle.instead)});
 }
 
-uint64_t edge_rays_of(const Config& config) {
-  const TraceConfig& trace = config.trace;
+uint64_t edge_rays_of(const Config& config, const TraceConfig& trace) {
   if (trace.edge_rays) return *trace.edge_rays;
   if (!trace.diffraction || trace.by_spheres() || trace.diffraction_rays) return 0;
   const bool many = listeners(config) > many_listeners;
-  return many && !trace.reflects_echoes() && obstacles(config).empty() ? automatic_edge_rays : 0;
+  return many && !trace.reflects_echoes() && obstacles(config, trace).empty() ? automatic_edge_rays : 0;
 }
 
 }  // namespace wavetracer::config

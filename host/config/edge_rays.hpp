@@ -14,8 +14,8 @@ void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
 
 // Returns the number of rays from each edge in a world in which nothing moves: trace.edge_rays, or with "auto"
 // automatic_edge_rays where there are more receivers than many_listeners that do not transmit, and 0 elsewhere. config:
-// with all ends of the world.
-uint64_t edge_rays_of(const Config& config);
+// with all ends of the world. trace: [trace] of it, without what the scene does not need.
+uint64_t edge_rays_of(const Config& config, const TraceConfig& trace);
 
 // With so many the map of docs/scenarios.md misses 1.8 10^-4 of its power.
 inline constexpr uint64_t automatic_edge_rays = 3000;

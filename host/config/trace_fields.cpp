@@ -19,7 +19,10 @@ Table trace_table() {
                "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
                "the keys about rays, such as trace.rays; with trace.reuse, frames keep what ends that stand see of "
                "surfaces that stand. With trace.transmission they follow waves through up to trace.max_transmissions surfaces, which takes "
-               "some times as long."},
+               "some times as long. auto: beams for one frame of at most 4,000 surfaces in which nothing moves, with "
+               "trace.max_depth of at most 6, without transmission, scattering and targets, and where nothing needs "
+               "rays; else rays. There the complete list takes a few times as long as a frame of the default number "
+               "of rays. summary.json says which was taken, and why (features.beams)."},
           {.name = "rays",
            .slot = t(&TraceConfig::rays),
            .unit = "rays per transmitter",

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "config/contradictions.hpp"
 #include "radio/cells.hpp"
 #include "radio/material.hpp"
 #include "radio/opacity.hpp"
@@ -74,9 +75,28 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
           {target_point, {{world.targets.empty(), "no vehicle and no place is a target ([[target_model]])"}}}};
 }
 
+// Beams, if trace.discovery asks for them or leaves the choice. Reasons are about what is known before any ray is
+// launched, so each run of a configuration makes the same choice, on every device.
+Feature beams(const Config& config, const Scene& scene, const World& world, bool frames_follow) {
+  const TraceConfig& trace = config.trace;
+  if (trace.by_beams()) return {true, {}};
+  const bool one_frame = world.clock.frame_count() == 1 && !frames_follow;
+  return feature({{trace.discovery == "rays", "trace.discovery = \"rays\""},
+                  {config::needs_rays(config), "the configuration asks for what needs rays"},
+                  {!world.resting || !world.fleet.instances.empty(), "vehicles are followed by rays"},
+                  {!one_frame, "frames follow each other, and reuse what rays have found"},
+                  {trace.transmission, "beams through walls take longer (trace.transmission)"},
+                  {trace.scattering, "trace.scattering = true"},
+                  {!world.targets.empty(), "there are targets"},
+                  {trace.max_depth > auto_beam_depth,
+                   fmt::format("trace.max_depth = {} is more than {}", trace.max_depth, auto_beam_depth)},
+                  {scene.surfaces.size() > auto_beam_surfaces,
+                   fmt::format("{} surfaces are more than {}", scene.surfaces.size(), auto_beam_surfaces)}});
+}
+
 }  // namespace
 
-Features choose_features(const Config& config, const Scene& scene, const World& world) {
+Features choose_features(const Config& config, const Scene& scene, const World& world, bool frames_follow) {
   check_materials(config, scene, world);
   const TraceConfig& trace = config.trace;
   auto needed = needs(config, scene, world);
@@ -106,6 +126,7 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   const AirConfig& air = config.air;
   out["air"] = feature({{!air.gases && air.fog_g_m3 == 0 && air.rain_mm_h == 0,
                          "air.gases = false, air.fog_g_m3 = 0 and air.rain_mm_h = 0"}});
+  out["beams"] = beams(config, scene, world, frames_follow);
   return out;
 }
 
@@ -115,6 +136,7 @@ TraceConfig with_features(TraceConfig trace, const Features& features) {
   if (!features.at("scattering_reflections").on) trace.scattering_reflections = 0;
   if (!features.at("target_reflections").on) trace.target_reflections = 0;
   trace.target_diffraction = features.at("target_diffraction").on;
+  trace.discovery = features.at("beams").on ? DiscoveryWay("beams") : DiscoveryWay("rays");
   return trace;
 }
 

@@ -197,8 +197,9 @@ constexpr bool along_curve(Directions directions) { return directions == "horizo
 constexpr bool at_random(Directions directions) { return directions == "random"; }
 
 using Reception = Choice<"exact", "sphere">;
-// The way that sequences are found: sampled by rays, or followed by beams, which miss none.
-using DiscoveryWay = Choice<"rays", "beams">;
+// The way that sequences are found: sampled by rays, or followed by beams, which miss none. "auto" becomes one of them
+// when the scene is known (host/simulation/feature_choice.hpp).
+using DiscoveryWay = Choice<"rays", "beams", "auto">;
 
 struct TraceConfig {
   DiscoveryWay discovery = "rays";

@@ -149,6 +149,17 @@ TEST_CASE("one axis at a time: steps of rays with the user's own, depths to one 
   }
 }
 
+TEST_CASE("numbers of rays are compared by rays where the scene would choose beams") {
+  Config own;
+  own.trace.discovery = "auto";
+  const std::vector<Axis> either = axes(own, false, default_rays);
+  REQUIRE(either.size() > 2);
+  CHECK(either[0].reference.keys.back() == "trace.discovery=rays");
+  for (const Setting& setting : either[0].settings) CHECK(setting.keys.back() == "trace.discovery=rays");
+  CHECK(either[1].reference.keys.size() == 1);
+  CHECK(axes(own, false, default_rays, true)[0].reference.keys == std::vector<std::string>{"trace.discovery=beams"});
+}
+
 TEST_CASE("frames lie in the middles of equal parts of a drive; a short one has all of them") {
   CHECK(spread_frames(11, 5) == std::vector<uint32_t>{1, 3, 5, 7, 9});
   CHECK(spread_frames(1, 5) == std::vector<uint32_t>{0});

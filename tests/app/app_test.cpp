@@ -186,6 +186,8 @@ TEST_CASE("init, then validate") {
   CHECK(contains(validate.out, "; 200,000 rays per transmitter, depth 5"));
   const Outcome beams = run_program({"validate", "-c", file, "--set", "trace.discovery=beams"});
   CHECK(contains(beams.out, "; beams per transmitter, depth 5"));
+  const Outcome either = run_program({"validate", "-c", file, "--set", "trace.discovery=auto"});
+  CHECK(contains(either.out, "; beams or 200,000 rays per transmitter, depth 5"));
   for (const char* line : {"\nkind = \"none\"\n", "\nhit_point = \"own\"\n", "\nwaypoints = 0\n"})
     CHECK(contains(init.out, line));
 }

@@ -49,6 +49,12 @@ TEST_CASE("the report names what was computed, and why not what was asked for be
   CHECK(contains(report(), "\nfeatures   reflection, diffraction, double diffraction\n"));
   run.summary.features["air"] = {true, {}};
   CHECK(contains(report(), "\nfeatures   reflection, diffraction, double diffraction, air\n"));
+  run.summary.features["beams"] = {false, "there are targets"};
+  CHECK(contains(report(), ", double diffraction, air\n"));
+  sample.config.trace.discovery = "auto";
+  CHECK(contains(report(), ", double diffraction, air; no beams: there are targets\n"));
+  run.summary.features["beams"] = {true, {}};
+  CHECK(contains(report(), ", double diffraction, air, beams\n"));
   sample.config.trace.reflection = false;
   run.summary.features = {{"reflection", {false, "trace.reflection = false"}}};
   CHECK(contains(report(), "\nfeatures   line of sight alone\n"));

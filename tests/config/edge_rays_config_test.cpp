@@ -38,7 +38,7 @@ TEST_CASE("with \"auto\" rays start at edges where many receivers do not transmi
     config.receivers.resize(receivers);
     for (uint32_t i = 0; i < receivers; ++i) config.receivers[i].name = "cell " + std::to_string(i);
     config.receivers[0].name = "t";  // the transmitter
-    return config::edge_rays_of(config);
+    return config::edge_rays_of(config, config.trace);
   };
   const std::string on = "trace.diffraction = true\n";
   CHECK(rays(on, 1002) == config::automatic_edge_rays);

@@ -235,6 +235,7 @@ TEST_CASE("discovery by beams is refused where something needs rays") {
     CAPTURE(line);
     check_contains(error_of(beams + line + "\n" + ends), "trace.discovery = \"beams\" launches no rays, but " + words);
     CHECK(error_of(scene + line + "\n" + ends) == "no error");
+    CHECK(error_of(scene + "trace.discovery = \"auto\"\n" + line + "\n" + ends) == "no error");  // it takes rays
   };
   refused("trace.reception = \"sphere\"",
           "trace.reception = \"sphere\" takes its paths from the rays of the frame: remove trace.reception, or use");
@@ -247,9 +248,10 @@ TEST_CASE("discovery by beams is refused where something needs rays") {
 TEST_CASE("a floor is refused without beams, and where edges or rough surfaces send waves") {
   const std::string floor = "trace.floor_db = -140\n", beams = scene + "trace.discovery = \"beams\"\n" + floor;
   CHECK(error_of(beams + "trace.max_depth = 64\ntrace.transmission = true\n" + ends) == "no error");
-  check_contains(error_of(scene + floor + ends),
-                 "trace.floor_db = -140 leaves out beams that are too weak, but rays are not left out: remove "
-                 "trace.floor_db, or use trace.discovery = \"beams\"");
+  for (const char* other : {"", "trace.discovery = \"auto\"\n"})
+    check_contains(error_of(scene + other + floor + ends),
+                   "trace.floor_db = -140 leaves out beams that are too weak, but rays are not left out: remove "
+                   "trace.floor_db, or use trace.discovery = \"beams\"");
   check_contains(error_of(beams + "trace.diffraction = true\n" + ends),
                  "trace.floor_db = -140 says nothing of the power of waves that an edge diffracts: remove");
   check_contains(error_of(beams + "trace.scattering = true\n" + ends),

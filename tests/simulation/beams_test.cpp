@@ -5,7 +5,10 @@
 #include <set>
 
 #include "passes/triangles.hpp"
+#include "scene/load.hpp"
 #include "simulation/drive.hpp"
+#include "simulation/feature_choice.hpp"
+#include "simulation/world.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -127,4 +130,44 @@ TEST_CASE("beams to a depth of none: the direct paths alone") {
   CHECK(direct.certificate.depth == 0);
   CHECK(direct.certificate.left_out_sr == 0);
   for (const uint32_t depth : direct.paths.depth) CHECK(depth == 0);
+}
+
+TEST_CASE("discovery \"auto\" takes beams for one frame of a small scene at rest, and else rays with a reason") {
+  const SceneFile file(houses());
+  Config config = config_of(file.path(), before, behind, 20000, 3);
+  config.trace.discovery = "auto";
+  const auto reason = [](const Config& other) { return Simulation(other).features().at("beams").reason; };
+  Simulation by_choice(config);
+  const FrameResult found = by_choice.run_frame(0);
+  CHECK(by_choice.features().at("beams").on);
+  CHECK(found.certificate.frames == 1);
+  CHECK(found.counts.rays == 0);
+  CHECK(identical(found.paths, run(by_beams(config)).paths));
+  config.trace.diffraction = true;  // from both ends
+  CHECK(run(config).certificate.edges == 1);
+  config.trace.diffraction = false;
+  config.trace.discovery = "rays";
+  CHECK(reason(config) == "trace.discovery = \"rays\"");
+
+  config.trace.discovery = "auto";
+  Config deep = config, passing = config, with_rays = config, drive = config;
+  deep.trace.max_depth = auto_beam_depth + 1;
+  passing.trace.transmission = true;
+  with_rays.output.waypoints = 3;
+  add_vehicles(drive, {{"a", "passenger", {-20.3, -3.1, 0}, {9.7, 0.4, 0}, 0, 1}}, 0.5);
+  CHECK(reason(deep) == "trace.max_depth = 7 is more than 6");
+  CHECK(reason(passing) == "beams through walls take longer (trace.transmission)");
+  CHECK(reason(with_rays) == "the configuration asks for what needs rays");
+  CHECK(reason(drive) == "vehicles are followed by rays");
+  Scene scene = load_scene_file(file.path(), {});
+  const World world = make_world(config, scene);
+  CHECK(choose_features(config, scene, world, true).at("beams").reason ==
+        "frames follow each other, and reuse what rays have found");
+  scene.surfaces.resize(auto_beam_surfaces, scene.surfaces.front());
+  CHECK(choose_features(config, scene, world).at("beams").on);
+  scene.surfaces.push_back(scene.surfaces.front());
+  CHECK(choose_features(config, scene, world).at("beams").reason == "4001 surfaces are more than 4000");
+  const FrameResult rays = run(deep);
+  CHECK(rays.certificate.frames == 0);
+  CHECK(rays.counts.rays > 0);
 }
