@@ -28,6 +28,11 @@ void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
 void check_materials(const std::vector<MaterialConfig>& materials, std::vector<Contradiction>& out);
 
+// Defined in beam_checks.cpp: checks of frames that spare rays, of beams and of their floor.
+void check_discoveries(const Config& config, std::vector<Contradiction>& out);
+void check_beams(const Config& config, std::vector<Contradiction>& out);
+void check_floor(const Config& config, std::vector<Contradiction>& out);
+
 // Defined in target_checks.cpp.
 void check_targets(const Config& config, std::vector<Contradiction>& out);
 
