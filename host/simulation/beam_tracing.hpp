@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "passes/beam_gather.hpp"
@@ -58,6 +59,8 @@ class BeamTracing {
   BeamCounts find(const DeviceScene& scene, const BeamTask& task, Sequences& set);
   // Drops what is kept.
   void forget() { kept_.reset(); }
+  // Drops it, and keeps nothing from now on. Returns the warning for the frame that lacked memory.
+  std::string keep_nothing();
   // The device memory of what is kept, bytes.
   uint64_t kept_bytes() const { return kept_ ? kept_->bytes() : 0; }
 

@@ -63,9 +63,14 @@ FrameResult FrameLoop::run(FrameTask task) {
     forget();
     throw;
   } catch (const gpu::BufferError&) {
+    const bool keeps = s_.beams && s_.beams->kept_bytes() > 0;
     forget();
-    throw;
+    if (!keeps) throw;
   }
+  const std::string warning = s_.beams->keep_nothing();  // its memory may serve the frame
+  FrameResult out = run(std::move(task));
+  out.warnings.push_back(warning);
+  return out;
 }
 
 FrameResult FrameLoop::solve(FrameTask& task) {

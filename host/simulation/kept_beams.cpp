@@ -31,6 +31,13 @@ uint64_t BeamTracing::limit_bytes() const {
   return options_.most_kept_bytes.value_or(context_.info().global_memory / share_of_memory);
 }
 
+std::string BeamTracing::keep_nothing() {
+  kept_.reset();
+  options_.most_kept_bytes = 0;
+  return "a frame lacked memory on the device while the beams of ends that stand were kept: they are dropped, and this "
+         "frame and later ones follow them anew, which finds the same paths and takes longer";
+}
+
 // Receivers count only where paths may be too weak to reach them.
 BeamTracing::Key BeamTracing::key_of(const BeamTask& task) const {
   return {.roots = beam_roots(task.standing),
@@ -48,6 +55,7 @@ bool BeamTracing::restore(const Key& key, Sequences& set) {
 bool BeamTracing::find_static(const DeviceScene& scene, const BeamTask& task, Key key, Sequences& set) {
   if (restore(key, set)) return true;
   kept_.reset();
+  if (limit_bytes() == 0) return true;
   if (too_large_ && *too_large_ == key) return true;
   auto kept = std::make_unique<Kept>(Kept{.key = key});
   try {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beams of ends that stand are kept from frame to frame: a drive has the same paths and the same sequences as one whose
 // frames follow all beams anew, and no path of a large launch of rays is missing.
+#include <algorithm>
+
+#include "gpu/call_error.hpp"
 #include "passes/triangles.hpp"
 #include "simulation/beam_tracing.hpp"
 #include "simulation/drive.hpp"
+#include "simulation/frame.hpp"
+#include "simulation/setup.hpp"
 
 using namespace wavetracer;
 using namespace wavetracer::test;
@@ -100,6 +105,44 @@ TEST_CASE("beams that are kept serve batches of receivers and blocks of transmit
   }
   CHECK(in_blocks == whole.size());
   CHECK(identical(all.run_frame(2).paths, whole));
+}
+
+TEST_CASE("beams that are kept go when a frame lacks memory, and the frame is computed without them") {
+  const SceneFile file(street());
+  Setup setup = make_setup(drive(file, 2), "");
+  FrameLoop loop(setup);
+  int lacking = 0, poses = 0;
+  const auto frame = [&] {
+    return loop.run(FrameTask::of_drive({.frame = 2,
+                                         .pose =
+                                             [&] {
+                                               ++poses;
+                                               if (lacking-- > 0) throw gpu::BufferError("no memory");
+                                               return setup.plan->world.state(2);
+                                             },
+                                         .names = FrameNames::none()}));
+  };
+  const FrameResult before = frame();
+  CHECK(before.paths.size() > 20);
+  CHECK(setup.beams->kept_bytes() > 0);
+  lacking = 1;
+  poses = 0;
+  const FrameResult without = frame();
+  CHECK(poses == 2);
+  CHECK(identical(without.paths, before.paths));
+  const auto tells = [](const FrameResult& result) {
+    return std::ranges::any_of(result.warnings,
+                               [](const std::string& w) { return w.find("are dropped") != std::string::npos; });
+  };
+  CHECK(!tells(before));
+  CHECK(tells(without));
+  CHECK(setup.beams->kept_bytes() == 0);
+  const FrameResult after = frame();
+  CHECK(!tells(after));
+  CHECK(identical(after.paths, before.paths));
+  CHECK(setup.beams->kept_bytes() == 0);
+  lacking = 1;  // nothing is left to drop
+  CHECK_THROWS_AS(frame(), gpu::BufferError);
 }
 
 TEST_CASE("beams that are kept go when they do not fit, and the sequences stay the same") {
