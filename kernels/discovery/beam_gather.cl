@@ -171,6 +171,6 @@ kernel void beam_gather(const global wt_bvh2_node* nodes, const global wt_facet*
     else
       wt_descend(nodes, at.apex, at.view.n, &walk);
   }
-  if (args.outlooks) wt_store_outlook(&walk.planes, &walk.screens, outlooks + i);
+  if (args.outlooks) wt_store_outlook(&walk.planes, &walk.screens, at.reach, outlooks + i);
   if (lane == 0 && list.last < args.capacity) chunks[list.last] = (wt_chunk){i, list.first, WT_NONE, list.count};
 }

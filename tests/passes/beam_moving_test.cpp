@@ -39,6 +39,30 @@ wt_instance_box box_at(const glm::dvec3& centre, const glm::dvec3& half) {
 
 }  // namespace
 
+TEST_CASE("beam_moving: screens hide nothing beyond the reach that they were made for") {
+  const Sight& s = half_open;
+  const Scene scene = scene_of_triangles(wall(s));
+  const DeviceScene device = make_device_scene(context(), scene, false);
+  const BeamTree tree = make_beam_tree(context(), WorldFacets(scene, {}).fixed());
+  BeamLists lists(context());
+  const wt_aperture one = window(-0.5, 0, -0.2, 0.3);  // the wall fills it
+  lists.apertures = context().buffer(std::vector<wt_aperture>(2, one), "apertures");
+  KeptApertures kept{.apertures = context().buffer(std::vector<wt_aperture>(1, one), "apertures"),
+                     .outlooks = context().buffer<wt_outlook>(1, "outlooks"),
+                     .count = 1};
+  BeamGather(context(), tree.depth)(tree, device, lists, 0, 1, {.outlooks = &kept.outlooks}, 1 << 12);
+  const float reach = kept.outlooks.read_one(0, Stage::beam_gather).reach;
+  CHECK(reach > 7);
+  CHECK(reach < 30);
+  BeamMoving moving(context());
+  // Along a line that does not meet the diagonal between the wall's two halves.
+  for (const double x : {4.0, 6.0, 60.0, 6000.0}) {
+    CAPTURE(x);
+    moving.place({box_at(x * glm::dvec3(1, -0.4, 0.2), glm::dvec3(0.01))});
+    CHECK(moving(device, kept, lists, 1, 0) == (x < 10 ? 1 : 2));
+  }
+}
+
 TEST_CASE("beam_moving: an aperture is found if and only if a box may be seen from it") {
   // One facet per triangle: two surfaces hide the wall's halves, so boxes are small, and those on its diagonal are left
   // out below.

@@ -92,6 +92,8 @@ typedef struct {
   float nx[16], ny[16], nz[16], c[16];
   float screen_nx[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS], screen_ny[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS],
       screen_nz[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS], screen_c[WT_SCREEN_PLANES * WT_OUTLOOK_SCREENS];
+  float reach;  // screens surely hide only what is not farther from the image than this, m
+  wt_uint padding[3];
 } wt_outlook;
 
 // The box of an instance that is present, recentred coordinates, m.
