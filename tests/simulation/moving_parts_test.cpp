@@ -238,7 +238,7 @@ TEST_CASE("wheels of a live vehicle turn as those of a drive: by the frames that
   live.run_poses(jumping, 0, {{pose(0)}});
   live.run_poses(jumping, 0.5, {{pose(0.5)}});
   const glm::dvec3 way_m = jumping.vehicles.at("car").way_m;
-  live.run_poses(jumping, 0.6, {{pose(40)}});
+  live.run_poses(jumping, 0.6, {{pose(7.5)}});
   CHECK(jumping.vehicles.at("car").way_m == way_m);
   CHECK(way_m.x == doctest::Approx(6).epsilon(1e-12));
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wave that a piece of a body sends on by physical optics (facet.h), between the images of both ends. The piece is
 // cut into similar triangles until the phase over each of them is linear, so it may be near an end; its polarisation is
-// that of its middle. Physical optics is not reciprocal, so the matrix is the mean of those of both ways. Of bounces
-// within a body, one way has the mirrors before the piece, and the other one has them after it: each is one term of the
-// mean, in a path of its own.
+// that of its middle. Physical optics is not reciprocal, so the matrix is the mean of those of both ways. A wave that
+// bounces within a body has its mirrors before the piece on one way, and after it on the other one: each is one term of
+// the mean, in a path of its own.
 #ifndef WAVETRACER_DEVICE_TARGET_FACET_H
 #define WAVETRACER_DEVICE_TARGET_FACET_H
 #include "wavetracer/device/path_world.h"
@@ -31,9 +31,9 @@ typedef struct {
   double near_m;     // the distance of its point from the middle of the piece; 0 without an edge
 } wt_edge_by_facet;
 
-// The place that the wave on one side of a piece comes from or goes to, seen from the middle of the piece. Without an edge it is
-// the image of an end. With one it is the point on the edge, and the end is across_m and down_m beyond that, away from
-// the edge and along it: waves of an edge keep their angle with it.
+// The place that the wave on one side of a piece comes from or goes to, seen from the middle of the piece. Without an
+// edge it is the image of an end. With one it is the point on the edge, and the end is across_m and down_m beyond that,
+// away from the edge and along it: waves of an edge keep their angle with it.
 typedef struct {
   wt_double3 at, along;
   double across_m, down_m;
