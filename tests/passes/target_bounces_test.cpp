@@ -175,14 +175,14 @@ TEST_CASE("target_bounces: the rows of all chains from both ends, with exact poi
     CHECK(pass.weak() == weak);
     CHECK((floor > 0) == (weak > 0));
     REQUIRE(found.size() == wanted.size());
-    CHECK(wanted.size() > 40);
+    CHECK(wanted.size() > (floor > 0 ? 2 : 40));
     size_t twice = 0;
     for (const auto& [row, points] : wanted) {
       REQUIRE(found.contains(row));
       twice += points.size() == 3;
       for (size_t k = 0; k < points.size(); ++k) CHECK(glm::distance(points[k], found.at(row)[k]) < 1e-12);
     }
-    CHECK(twice > 5);
+    if (floor == 0) CHECK(twice > 5);
   }
 }
 
