@@ -82,6 +82,14 @@ TEST_CASE("hello, frame, at and bye") {
   CHECK(std::holds_alternative<Bye>(parse_message(R"({"message":"bye"})", 4)));
 }
 
+TEST_CASE("a vehicle may say how far it has gone, as a number") {
+  const auto asked = std::get<FrameMessage>(
+      parse_message(frame(vehicle(R"("position_m":[1,2,3],"yaw_deg":0,"travelled_m":-12.5)")), 4));
+  CHECK(asked.vehicles.at(0).travelled_m == -12.5);
+  CHECK(code_of(frame(vehicle(R"("position_m":[1,2,3],"yaw_deg":0,"travelled_m":[1,0,0])"))) == "bad_value");
+  CHECK(code_of(frame(vehicle(R"("position_m":[1,2,3],"yaw_deg":0,"travelled_m":1e300)"))) == "bad_value");
+}
+
 TEST_CASE("radars are asked for in hello, and in a frame or an instant in its place") {
   CHECK(hello_of_radar("detections").radar == RadarDetail::detections);
   CHECK(std::get<Hello>(parse_message(R"({"message":"hello","protocol":1})", 4)).radar == RadarDetail::none);
