@@ -87,6 +87,13 @@ void scatter(Config& config, uint32_t reflections) {
   config.trace.scattering_reflections = reflections;
 }
 
+void scatter_behind_edges(Config& config) {
+  scatter(config, 1);
+  config.trace.diffraction = true;
+  config.trace.scattering_diffraction = true;
+  config.trace.scattering_floor_db = -150;
+}
+
 // Adds a square of small targets around the first transmitter.
 void sense(Config& config) {
   constexpr int side = 10;
@@ -170,6 +177,7 @@ std::vector<FrameWorld> frame_worlds(const std::string& shared, uint64_t rays, s
   add("vegetation", plant);
   add("scattering", [](Config& c) { scatter(c, 0); });
   add("scattering by mirrors", [](Config& c) { scatter(c, 1); });
+  add("scattering behind edges", scatter_behind_edges);
   add("crowns", [](Config& c) {
     plant(c);
     MaterialConfig& leaves = c.materials.emplace_back();

@@ -45,7 +45,7 @@ double items_of(N n) {
   return n.items(kernel.text);
 }
 
-// Slots of the table of sequences, of which a work-item takes several.
+// Slots of the table of sequences, several for a work-item.
 template <Name kernel>
 double slots_of(N n) {
   return n.items(kernel.text) * n.tuning.slots.per_item;
@@ -55,7 +55,6 @@ template <Name kernel>
 double tries_of(N n) {
   return n.items(kernel.text) * n.tuning.points.per_item;
 }
-// Nodes, each of which several work-items take.
 double onlooking_nodes(N n) { return n.items("point_prefixes/onlookers") / n.tuning.onlooker_lanes; }
 // Prefixes with all points of targets, which the work-items of a prefix share.
 double points_of_prefixes(N n) {
@@ -63,6 +62,7 @@ double points_of_prefixes(N n) {
 }
 // Chains of facets of bodies with all links, from both ends, of which a work-item takes several.
 double bounced_chains(N n) { return n.items("target_bounces/target_bounces") * n.tuning.points.per_item; }
+double edges_of_tiles(N n) { return n.items("tile_edges/tile_edges") / n.tuning.join_lanes; }
 double blocks_of_rays(N n) { return std::ceil(segments(n) / n.tuning.block); }
 // The sequences that rays have met, where a work-item or several take one.
 template <Name kernel>
@@ -194,6 +194,17 @@ constexpr KernelCost costs[] = {
     {"point_prefixes/place_points", "scattering by mirrors", "prefixes", items_of<"point_prefixes/place_points">,
      always<sizeof(wt_solved) + sizeof(wt_point_prefix) + 3 * sizeof(double)>, always<9>, true},
     {"point_join/point_join", "scattering by mirrors", "paths", path_rows, solved_bytes, nothing},
+    {"point_floors/point_floors", "scattering behind edges", "tiles", items_of<"point_floors/point_floors">, always<72>,
+     always<16>},
+    {"tile_edges/place_tiles", "scattering behind edges", "tiles", items_of<"tile_edges/place_tiles">,
+     always<8 * sizeof(double) + 3 * sizeof(uint32_t)>, always<9>, true},
+    {"tile_edges/tile_balls", "scattering behind edges", "balls", items_of<"tile_edges/tile_balls">,
+     always<WT_TILE_BALL*(sizeof(uint32_t) + 2 * sizeof(float)) + sizeof(wt_tile_ball)>, nothing},
+    {"tile_edges/group_balls", "scattering behind edges", "groups", items_of<"tile_edges/group_balls">, always<24>,
+     nothing},
+    {"tile_edges/tile_edges", "scattering behind edges", "prefixes of edges", edges_of_tiles, nothing, always<60>},
+    {"tile_edges/tile_rows", "scattering behind edges", "ways to tiles", items_of<"tile_edges/tile_rows">,
+     always<sizeof(wt_solved) + 6 * sizeof(double) + sizeof(uint32_t)>, nothing, true},
     {"crowns/crowns", "crowns", "cells of links", joined, scatter_bytes, nothing},
     {"grazed_faces/grazed_faces", "diffraction", "sequences", met_by<"grazed_faces/grazed_faces">, always<12>,
      mirror_operations, true},

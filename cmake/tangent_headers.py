@@ -45,6 +45,7 @@ def copied(name, text):
     text = re.sub(r"\bdouble\b", "Tangent", text).replace("@", "double")
     # Paths over targets have no derivatives.
     text = text.replace("#define WT_TARGETS 2", "#define WT_TARGETS 0").replace("WT_TARGETS", "WT_TARGETS_TANGENT")
+    text = text.replace("WT_EDGES_BESIDE", "WT_EDGES_BESIDE_TANGENT")
     text = text.replace("wavetracer::device", "wavetracer::tangent")
     text = text.replace("WAVETRACER_DEVICE_", "WAVETRACER_TANGENT_")
     text = re.sub(r"(#define WAVETRACER_TANGENT_\w+\n)", r'\1#include "gradient/tangent.hpp"\n', text, count=1)

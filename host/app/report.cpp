@@ -7,13 +7,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
+#include "app/missed_line.hpp"
 #include "app/written_files.hpp"
 #include "base/digits.hpp"
 #include "base/times.hpp"
 #include "output/run_advice.hpp"
-#include "radio/missed_unknown.hpp"
 #include "wavetracer/interaction_kinds.hpp"
 #include "wavetracer/stages.hpp"
 
@@ -81,8 +80,10 @@ std::string feature_line(const Run& run) {
       features.emplace_back("double_diffraction", trace.diffraction && trace.max_diffractions > 1);
     if (kind.code == scattering) features.emplace_back("scattering_reflections", trace.reflects_scattered());
   }
-  for (const char* loss : {"vegetation", "air"}) features.emplace_back(loss, false);
-  features.emplace_back("beams", trace.discovery == "auto");
+  features.insert(features.end(), {{"scattering_diffraction", trace.scattering_diffraction},
+                                   {"vegetation", false},
+                                   {"air", false},
+                                   {"beams", trace.discovery == "auto"}});
   std::string on, off;
   for (const auto& [key, asked] : features) {
     const auto found = run.summary.features.find(key);
@@ -109,57 +110,8 @@ std::string path_line(const Totals& totals) {
 
 // Says how many paths the floors of scattering and of targets have left out; empty if there are none.
 std::string weak_line(const FrameCounts& n) {
-  if (n.weak == 0) return "";
-  return fmt::format("left out   {} paths that scatter, each below trace.scattering_floor_db or target_floor_db\n",
-                     grouped(n.weak));
-}
-
-// Says in how many frames it is not known what rays have missed, and why; empty if there are none.
-std::string missed_unknown_line(const Run& run, const Totals& totals) {
-  const MissedCounts& of = totals.missed;
-  if (of.unknown == 0) return "";
-  const std::string frames =
-      of.unknown < totals.frames ? fmt::format(" in {} of {} frames", grouped(of.unknown), grouped(totals.frames)) : "";
-  return fmt::format("{:<11}unknown{}: {}\n", of.frames > 0 ? "" : "missed", frames, missed_unknown_reason(run.config));
-}
-
-// Are there receivers that do not send? With diffraction, and without rays from edges, they launch rays of their own.
-bool receivers_launch(const Config& config) {
-  if (!config.trace.diffraction) return false;
-  std::unordered_set<std::string_view> senders;
-  for (const RadioEnd& end : config.transmitters) senders.insert(end.name);
-  return std::ranges::any_of(config.receivers, [&](const RadioEnd& end) { return !senders.contains(end.name); });
-}
-
-uint64_t diffracted_paths(const Totals& totals) {
-  const auto at = std::ranges::find(path_kinds, "diffracted", &PathKind::word);
-  return totals.kinds[static_cast<size_t>(at - path_kinds.begin())];
-}
-
-// The keys that make a run find more. Where most paths are diffracted, so are most of those that were missed: they need
-// the rays of both ends, and those of receivers are fewer.
-std::string more_rays(const Run& run, const Totals& totals) {
-  const TraceConfig& trace = run.config.trace;
-  const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
-  if (run.summary.edge_rays > 0) return rays + " or of trace.edge_rays";
-  if (!receivers_launch(run.config) || 2 * diffracted_paths(totals) <= totals.counts.paths) return rays;
-  return trace.rays ? "number of trace.diffraction_rays (at most trace.rays)"
-                    : "trace.recall and number of trace.diffraction_rays";
-}
-
-// Says what rays may have missed; empty without rays.
-std::string missed_line(const Run& run, const Totals& totals) {
-  if (totals.missed.frames == 0) return missed_unknown_line(run, totals);
-  const Missed missed = estimate_missed(totals.missed);
-  const bool none = missed.paths.estimate < 0.5;
-  const std::string about =
-      none ? "probably none" : "about " + grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.estimate)));
-  return fmt::format("missed     {} of {} paths ({} to {}), {:.1g} of the power ({:.1g} to {:.1g}){}\n", about,
-                     grouped(totals.counts.paths), grouped(static_cast<uint64_t>(std::nearbyint(missed.paths.low))),
-                     grouped(static_cast<uint64_t>(std::ceil(missed.paths.high))), missed.power_share.estimate,
-                     missed.power_share.low, missed.power_share.high,
-                     none ? "" : fmt::format(": a higher {} finds more of them", more_rays(run, totals))) +
-         missed_unknown_line(run, totals);
+  const std::string floors = "trace.scattering_floor_db or target_floor_db";
+  return n.weak == 0 ? "" : fmt::format("left out   {} paths that scatter, each below {}\n", grouped(n.weak), floors);
 }
 
 // Says what beams have not followed; empty without beams.

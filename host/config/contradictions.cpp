@@ -200,6 +200,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_reception(config, out);
   check_features(config, out);
   check_edge_rays(config, out);
+  check_scattering(config.trace, out);
   check_link_budget(config.radio, out);
   check_waypoints(config, out);
   check_cache(config, out);

@@ -21,12 +21,13 @@ std::vector<Contradiction> contradictions(const Config& config);
 bool needs_rays(const Config& config);
 
 // Defined in table_checks.cpp: checks of arrays and several carriers, of vehicles and the time of their drive, of air
-// and places, of materials.
+// and places, of materials, of edges beside tiles.
 void check_arrays(const Config& config, std::vector<Contradiction>& out);
 void check_trajectories(const Config& config, std::vector<Contradiction>& out);
 void check_air(const Config& config, std::vector<Contradiction>& out);
 void check_degrees(const Config& config, std::vector<Contradiction>& out);
 void check_materials(const std::vector<MaterialConfig>& materials, std::vector<Contradiction>& out);
+void check_scattering(const TraceConfig& trace, std::vector<Contradiction>& out);
 
 // Defined in beam_checks.cpp: checks of frames that spare rays, of beams and of their floor.
 void check_discoveries(const Config& config, std::vector<Contradiction>& out);

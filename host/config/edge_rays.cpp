@@ -11,14 +11,6 @@
 namespace wavetracer::config {
 namespace {
 
-// Receivers that are not transmitters too launch rays of their own.
-uint64_t listeners(const Config& config) {
-  std::unordered_set<std::string_view> senders;
-  for (const RadioEnd& end : config.transmitters) senders.insert(end.name);
-  return static_cast<uint64_t>(
-      std::ranges::count_if(config.receivers, [&](const RadioEnd& end) { return !senders.contains(end.name); }));
-}
-
 // A key that rays from edges do not go with, its value, and what a user may do instead.
 struct Obstacle {
   const char* key;
@@ -42,6 +34,13 @@ std::vector<Obstacle> obstacles(const Config& config, const TraceConfig& trace) 
 
 }  // namespace
 
+uint64_t listener_count(const Config& config) {
+  std::unordered_set<std::string_view> senders;
+  for (const RadioEnd& end : config.transmitters) senders.insert(end.name);
+  return static_cast<uint64_t>(
+      std::ranges::count_if(config.receivers, [&](const RadioEnd& end) { return !senders.contains(end.name); }));
+}
+
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
   const TraceConfig& trace = config.trace;
   if (!trace.diffraction || trace.edge_rays.value_or(0) == 0) return;
@@ -55,7 +54,7 @@ void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
 uint64_t edge_rays_of(const Config& config, const TraceConfig& trace) {
   if (trace.edge_rays) return *trace.edge_rays;
   if (!trace.diffraction || trace.by_spheres() || trace.diffraction_rays) return 0;
-  const bool many = listeners(config) > many_listeners;
+  const bool many = listener_count(config) > many_listeners;
   return many && !trace.reflects_echoes() && obstacles(config, trace).empty() ? automatic_edge_rays : 0;
 }
 

@@ -10,6 +10,9 @@
 
 namespace wavetracer::config {
 
+// Returns the number of receivers that are not transmitters too: with diffraction they launch rays of their own.
+uint64_t listener_count(const Config& config);
+
 void check_edge_rays(const Config& config, std::vector<Contradiction>& out);
 
 // Returns the number of rays from each edge in a world in which nothing moves: trace.edge_rays, or with "auto"

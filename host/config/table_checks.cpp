@@ -237,4 +237,14 @@ void check_materials(const std::vector<MaterialConfig>& materials, std::vector<C
   }
 }
 
+void check_scattering(const TraceConfig& trace, std::vector<Contradiction>& out) {
+  if (!trace.scattering_diffraction || (trace.diffraction && trace.reflects_scattered())) return;
+  out.push_back(
+      {{"trace.scattering_diffraction", "trace.diffraction", "trace.scattering", "trace.scattering_reflections"},
+       fmt::format("trace.scattering_diffraction = true needs trace.diffraction = true, trace.scattering = "
+                   "true and trace.scattering_reflections of at least 1, but they are {}, {} and {}: set "
+                   "them, or set trace.scattering_diffraction to false",
+                   trace.diffraction, trace.scattering, trace.scattering_reflections)});
+}
+
 }  // namespace wavetracer::config

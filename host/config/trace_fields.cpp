@@ -179,17 +179,24 @@ Table trace_table() {
                "together are at most max_depth. It launches rays from every receiver that is not a transmitter "
                "too, and makes many paths: where they are too many, give scattering_floor_db. Vegetation scatters "
                "without reflections in any case."},
+          {.name = "scattering_diffraction",
+           .slot = t(&TraceConfig::scattering_diffraction),
+           .doc =
+               "Only with diffraction and scattering_reflections: one of the interactions before a tile, or one of those "
+               "after it, may be a diffraction at an edge, from which the path goes straight to the tile, or on which it "
+               "comes straight from it. Corners do not diffract there. Each edge that an end sees is tried with each "
+               "tile that the other end sees, so large scenes need scattering_floor_db."},
           {.name = "scattering_floor_db",
            .slot = t(&TraceConfig::scattering_floor_db),
            .unit = "dB",
            .range = {-400, 0},
            .doc =
                "Only with scattering_reflections: the path gain between isotropic antennas, without their own gains, "
-               "below which a path that scatters and is reflected may be left out. The program compares an upper "
-               "bound of the gain with this value. The bound assumes perfect reflections and the best orientation of "
-               "the tile, so no stronger path is lost, and weaker ones may be kept. The entry weak of summary.json is "
-               "the number of paths that are left out. "
-               "Not given: none is left out."},
+               "below which a path that scatters and is reflected or diffracted may be left out. The program compares "
+               "an upper bound of the gain with this value. The bound assumes perfect reflections and the best "
+               "orientation of the tile, so no stronger path is lost, and weaker ones may be kept. Ways to tiles from "
+               "which even the shortest way on is too weak are not looked for. The entry weak of summary.json is the "
+               "number of paths that are left out after both of their ways were found. Not given: none is left out."},
           {.name = "target",
            .slot = t(&TraceConfig::target),
            .doc = "Paths that go by targets, where there are any: see [[target_model]]."},

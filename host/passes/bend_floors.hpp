@@ -13,6 +13,17 @@ struct BendFloors {
   double one = 0, two = 0;
 };
 
+// The wavelengths in bounds of waves over one edge.
+struct BentWaves {
+  double wavelength_m = 0;  // the longest one
+  double wave_m = 0;        // that times the square of the largest jump at a boundary
+};
+
+// passes: see bend_floors.
+inline BentWaves bent_waves(double wavelength_m, bool passes) {
+  return {wavelength_m, wavelength_m * (passes ? 4 : 1)};
+}
+
 // floor_db: the gain between isotropic antennas below which a path may be left out; wavelength_m: the longest; passes:
 // surfaces pass waves, so the jump at a boundary may be twice the wave.
 inline BendFloors bend_floors(std::optional<double> floor_db, double wavelength_m, bool passes) {

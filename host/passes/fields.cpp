@@ -33,13 +33,19 @@ uint32_t rows_of_item(const gpu::DeviceInfo& device, uint32_t rows) {
   return std::clamp((rows / items + 7) / 8 * 8, fewest_together, most_together);
 }
 
+const char* scatters_of(const FieldTables& tables) {
+  if (!tables.scatters) return "0";
+  if (!tables.reflects_scattered) return "1";
+  return tables.bends_scattered ? "3" : "2";
+}
+
 gpu::Definitions build_of(const FieldTables& tables, uint32_t edges, FieldRows rows, bool in_runs = false) {
   return {{"WT_TOGETHER", std::to_string(in_runs ? most_together : 1) + "u"},
           {"WT_DIFFRACTS", std::to_string(std::min(edges, 3u))},
           {"WT_CORNER_EDGES", tables.corners && rows != FieldRows::without_corners ? "1" : "0"},
           {"WT_LISTED", rows == FieldRows::listed ? "1" : "0"},
           {"WT_EDGE_ENDS", tables.edge_ends ? "1" : "0"},
-          {"WT_SCATTERS", tables.scatters ? tables.reflects_scattered ? "2" : "1" : "0"},
+          {"WT_SCATTERS", scatters_of(tables)},
           {"WT_CELLS", tables.cells > 0 ? "1" : "0"},
           {"WT_TARGETS", tables.targets.laws.empty() ? "0"
                          : tables.reflects_echoes    ? "2"

@@ -67,7 +67,9 @@ uint32_t PointJoin::operator()(const PointPrefixList& prefixes, uint32_t first, 
                                                     .transmissions = limits_.transmissions,
                                                     .row_depth = limits_.row_depth,
                                                     .capacity = static_cast<uint32_t>(list_.headers.size()),
-                                                    .diffractions = limits_.diffractions}});
+                                                    .diffractions = limits_.diffractions,
+                                                    .bends = limits_.bends,
+                                                    .padding = 0}});
       },
       [&] {
         counts = counts_.read(0, 3, Stage::point_join);

@@ -16,6 +16,7 @@ struct JoinedPoints {
   uint32_t max_depth = 1;      // most interactions of a path
   uint32_t transmissions = 0;  // most transmissions of a path
   uint32_t diffractions = 0;   // most diffractions of a path
+  uint32_t bends = 0;          // fewest diffractions of a path
   uint32_t row_depth = 1;      // interactions that a row has room for
   double floor = 0;            // gain below which a path is left out; 0: none is
   // With a floor: for each tile a bound of the gain of paths whose parts before and after it are 1 m long.

@@ -90,7 +90,8 @@ uint64_t PointPrefixes::place_rows(uint32_t entry_count) {
 }
 
 uint32_t PointPrefixes::operator()(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends,
-                                   const FoundSequences& found, uint32_t first, uint32_t end, Counters& counters) {
+                                   const FoundSequences& found, uint32_t first, uint32_t end, Counters& counters,
+                                   const gpu::Buffer<wt_point_floor>* floors) {
   list_.rows.count = 0;
   list_.hidden = wt_point_key(tiles.count, 0);
   const bool any = found.node_count > 0 && ends.transmitter_count > 0 && ends.receiver_count > 0;
@@ -107,6 +108,9 @@ uint32_t PointPrefixes::operator()(const DeviceScene& scene, const TileBuffers& 
                     .table = found.table,
                     .quarters = found.quarters,
                     .ends = ends.transmitters,
+                    .receiver_of_end = ends.receiver_of_end,
+                    .links = ends.links,
+                    .floors = floors,
                     .entries = entries_,
                     .first_row = first_row_,
                     .surfaces = scene.exact_surfaces,
@@ -120,7 +124,8 @@ uint32_t PointPrefixes::operator()(const DeviceScene& scene, const TileBuffers& 
                     .sequences = list_.rows.sequences,
                     .count = count_,
                     .args = wt_point_prefixes_arguments{entry_count, count, rows_work_.per_item, list_.rows.max_depth,
-                                                        static_cast<uint32_t>(list_.rows.headers.size())}});
+                                                        static_cast<uint32_t>(list_.rows.headers.size()),
+                                                        ends.transmitter_count, ends.receiver_capacity / 16}});
       },
       [&] { return count_.read_one(0, Stage::point_prefixes); }, [&] { return list_.rows.headers.size(); },
       [&](size_t larger) { reserve(larger); }, most_);
@@ -128,8 +133,9 @@ uint32_t PointPrefixes::operator()(const DeviceScene& scene, const TileBuffers& 
   return rows;
 }
 
-void PointPrefixes::make_keys(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends) {
-  const SolvedList& rows = list_.rows;
+void PointPrefixes::make_keys(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends,
+                              PointPrefixList& list) {
+  const SolvedList& rows = list.rows;
   if (rows.count == 0) return;
   keys_({rows.count, local_}, Stage::point_prefixes,
         calls::point_prefixes::point_keys{.solved = rows.headers,
@@ -138,26 +144,30 @@ void PointPrefixes::make_keys(const DeviceScene& scene, const TileBuffers& tiles
                                           .ends = ends.transmitters,
                                           .surfaces = scene.exact_surfaces,
                                           .surface_of_tile = tiles.surfaces,
-                                          .keys = list_.keys,
+                                          .keys = list.keys,
                                           .count = rows.count,
                                           .max_depth = rows.max_depth,
-                                          .hidden = list_.hidden});
+                                          .hidden = list.hidden});
 }
 
-void PointPrefixes::place(const RadioEnds& ends) {
-  const SolvedList& rows = list_.rows;
+void PointPrefixes::place(const RadioEnds& ends, PointPrefixList& list, const gpu::Buffer<wt_wedge>* wedges,
+                          const BentWaves& waves) {
+  const SolvedList& rows = list.rows;
   if (rows.count == 0) return;
   place_({rows.count, local_}, Stage::point_prefixes,
-         calls::point_prefixes::place_points{.keys = list_.keys,
-                                             .order = list_.order,
+         calls::point_prefixes::place_points{.keys = list.keys,
+                                             .order = list.order,
                                              .solved = rows.headers,
                                              .vertices = rows.vertices,
                                              .sequences = rows.sequences,
                                              .ends = ends.transmitters,
-                                             .sorted = list_.sorted,
+                                             .wedges = wedges,
+                                             .sorted = list.sorted,
                                              .count = rows.count,
                                              .max_depth = rows.max_depth,
-                                             .hidden = list_.hidden});
+                                             .hidden = list.hidden,
+                                             .wavelength_m = waves.wavelength_m,
+                                             .wave_m = waves.wave_m});
 }
 
 void PointPrefixes::refuse(uint32_t prefixes) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel_calls/point_prefixes.hpp"
+#include "passes/bend_floors.hpp"
 #include "passes/counters.hpp"
 #include "passes/device_scene.hpp"
 #include "passes/point_lists.hpp"
@@ -31,14 +32,17 @@ class PointPrefixes {
   uint32_t most() const { return most_; }
   void set_most(uint32_t most) { most_ = most; }
   // Lists the prefixes that see tiles first to end - 1, and returns their number; if it is more than most(), they are
-  // not there.
+  // not there. floors: those of point_floors, or null: then no prefix is too weak.
   uint32_t operator()(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends,
-                      const FoundSequences& found, uint32_t first, uint32_t end, Counters& counters);
+                      const FoundSequences& found, uint32_t first, uint32_t end, Counters& counters,
+                      const gpu::Buffer<wt_point_floor>* floors = nullptr);
   PointPrefixList& list() { return list_; }
-  // Makes the keys of the rows, whose legs have been tested.
-  void make_keys(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends);
-  // Sets list().sorted; the keys must be sorted.
-  void place(const RadioEnds& ends);
+  // Makes the keys of rows whose legs have been tested; the lists have room for them.
+  void make_keys(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends, PointPrefixList& list);
+  // Sets list.sorted; the keys must be sorted. wedges: those of the world where prefixes may go over an edge, else
+  // null.
+  void place(const RadioEnds& ends, PointPrefixList& list, const gpu::Buffer<wt_wedge>* wedges = nullptr,
+             const BentWaves& waves = {});
   // Throws BufferError: one tile is seen by this many prefixes.
   [[noreturn]] void refuse(uint32_t prefixes) const;
 

@@ -96,6 +96,7 @@ FieldTables make_field_tables(const Scene& scene, const Config& config, std::spa
       (config.trace.target && std::ranges::any_of(config.target_models, &TargetModelConfig::bounces_within));
   tables.scatters = config.trace.scattering;
   tables.reflects_scattered = config.trace.reflects_scattered();
+  tables.bends_scattered = config.trace.scattering_diffraction;
   if (!tables.scatters) return tables;
   const TileTable tiles(scene, models, instances, config.trace.tile_m);
   for (uint32_t id = 0; id < tiles.size(); ++id) {

@@ -35,6 +35,7 @@ struct FieldTables {
   uint32_t reflections = 0;    // the most of a path
   bool scatters = false;
   bool reflects_scattered = false;           // paths that scatter may be reflected before and after
+  bool bends_scattered = false;              // paths that scatter may have an edge beside their tile
   bool edge_ends = false;                    // edges with free ends diffract
   bool corners = false;                      // edges with less than a half space around them diffract
   bool reflects_echoes = false;              // paths over targets may be reflected before and after

@@ -99,21 +99,29 @@ ExactPaths::ExactPaths(gpu::Context& context, const DeviceScene& device_scene, c
       diffraction->chains.emplace(context, grid, depth.edges, depth.row, longest_wavelength_m);
     }
   }
-  if (trace.scattering) {
-    const TileTable tiles(scene, world.fleet.models, world.fleet.instances, trace.tile_m,
-                          fitting_tiles(context.info()));
-    if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), depth.row);
-    if (scatter && trace.scattering_reflections > 0)
-      scattered.emplace(context, std::min(trace.scattering_reflections, trace.max_depth - 1),
-                        joined_points(scene, world, tiles, trace, longest_wavelength_m));
-    const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
-    if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), depth.row);
-  }
+  if (trace.scattering) add_scattering(context, scene, world, trace, longest_wavelength_m);
   if (trace.target) add_targets(context, world, trace, longest_wavelength_m);
   if (trace.transmission)
     transmissions.emplace(context, device_scene, std::min(trace.max_transmissions, trace.max_depth), trace.max_depth);
   else
     occlusion.emplace(context, device_scene);
+}
+
+void ExactPaths::add_scattering(gpu::Context& context, const Scene& scene, const World& world, const TraceConfig& trace,
+                                double longest_wavelength_m) {
+  const TileTable tiles(scene, world.fleet.models, world.fleet.instances, trace.tile_m, fitting_tiles(context.info()));
+  const uint32_t row_depth = tracing_depth(trace).row;
+  if (tiles.size() > 0) scatter.emplace(context, tiles, surface_count(scene, world), row_depth);
+  if (scatter && trace.scattering_reflections > 0) {
+    const uint32_t most = std::min(trace.scattering_reflections, trace.max_depth - 1);
+    const JoinedPoints limits = joined_points(scene, world, tiles, trace, longest_wavelength_m);
+    scattered.emplace(context, most, limits, trace.scattering_diffraction);
+    if (trace.scattering_diffraction)
+      scattered_edges = std::make_unique<ScatteredEdges>(context, tiles, most, limits,
+                                                         bent_waves(longest_wavelength_m, trace.transmission));
+  }
+  const std::vector<Cell> cells = make_cells(scene, trace.tile_m, TileTable::most_tiles - tiles.size());
+  if (!cells.empty()) crowns.emplace(context, cells, tiles.size(), row_depth);
 }
 
 void ExactPaths::add_targets(gpu::Context& context, const World& world, const TraceConfig& trace,

@@ -17,6 +17,7 @@
 #include "simulation/diffracted_paths.hpp"
 #include "simulation/edge_discovery.hpp"
 #include "simulation/listeners.hpp"
+#include "simulation/scattered_edges.hpp"
 #include "simulation/scattered_paths.hpp"
 #include "simulation/target_chains.hpp"
 #include "simulation/world.hpp"
@@ -50,7 +51,8 @@ struct ExactPaths {
   std::optional<DiffractedPaths> diffraction;
   std::unique_ptr<EdgeDiscovery> from_edges;  // with trace.edge_rays, else null
   std::optional<Scatter> scatter;
-  std::optional<ScatteredPaths> scattered;  // with trace.scattering_reflections
+  std::optional<ScatteredPaths> scattered;          // with trace.scattering_reflections
+  std::unique_ptr<ScatteredEdges> scattered_edges;  // with trace.scattering_diffraction, else null
   std::optional<Crowns> crowns;
   std::optional<TargetRows> targets;
   std::optional<TargetBodies> target_bodies;    // set if bodies of vehicles are targets
@@ -61,6 +63,8 @@ struct ExactPaths {
   Visible visible;
 
  private:
+  void add_scattering(gpu::Context& context, const Scene& scene, const World& world, const TraceConfig& trace,
+                      double longest_wavelength_m);
   void add_targets(gpu::Context& context, const World& world, const TraceConfig& trace, double longest_wavelength_m);
 };
 

@@ -114,6 +114,9 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
                                            {trace.scattering_reflections == 0, "trace.scattering_reflections = 0"},
                                            {!out["reflection"].on, "reflection is off"},
                                            {trace.max_depth < 2, "trace.max_depth = 1"}});
+  out["scattering_diffraction"] = feature({{!out["scattering_reflections"].on, "paths that scatter are not reflected"},
+                                           {!trace.scattering_diffraction, "trace.scattering_diffraction = false"},
+                                           {!out["diffraction"].on, "diffraction is off"}});
   out["target_reflections"] = feature({{!out["target"].on, "there are no paths over targets"},
                                        {trace.target_reflections == 0, "trace.target_reflections = 0"},
                                        {!out["reflection"].on, "reflection is off"},
@@ -134,6 +137,7 @@ TraceConfig with_features(TraceConfig trace, const Features& features) {
   for (const InteractionKind& kind : interaction_kinds) trace.*kind.asked_for = features.at(std::string(kind.word)).on;
   if (!features.at("double_diffraction").on) trace.max_diffractions = 1;
   if (!features.at("scattering_reflections").on) trace.scattering_reflections = 0;
+  trace.scattering_diffraction = features.at("scattering_diffraction").on;
   if (!features.at("target_reflections").on) trace.target_reflections = 0;
   trace.target_diffraction = features.at("target_diffraction").on;
   trace.discovery = features.at("beams").on ? DiscoveryWay("beams") : DiscoveryWay("rays");

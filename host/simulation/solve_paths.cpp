@@ -66,15 +66,25 @@ Uncounted join_edges(ExactPaths& exact, const DeviceScene& scene, const RadioEnd
   return join_prefixes(edges, scene, ends, set, prefixes, see, [&](uint32_t done) { told(done, prefixes.count); });
 }
 
-// Makes the paths over tiles with reflections around them. take: takes paths whose legs have been tested; told: as for
-// join_edges, with numbers of tiles. Returns their counts.
+// The edges and prefixes of join_edges.
+SeenEdges seen_edges(DiffractedPaths& edges) { return {edges.wedges.list(), edges.prefixes.list(), edges.candidates}; }
+
+// Makes the paths over tiles with reflections and edges around them. take: takes paths whose legs have been tested;
+// told: as for join_edges, with numbers of tiles. The prefixes of join_edges must be there. Returns their counts.
 template <class Take, class Told>
 JoinedCounts join_tiles(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set,
                         uint32_t nodes, const Take& take, const Told& told) {
   const TileBuffers& tiles = exact.scatter->tiles();
+  const FoundSequences found{set.table(), set.quarters(), set.nodes(), nodes};
+  const auto beside_edges = [&] {
+    if (!exact.scattered_edges) return JoinedCounts{};
+    return (*exact.scattered_edges)(
+        scene, tiles, ends, found, seen_edges(*exact.diffraction), exact.scattered->prefixes,
+        [&](SolvedList& rows, Counters& counters) { exact.check_legs(scene, ends, rows, counters, false); }, take);
+  };
   return join_points(
-      *exact.scattered, scene, tiles, ends, {set.table(), set.quarters(), set.nodes(), nodes}, set.counters(),
-      [&](SolvedList& rows) { exact.check_legs(scene, ends, rows, set.counters()); }, take,
+      *exact.scattered, scene, tiles, ends, found, set.counters(),
+      [&](SolvedList& rows) { exact.check_legs(scene, ends, rows, set.counters()); }, take, beside_edges,
       [&](uint32_t done) { told(done, tiles.count); });
 }
 
@@ -86,10 +96,7 @@ JoinedCounts chain_targets(ExactPaths& exact, const DeviceScene& scene, const Ra
   // The list of nodes is as long as the counters say, where `nodes` is a bound of it.
   const wt_counters now = set.counters().read(Stage::targets);
   std::optional<SeenEdges> edges;
-  if (exact.target_chains->takes_edges()) {
-    DiffractedPaths& seen = *exact.diffraction;
-    edges.emplace(SeenEdges{seen.wedges.list(), seen.prefixes.list(), seen.candidates});
-  }
+  if (exact.target_chains->takes_edges()) edges.emplace(seen_edges(*exact.diffraction));
   return (*exact.target_chains)(
       scene, ends, {set.table(), set.quarters(), set.nodes(), std::min(nodes, now.nodes + now.exchanged)},
       *exact.targets, edges ? &*edges : nullptr,
@@ -165,7 +172,7 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
   if (exact.scatter)
     see_scattered((*exact.scatter)(scene, ends, set.table(), set.quarters(), set.nodes(), nodes, counters));  // scatter
   if (exact.scattered) {
-    join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes, sort, point_join
+    join_tiles(exact, scene, ends, set, nodes, take, told).add_to(out);  // point_prefixes to tile_edges
     tell();
   }
   if (exact.crowns) see_scattered((*exact.crowns)(ends));  // crowns

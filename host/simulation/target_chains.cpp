@@ -122,10 +122,13 @@ void TargetChains::sort(const DeviceScene& scene, SolvedList& ways, const RadioE
                                              .vertices = list_.rows.vertices,
                                              .sequences = list_.rows.sequences,
                                              .ends = ends.transmitters,
+                                             .wedges = nullptr,
                                              .sorted = list_.sorted,
                                              .count = ways.count,
                                              .max_depth = ways.max_depth,
-                                             .hidden = list_.hidden});
+                                             .hidden = list_.hidden,
+                                             .wavelength_m = 0.0,
+                                             .wave_m = 0.0});
 }
 
 SolvedList& TargetChains::mirrored_ways(const DeviceScene& scene, const FoundSequences& found, uint32_t transmitters,

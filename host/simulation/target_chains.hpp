@@ -21,16 +21,9 @@
 #include "passes/visible.hpp"
 #include "passes/wedge_solve.hpp"
 #include "simulation/scattered_paths.hpp"
+#include "simulation/seen_edges.hpp"
 
 namespace wavetracer {
-
-// The edges of a frame, and the prefixes of all ends that see them, sorted by their edges; candidates: a list that
-// nothing else uses meanwhile.
-struct SeenEdges {
-  const WedgeList& wedges;
-  const WedgePrefixList& prefixes;
-  WedgeCandidates& candidates;
-};
 
 class TargetChains {
  public:

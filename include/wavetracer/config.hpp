@@ -223,6 +223,7 @@ struct TraceConfig {
   std::optional<uint64_t> edge_rays = {};
   double tile_m = 5;                               // largest side length of a tile of scattering
   uint32_t scattering_reflections = 0;             // most before a tile and after it; 0: tiles are seen directly
+  bool scattering_diffraction = false;             // one of the interactions around a tile may be an edge
   std::optional<double> scattering_floor_db = {};  // gain below which such paths are left out; not given: none is
   uint32_t target_reflections = 0;                 // most before a target and after it; 0: it is seen directly
   bool target_diffraction = false;                 // one of the interactions on either side may be an edge

@@ -22,7 +22,7 @@ kernel void path_groups(const global wt_solved* solved, const global double* ver
   if (WT_AHEAD > 1 && place + WT_AHEAD < args.row_count) wt_prefetch_path(&list, rows[place + WT_AHEAD]);
   const wt_path path = wt_path_of(&list, rows[place]);
   wt_waves waves;
-  const uint bends = wt_waves_of(&path, wedges, planes_of, args.wavelength_m, place, &waves);
+  const uint bends = wt_waves_of(&path, wedges, planes_of, args.wavelength_m, &waves);
   wt_path_wave own = {waves.keys[0], WT_ONE_WAVE, bends, path.transmitter, path.receiver};
   if (waves.count > 1 || waves.weights[0] != 1.0) {
     own.shared = atomic_inc(shared_count);

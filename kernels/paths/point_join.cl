@@ -44,7 +44,7 @@ kernel void point_join(const global uint* keys, const global wt_point_prefix* pr
     // scatter and targets make the paths without mirrors and edges.
     if (a->depth - a->transmissions + b->depth - b->transmissions <= 2) continue;
     if (a->depth + b->depth - 1 > args.max_depth || a->transmissions + b->transmissions > args.transmissions ||
-        a->diffractions + b->diffractions > args.diffractions)
+        a->diffractions + b->diffractions > args.diffractions || a->diffractions + b->diffractions < args.bends)
       continue;
     const uint receiver = receiver_of_end[b->end];
     if (receiver == WT_NONE || !(links[(size_t)a->end * args.groups + receiver / 16] >> receiver % 16 & 1)) continue;

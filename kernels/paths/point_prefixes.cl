@@ -5,9 +5,9 @@
 // After the legs of the rows have been tested, point_keys gives each row its sort key, and place_points puts what the
 // join needs into the order of the sorted keys.
 #include "lib/count.clh"
-#include "lib/reflections.clh"
+#include "lib/seen_tiles.clh"
 #include "lib/tile.clh"
-#include "wavetracer/device/points.h"
+#include "lib/weak_bends.clh"
 #pragma OPENCL FP_CONTRACT OFF
 
 // May a point of the block, a box of two corners, be seen from the image in the mirror? If all corners of the box are
@@ -67,64 +67,38 @@ kernel void onlookers(const global ulong* table, const global uint* nodes, const
   }
 }
 
-// The chain of an entry, from the end to the last mirror, and the images of the end in it.
-typedef struct {
-  uint chain[WT_MAX_DEPTH], depth, surface;
-  double3 images[WT_MAX_DEPTH + 1];
-} wt_seen_by;
-
-inline void see_by(const global ulong* table, const global wt_exact_surface* surfaces, double4 end, uint node,
-                   wt_seen_by* by) {
-  uint root;
-  by->depth = wt_chain(table, node, by->chain, &root) - 1;
-  by->surface = by->chain[by->depth];
-  by->images[0] = end.xyz;
-  for (uint k = 0; k < by->depth; ++k) by->images[k + 1] = wt_reflected(surfaces + by->chain[k], by->images[k]);
-}
-
-// Computes the points of the reflections on the way to the tile's centre. Returns 0 where the tile is not seen so. A
-// mirror in whose plane the tile lies does not show it; the wave must rise from the tile by more than rounding.
-inline int sees(const global wt_exact_surface* surfaces, const global wt_surface* boxes, const global double* triangles,
-                const global wt_exact_instance* instances, const wt_seen_by* by, double3 centre, double3* points) {
-  const uint depth = by->depth;
-  if (depth > 0) {
-    const uint last = by->chain[depth - 1];
-    double3 p;
-    if (!(fabs(wt_above(surfaces + last, centre)) > WT_ON_SURFACE_M)) return 0;
-    if (!wt_mirror_point(surfaces, last, WT_NONE, by->images[depth], centre, &p) || !wt_in_box(boxes + last, p))
-      return 0;
-    if (!wt_reflection_points(surfaces, triangles, instances, by->chain, depth, by->images, centre, points)) return 0;
-  }
-  const double3 before = depth > 0 ? points[depth - 1] : by->images[0];
-  return fabs(wt_above(surfaces + by->surface, before)) > WT_ON_SURFACE_M;
-}
-
 // A work-item takes rows_per_item pairs of an entry of onlookers and one of its tiles. first_row: for each entry its
-// first pair, and row_count after the last. Appends a row for each tile that is seen: wt_solved::transmitter is the
+// first pair, and row_count after the last; floors: for each tile, null without a floor: ways that are surely too long
+// for it are left out. Appends a row for each tile that is seen: wt_solved::transmitter is the
 // end, and the last vertex is the tile. *count is the number of rows.
 kernel void point_prefixes(const global ulong* table, const global uint* quarters, const global double4* ends,
-                           const global uint4* entries, const global uint* first_row,
-                           const global wt_exact_surface* surfaces, const global wt_surface* boxes,
-                           const global double* triangles, const global wt_exact_instance* instances,
-                           const global uint4* tiles_of, const global double* centres, global wt_solved* solved,
-                           global double* vertices, global uint* sequences, global uint* count,
-                           wt_point_prefixes_arguments args) {
+                           const global uint* receiver_of_end, const global ushort* links,
+                           const global wt_point_floor* floors, const global uint4* entries,
+                           const global uint* first_row, const global wt_exact_surface* surfaces,
+                           const global wt_surface* boxes, const global double* triangles,
+                           const global wt_exact_instance* instances, const global uint4* tiles_of,
+                           const global double* centres, global wt_solved* solved, global double* vertices,
+                           global uint* sequences, global uint* count, wt_point_prefixes_arguments args) {
   const ulong begin = (ulong)get_global_id(0) * args.rows_per_item;
   if (begin >= args.row_count) return;
   const uint end = (uint)min(begin + args.rows_per_item, (ulong)args.row_count);
   uint entry = wt_entry_at(first_row, args.entry_count, begin);
   wt_seen_by by;
-  see_by(table, surfaces, ends[entries[entry].y], entries[entry].x, &by);
+  wt_see_by(table, surfaces, ends[entries[entry].y], entries[entry].x, &by);
+  by.roles = wt_roles_of(entries[entry].y, args.transmitter_count, receiver_of_end, links, args.groups);
   double3 points[WT_MAX_DEPTH];
   for (uint row = (uint)begin; row < end; ++row) {
     if (row == first_row[entry + 1]) {  // no entry is empty
       ++entry;
-      see_by(table, surfaces, ends[entries[entry].y], entries[entry].x, &by);
+      wt_see_by(table, surfaces, ends[entries[entry].y], entries[entry].x, &by);
+      by.roles = wt_roles_of(entries[entry].y, args.transmitter_count, receiver_of_end, links, args.groups);
     }
     const uint tile = entries[entry].z + row - first_row[entry];
     const uint4 tiles = tiles_of[by.surface];
     const double3 centre = wt_tile_centre(centres, instances, surfaces[by.surface].instance, tiles.y + tile - tiles.x);
-    if (!sees(surfaces, boxes, triangles, instances, &by, centre, points)) continue;
+    const double3 way = centre - by.images[by.depth];
+    if (floors && wt_is_too_long(floors + tile, entries[entry].y, &by.roles, wt_dot(way, way))) continue;
+    if (!wt_sees(surfaces, boxes, triangles, instances, &by, centre, points)) continue;
     const uint slot = wt_take_places(count, 1);
     if (slot >= args.capacity) continue;
     solved[slot].transmitter = entries[entry].y;
@@ -162,25 +136,36 @@ kernel void point_keys(const global wt_solved* solved, const global double* vert
 }
 
 // A work-item takes one sorted key: what the join needs of its row goes to the place of the key. Rows that are hidden
-// have the last keys, and nothing reads them.
+// have the last keys, and nothing reads them. wedges: for bounds of waves over an edge next to the point, or null;
+// wave_m: see wt_tile_edges_arguments.
 kernel void place_points(const global uint* keys, const global uint* order, const global wt_solved* solved,
                          const global double* vertices, const global uint* sequences, const global double4* ends,
-                         global wt_point_prefix* sorted, uint count, uint max_depth, uint hidden) {
+                         const global wt_wedge* wedges, global wt_point_prefix* sorted, uint count, uint max_depth,
+                         uint hidden, double wavelength_m, double wave_m) {
   const uint i = get_global_id(0);
   if (i >= count || keys[i] >= hidden) return;
   const uint row = order[i], depth = solved[row].depth;
   double length_m = 0.0;
-  uint transmissions = 0, diffractions = 0;
-  double3 from = ends[solved[row].transmitter].xyz;
+  uint transmissions = 0, diffractions = 0, wedge = 0;
+  double3 from = ends[solved[row].transmitter].xyz, image = from, edge = from;
   for (uint k = 0; k < depth; ++k) {
     const size_t at = (size_t)row * max_depth + k;
     const double3 to = vload3(at, vertices), along = to - from;
-    length_m += sqrt(wt_dot(along, along));
-    from = to;
+    const double leg_m = sqrt(wt_dot(along, along));
+    length_m += leg_m;
     transmissions += (sequences[at] & WT_STEP_KIND) == WT_STEP_TRANSMISSION;
-    diffractions += (sequences[at] & WT_STEP_KIND) == WT_STEP_DIFFRACTION;
+    if ((sequences[at] & WT_STEP_KIND) == WT_STEP_DIFFRACTION) {
+      ++diffractions;
+      wedge = sequences[at] & ~WT_STEP_KIND;
+      image = to - length_m / leg_m * along;
+      edge = to;
+    }
+    from = to;
   }
   sorted[i].spread = (diffractions > 0 ? WT_MOST_OF_EDGE : 1.0) / (length_m * length_m);
+  if (wedges && diffractions > 0 && wedges[wedge].free_ends == 0u)
+    sorted[i].spread =
+        fmin(sorted[i].spread, wave_m * wt_most_over_one(wedges + wedge, image, from, edge, wavelength_m));
   sorted[i].row = row;
   sorted[i].end = solved[row].transmitter;
   sorted[i].depth = depth;

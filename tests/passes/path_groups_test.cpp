@@ -118,7 +118,7 @@ TEST_CASE("path_groups: random paths have the host's waves, whose squares add up
         xyz.data(), rows[i].steps.data(),    i,         i, static_cast<uint32_t>(rows[i].steps.size()),
         0,          device::wt_vector(from), rows[i].to};
     device::wt_waves waves;
-    const uint32_t bends = device::wt_waves_of(&path, wedges.data(), planes().data(), wave_m, i, &waves);
+    const uint32_t bends = device::wt_waves_of(&path, wedges.data(), planes().data(), wave_m, &waves);
     device::wt_path_waves expected{};
     device::wt_write_waves(&waves, bends, &expected);
     double squares = 0;

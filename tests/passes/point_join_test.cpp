@@ -126,10 +126,10 @@ TEST_CASE("every pair of prefixes of wanted links that see one side of one tile"
   pass(device.scene, device.buffers, device.ends, device.found(), 0, device.tiles.size(), device.set.counters());
   PointPrefixList& list = pass.list();
   const Halves halves = test_legs(world, device.tiles, list.rows);
-  pass.make_keys(device.scene, device.buffers, device.ends);
+  pass.make_keys(device.scene, device.buffers, device.ends, pass.list());
   Sort sort(context());
   sort(list.keys, list.order, list.rows.count, list.key_bits());
-  pass.place(device.ends);
+  pass.place(device.ends, pass.list());
 
   JoinedPoints limits{.max_depth = row_depth, .transmissions = 2, .row_depth = row_depth};
   const size_t all = every_pair(world, halves, limits).paths.size();

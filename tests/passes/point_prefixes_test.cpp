@@ -94,10 +94,10 @@ TEST_CASE("keys bring the prefixes of one side of one tile together; hidden ones
   size_t hidden = 0;
   for (uint32_t i = 0; i < count; i += 5, ++hidden) headers[i].blocked = 1;
   list.rows.headers.write(headers, 0, Stage::transfer);
-  pass.make_keys(device.scene, device.buffers, device.ends);
+  pass.make_keys(device.scene, device.buffers, device.ends, pass.list());
   Sort sort(context());
   sort(list.keys, list.order, count, list.key_bits());
-  pass.place(device.ends);
+  pass.place(device.ends, pass.list());
   const auto keys = list.keys.read(0, count), order = list.order.read(0, count);
   const std::vector<PathRow> rows = download_rows(list.rows);
   const auto sorted = list.sorted.read(0, count);

@@ -3,8 +3,8 @@
 // Spreading: edges are lines of sources, so stationary phase over the points on them gives 1 / (product of the legs
 // between ends and edges) / sqrt(det H), where H has the second derivatives of the length. For one edge it is that of
 // K-P (sqrt(s' / (s (s + s'))) / s'), and for more it is symmetric. It assumes up to WT_MOST_EDGES diffractions; no two
-// that follow each other are at one wedge. A point of a target ends one wave and begins another: the edges on either
-// side of it have the lengths of their side.
+// that follow each other are at one wedge. A tile or a point of a target ends one wave and begins another: the edges on
+// either side of it have the lengths of their side.
 #ifndef WAVETRACER_DEVICE_EDGES_OF_PATH_H
 #define WAVETRACER_DEVICE_EDGES_OF_PATH_H
 #include "wavetracer/device/edge_turn.h"
@@ -29,7 +29,7 @@ typedef struct {
   wt_wedge_frame frame;
   wt_double3 k_in, k_out;
   double before_m, after_m;  // to the end or edge before and after it, reflections unfolded
-  double path_m;             // the length of the whole path, or of its part on this side of a target
+  double path_m;             // the length of the whole path, or of its part on this side of a tile or target
 } wt_edge;
 
 inline double wt_sine2(const wt_edge* edge) {  // sin^2 of the angle between edge and path
@@ -37,8 +37,8 @@ inline double wt_sine2(const wt_edge* edge) {  // sin^2 of the angle between edg
   return (1.0 - cosine) * (1.0 + cosine);
 }
 
-#if WT_TARGETS > 1
-// Sets the last lengths of the edges before a target; after_m: the way from the last of them to the target.
+#if WT_EDGES_BESIDE
+// Sets the last lengths of the edges before a tile or target; after_m: the way from the last of them to it.
 inline void wt_end_edges(wt_edge* edges, wt_uint count, double after_m) {
   double path_m = 0.0;
   if (count > 0) edges[count - 1].after_m = after_m;
@@ -49,13 +49,13 @@ inline void wt_end_edges(wt_edge* edges, wt_uint count, double after_m) {
 
 // Finds the edges of the path, at most WT_EDGE_ROOM. Returns their number.
 inline wt_uint wt_edges_of(const wt_field_world* world, const wt_path* path, wt_edge* edges) {
-  wt_uint count = 0, first = 0;  // first: of those after a target
+  wt_uint count = 0, first = 0;  // first: of those after a tile or target
   wt_walk_leg leg = wt_first_leg(path);
   double since_m = leg.length_m, path_m = 0.0;
   for (wt_uint k = 0; k < path->depth; ++k) {
     const wt_walk_leg next = wt_next_leg(world, path, k, &leg);
-#if WT_TARGETS > 1
-    if (wt_kind(path, k) == WT_STEP_TARGET) {
+#if WT_EDGES_BESIDE
+    if (wt_begins_wave(wt_step(path, k))) {
       wt_end_edges(edges + first, count - first, since_m);
       first = count;
       since_m = 0.0;

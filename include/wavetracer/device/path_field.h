@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wave of one path, interaction by interaction: delay, angles, coefficients and Doppler shift of a row.
 // Spreading is 1 / L for a path of length L without edges, else that of path_edges.h. The geometry is that of the exact
-// solve: specular reflections, straight transmissions, one diffuse scattering, one point of a target with up to one
+// solve: specular reflections, straight transmissions, one diffuse scattering or one point of a target with up to one
 // diffraction on either side of it, or up to WT_MOST_EDGES diffractions. A tile or a point ends one wave and begins
 // another, so mirrors and edges on either side of it see the length on their side.
 #ifndef WAVETRACER_DEVICE_PATH_FIELD_H
@@ -142,19 +142,19 @@ inline void wt_pass_chain(const wt_field_world* world, const wt_ordered_rows* or
 }
 #endif
 
-#if WT_DIFFRACTS && WT_TARGETS > 1
-// The vertex at the path's target, or its depth if it has none.
-inline wt_uint wt_target_vertex(const wt_path* path) {
+#if WT_DIFFRACTS && WT_EDGES_BESIDE
+// The vertex at the path's tile or target, or its depth if it has none.
+inline wt_uint wt_vertex_of_point(const wt_path* path) {
   wt_uint k = 0;
-  while (k < path->depth && wt_kind(path, k) != WT_STEP_TARGET) ++k;
+  while (k < path->depth && !wt_begins_wave(wt_step(path, k))) ++k;
   return k;
 }
 
-// Goes over all vertices of a path over a target, with an edge before it or after it or both: a wave of an edge has its
-// own spreading, and the wave on the other side 1 / its length. target: the vertex at the target.
-inline void wt_pass_beside_target(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
-                                  const wt_path* path, double length_m, wt_uint target, wt_edge* edges, wt_uint count,
-                                  wt_wave* wave) {
+// Goes over all vertices of a path over a tile or target, with an edge before it or after it or both: a wave of an edge
+// has its own spreading, and the wave on the other side 1 / its length. point: the vertex at the tile or target.
+inline void wt_pass_beside_point(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                 const wt_path* path, double length_m, wt_uint point, wt_edge* edges, wt_uint count,
+                                 wt_wave* wave) {
   double spread = 1.0;
   wt_uint k = 0;
   for (wt_uint i = 0; i < count; ++i) {
@@ -167,7 +167,7 @@ inline void wt_pass_beside_target(const wt_field_world* world, const wt_ordered_
   }
   wt_pass_surfaces(world, path, length_m, k, wave);
   const double first_m = wt_section_length(path, 0, path->from);
-  const int before = edges[0].at<target, after = edges[count - 1].at> target;
+  const int before = edges[0].at<point, after = edges[count - 1].at> point;
   wave->spread = spread / ((before ? 1.0 : first_m) * (after ? 1.0 : length_m - first_m));
 }
 #endif
@@ -178,10 +178,10 @@ inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* order
                        double length_m, wt_wave* wave) {
   wt_edge edges[WT_EDGE_ROOM];
   const wt_uint count = wt_edges_of(world, path, edges);
-#if WT_TARGETS > 1
-  const wt_uint target = wt_target_vertex(path);
-  if (count > 0 && target < path->depth) {
-    wt_pass_beside_target(world, ordered, row, path, length_m, target, edges, count, wave);
+#if WT_EDGES_BESIDE
+  const wt_uint point = wt_vertex_of_point(path);
+  if (count > 0 && point < path->depth) {
+    wt_pass_beside_point(world, ordered, row, path, length_m, point, edges, count, wave);
     return wt_is_near_edge(world, edges, count);
   }
 #endif

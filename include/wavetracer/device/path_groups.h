@@ -4,8 +4,8 @@
 // edge, or a reflection at one of its faces. Such a wave groups the paths that are diffracted at its boundaries even if
 // it does not reach the receiver itself; so nothing jumps where it begins to. With several edges their shares are
 // multiplied. Steps are compared by planes, since neighbours in one plane reflect alike, and without transmissions,
-// which do not change the way of a wave. A scattered path shares its wave with no other path. A path over a
-// target may have an edge on either side of it, whose share is that of its side.
+// which do not change the way of a wave. A path over a tile or a target is a wave of its own for each tile and
+// each point; it may have an edge beside that, whose share is that of its side.
 #ifndef WAVETRACER_DEVICE_PATH_GROUPS_H
 #define WAVETRACER_DEVICE_PATH_GROUPS_H
 #include "wavetracer/device/path_rows.h"
@@ -114,9 +114,9 @@ inline void wt_waves_past_edge(const WT_GLOBAL wt_wedge* wedge, wt_uint step, co
 }
 
 // Finds the waves that a path belongs to. wedges: in the coordinates of the path. planes_of: for each surface, the
-// surface that stands for its plane. row: a number that no other path has. Returns whether the path is diffracted.
+// surface that stands for its plane. Returns whether the path is diffracted.
 inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges, const WT_GLOBAL wt_uint* planes_of,
-                           double wavelength_m, wt_uint row, wt_waves* waves) {
+                           double wavelength_m, wt_waves* waves) {
   wt_uint bends = 0;
   for (wt_uint k = 0; k < path->depth; ++k) bends |= (wt_step(path, k) & WT_STEP_KIND) == WT_STEP_DIFFRACTION;
   double length_m = bends ? wt_section_length(path, 0, path->from) : 0.0, since_m = 0.0;
@@ -128,15 +128,10 @@ inline wt_uint wt_waves_of(const wt_path* path, const WT_GLOBAL wt_wedge* wedges
     const wt_double3 at = wt_vertex(path, k), leg = at - from;
     from = at;
     if (bends) since_m += wt_length3(leg);
-    if (kind == WT_STEP_TARGET) {
+    if (kind == WT_STEP_TARGET || kind == WT_STEP_SCATTERING) {
       for (wt_uint i = 0; i < waves->count; ++i) waves->keys[i] = wt_mixed(waves->keys[i], step);
       if (bends) length_m = wt_section_length(path, k + 1, at);
       since_m = 0.0;
-    }
-    if (kind == WT_STEP_SCATTERING) {
-      waves->count = 0;
-      wt_add_wave(waves, wt_mixed(row, step), 1.0);
-      return bends;
     }
     if (kind == WT_STEP_REFLECTION)
       for (wt_uint i = 0; i < waves->count; ++i)

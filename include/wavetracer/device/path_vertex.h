@@ -10,12 +10,6 @@
 #include "wavetracer/device/target.h"
 #include "wavetracer/device/transfer.h"
 
-// A device need not compile code for things that the scene does not have. 1: paths that scatter have no reflection; 2:
-// they may have some.
-#ifndef WT_SCATTERS
-#define WT_SCATTERS 2
-#endif
-
 #ifndef __OPENCL_VERSION__
 namespace wavetracer::device {
 #endif

@@ -16,6 +16,14 @@
 #define WT_TARGETS 2
 #endif
 
+// 1: paths over tiles have no reflection; 2: they may have some; 3: and an edge beside the tile; 0: there are no tiles.
+#ifndef WT_SCATTERS
+#define WT_SCATTERS 3
+#endif
+
+// Not 0: a path over a tile or a target may have an edge before it or after it.
+#define WT_EDGES_BESIDE (WT_TARGETS > 1 || WT_SCATTERS > 2)
+
 // A device need not compile code for pieces of bodies where no target is one.
 #ifndef WT_FACETS
 #define WT_FACETS 1
@@ -109,6 +117,11 @@ inline int wt_degenerates(const wt_field_world* world, const wt_path* path, wt_d
 inline int wt_is_near(const wt_field_world* world, const wt_path* path) {
   if (path->depth == 0) return wt_length3(path->to - path->from) <= WT_ON_SURFACE_M;
   return wt_degenerates(world, path, path->from, 0) || wt_degenerates(world, path, path->to, path->depth - 1);
+}
+
+// Does a step end one wave and begin another, as tiles and targets do?
+inline int wt_begins_wave(wt_uint step) {
+  return (step & WT_STEP_KIND) == WT_STEP_SCATTERING || (step & WT_STEP_KIND) == WT_STEP_TARGET;
 }
 
 // Is the step at a cell of vegetation?

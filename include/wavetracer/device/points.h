@@ -13,9 +13,31 @@
 // four terms, each of at most half of the amplitude.
 #define WT_MOST_OF_EDGE 4.0
 
+// tile_edges takes tiles in an order in which neighbours follow each other. So many of them have a ball around them,
+// and so many such balls have one again.
+#define WT_TILE_BALL 32u
+
+// A ball around the tiles that paths over edges may need. sent, heard: bounds of the gains of their paths if the way
+// over the edge is 1 m long, and the other way that of an end that sends or of one that receives.
+typedef struct {
+  float middle[3];
+  float radius;
+  float sent, heard;
+} wt_tile_ball;
+
+// The gain over the way between an end and a tile, 1 / length^2, that the halves of a path need to be above the floor:
+// the least one, whatever the other end is, and the least one for all other ends than that. sent, heard: where the
+// other end sends, or receives.
+typedef struct {
+  double sent[2];
+  double heard[2];
+  wt_uint sender, receiver;  // the number of that other end among transmitters or receivers; WT_NONE if there is none
+} wt_point_floor;
+
 // A prefix of an end that sees a point: a tile. Its vertices are a row of solved paths that ends at the tile.
 typedef struct {
-  double spread;  // 1 / the square of its unfolded length, times WT_MOST_OF_EDGE over an edge
+  double spread;  // a bound of its power: 1 / the square of its unfolded length, at most WT_MOST_OF_EDGE times that
+                  // over an edge
   wt_uint row;
   wt_uint end;            // a place in the list of ends (radio_ends.hpp)
   wt_uint depth;          // the number of vertices; the tile is one
@@ -42,6 +64,8 @@ typedef struct {
   wt_uint rows_per_item;
   wt_uint max_depth;  // vertices that a row has room for
   wt_uint capacity;
+  wt_uint transmitter_count;
+  wt_uint groups;  // groups of 16 receivers
 } wt_point_prefixes_arguments;
 
 typedef struct {
@@ -57,7 +81,25 @@ typedef struct {
   wt_uint row_depth;      // vertices that a row has room for
   wt_uint capacity;
   wt_uint diffractions;  // the most diffractions of a path
+  wt_uint bends;         // the fewest diffractions of a path
+  wt_uint padding;
 } wt_point_join_arguments;
+
+// Numbers for tile_edges: `lanes` work-items take each of the prefixes first to end - 1, in their order.
+typedef struct {
+  double floor;   // paths that are surely weaker are left out; 0: none are
+  double wave_m;  // the wavelength, four times that where surfaces pass waves (bend_floors.hpp)
+  wt_uint first, end, lanes;
+  wt_uint balls;   // balls of tiles
+  wt_uint places;  // prefixes that see tiles
+  wt_uint transmitter_count;
+  wt_uint groups;        // groups of 16 receivers
+  wt_uint interactions;  // the most of a way to a tile, its edge included
+  wt_uint max_depth;     // the most interactions of a path
+  wt_uint capacity;
+  float end_detour_m;  // the detour over a free end of an edge up to which there are paths
+  wt_uint padding;
+} wt_tile_edges_arguments;
 
 // Paths over points of targets (kernels/paths/targets.cl).
 typedef struct {
