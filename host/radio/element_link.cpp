@@ -97,7 +97,9 @@ UnfoldedPath ElementLink::unfolded(size_t row) const {
     } else if (kind == diffraction || kind == scattering || kind == target_point) {
       const glm::dvec3 along =
           kind == diffraction ? rotation * scene.wedges.at(paths.vertex_surface[k]).along : glm::dvec3(0);
-      out.bends.at(static_cast<size_t>(out.count++)) = {point, along};
+      Isometry image;  // in the mirrors since the first bend
+      for (size_t i = after.size(); i-- > 0;) image = mirrored(image, after[i].first, after[i].second);
+      out.bends.at(static_cast<size_t>(out.count++)) = {image(point), image.turn * along};
     }  // a transmission goes straight on
   }
   for (size_t i = after.size(); i-- > 0;) out.heard = mirrored(out.heard, after[i].first, after[i].second);

@@ -17,48 +17,91 @@ constexpr double shortest_m = 1e-9;  // so that elements in one place have a fin
 
 double distance(const glm::dvec3& p, const glm::dvec3& q) { return std::max(glm::length(p - q), shortest_m); }
 
-// The length over points of two edges at s and t along them, with its first and second derivatives.
-struct TwoEdges {
-  double length, product, s, t, ss, st, tt;
+using PerBend = std::array<double, most_bends>;
 
-  TwoEdges(const std::array<Bend, 2>& edges, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec2& at) {
-    const glm::dvec3 p = edges[0].point + at.x * edges[0].along, q = edges[1].point + at.y * edges[1].along;
-    const double a = distance(from, p), b = distance(p, q), c = distance(q, to);
-    const glm::dvec3 u = (p - from) / a, v = (q - p) / b, w = (to - q) / c;
-    const double us = glm::dot(u, edges[0].along), vs = glm::dot(v, edges[0].along), vt = glm::dot(v, edges[1].along),
-                 wt = glm::dot(w, edges[1].along);
-    length = a + b + c;
-    product = a * b * c;
-    s = us - vs;
-    t = vt - wt;
-    ss = (1 - us * us) / a + (1 - vs * vs) / b;
-    tt = (1 - vt * vt) / b + (1 - wt * wt) / c;
-    st = (vs * vt - glm::dot(edges[0].along, edges[1].along)) / b;
+// The length over points of edges at places `at` along them, with its first and second derivatives by these places:
+// each place is in two neighbouring terms, so the matrix has a diagonal and its neighbours. A point that scatters has
+// no place along it, and the wave starts there anew: a 1 on the diagonal.
+struct OverBends {
+  double length = 0, product = 1, determinant = 1;
+  PerBend slope{}, diagonal{}, beside{};
+
+  OverBends(const UnfoldedPath& path, const glm::dvec3& from, const glm::dvec3& to, const PerBend& at) {
+    const auto count = static_cast<size_t>(path.count);
+    glm::dvec3 last = from;
+    for (size_t k = 0; k <= count; ++k) {
+      const Bend* bend = k < count ? &path.bends[k] : nullptr;
+      const glm::dvec3 next = bend ? bend->point + at[k] * bend->along : to;
+      const double part = distance(last, next);
+      const glm::dvec3 way = (next - last) / part;
+      length += part;
+      product *= part;
+      if (bend) add(k, glm::dot(way, bend->along), 1, part);
+      if (k > 0) add(k - 1, glm::dot(way, path.bends[k - 1].along), -1, part);
+      if (bend && k > 0) {
+        const glm::dvec3& before = path.bends[k - 1].along;
+        beside[k - 1] = (glm::dot(way, before) * glm::dot(way, bend->along) - glm::dot(before, bend->along)) / part;
+      }
+      last = next;
+    }
+    for (size_t k = 0; k < count; ++k)
+      if (!path.bends[k].edge()) diagonal[k] = 1;
+    reduce(count);
   }
-  double determinant() const { return ss * tt - st * st; }
+
+  // Newton's step: the solution of the system with the slopes. `reduced` and the factors are those of its elimination.
+  PerBend step(size_t count) const {
+    PerBend out{};
+    for (size_t k = 0; k < count; ++k) out[k] = -slope[k] - (k > 0 ? factor[k - 1] * out[k - 1] : 0.0);
+    for (size_t k = count; k-- > 0;) out[k] = out[k] / reduced[k] - (k + 1 < count ? factor[k] * out[k + 1] : 0.0);
+    return out;
+  }
+
+ private:
+  PerBend reduced{}, factor{};
+
+  void add(size_t k, double along, double sign, double part) {
+    slope[k] += sign * along;
+    diagonal[k] += (1 - along * along) / part;
+  }
+
+  void reduce(size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      reduced[k] = diagonal[k] - (k > 0 ? factor[k - 1] * beside[k - 1] : 0.0);
+      factor[k] = beside[k] / reduced[k];
+      determinant *= reduced[k];
+      if (!(reduced[k] > 0)) determinant = 0;
+    }
+  }
 };
 
-// The length is convex in both places, and the solved path is near, so a few steps suffice.
-PathSpread over_edges(const std::array<Bend, 2>& edges, const glm::dvec3& from, const glm::dvec3& to) {
+// The length is convex in all places, and the solved path is near, so a few steps suffice.
+PathSpread over_bends(const UnfoldedPath& path, const glm::dvec3& from, const glm::dvec3& to) {
   constexpr int most_steps = 30;
-  glm::dvec2 at(0);
-  TwoEdges now(edges, from, to, at);
-  for (int step = 0; step < most_steps; ++step) {
-    const double determinant = now.determinant();
-    if (!(determinant > 0)) break;
-    glm::dvec2 move(-(now.tt * now.s - now.st * now.t) / determinant, -(now.ss * now.t - now.st * now.s) / determinant);
-    // This is the gain of a step by the quadratic form; rounding leaves half of it.
-    if (-(now.s * move.x + now.t * move.y) < 1e-13 * now.length * 1e-3) break;
-    TwoEdges next(edges, from, to, at + move);
+  const auto count = static_cast<size_t>(path.count);
+  PerBend at{};
+  OverBends now(path, from, to, at);
+  for (int step = 0; step < most_steps && now.determinant > 0; ++step) {
+    const PerBend move = now.step(count);
+    double gain = 0;  // of this step by the quadratic form; rounding leaves half of it
+    for (size_t k = 0; k < count; ++k) gain -= now.slope[k] * move[k];
+    if (gain < 1e-13 * now.length * 1e-3) break;
+    const auto moved = [&](double share) {
+      PerBend places = at;
+      for (size_t k = 0; k < count; ++k) places[k] += share * move[k];
+      return places;
+    };
+    double share = 1;
+    OverBends next(path, from, to, moved(share));
     for (int half = 0; half < most_steps && next.length > now.length; ++half) {
-      move *= 0.5;
-      next = TwoEdges(edges, from, to, at + move);
+      share *= 0.5;
+      next = OverBends(path, from, to, moved(share));
     }
     if (!(next.length < now.length)) break;
-    at += move;
+    at = moved(share);
     now = next;
   }
-  return {now.length, 1 / (now.product * std::sqrt(std::max(now.determinant(), 1e-300)))};
+  return {now.length, 1 / (now.product * std::sqrt(std::max(now.determinant, 1e-300)))};
 }
 
 }  // namespace
@@ -100,7 +143,7 @@ WAVETRACER_WIDE void UnfoldedPath::between(const PointColumns& from, size_t firs
     }
   } else {
     for (size_t i = 0; i < points; ++i) {
-      const PathSpread spread = over_edges(bends, {x[i], y[i], z[i]}, to);
+      const PathSpread spread = over_bends(*this, {x[i], y[i], z[i]}, to);
       length_m[i] = spread.length_m;
       amplitude[i] = spread.amplitude;
     }

@@ -21,6 +21,9 @@ struct Isometry {
 // Returns the isometry after one more mirror. normal: of unit length; point: in the mirror.
 Isometry mirrored(const Isometry& image, const glm::dvec3& normal, const glm::dvec3& point);
 
+// A path has at most trace.max_diffractions = 8 edges, or a point that scatters and an edge on either side of it.
+inline constexpr int most_bends = 8;
+
 // A place where a path bends, other than a mirror.
 struct Bend {
   glm::dvec3 point{0};
@@ -47,17 +50,17 @@ struct PointColumns {
 
 struct UnfoldedPath {
   Isometry sent, heard;  // images of the transmitter in mirrors before the first bend, of the receiver in the others
-  std::array<Bend, 2> bends;  // two bends are always edges
-  int count = 0;              // the number of bends
+  std::array<Bend, most_bends> bends;  // bends after a mirror that follows the first one are images, too
+  int count = 0;                       // the number of bends
 
-  // The coordinates of a point's image from which lengths are computed: its place where nothing or two edges bend the
-  // path; its distance from a point that scatters; its place along one edge and its distance from the edge's line.
+  // The coordinates of a point's image from which lengths are computed: its place where nothing or several bends are on
+  // the way; its distance from a point that scatters; its place along one edge and its distance from the edge's line.
   glm::dvec3 coordinates(const glm::dvec3& image) const;
   // Computes lengths between points first to first + points - 1 of `from` and one point, all in coordinates.
   void between(const PointColumns& from, size_t first, size_t points, const glm::dvec3& to, double* length_m,
                double* amplitude) const;
-  // Computes them between the images of a transmitter's point and of a receiver's. One edge has a closed form. With two
-  // edges Newton's method finds the shortest way over both lines, to 1e-12 of its length.
+  // Computes them between the images of a transmitter's point and of a receiver's. One edge has a closed form. With
+  // several bends Newton's method finds the shortest way over all lines, to 1e-12 of its length.
   PathSpread between(const glm::dvec3& sent_image, const glm::dvec3& heard_image) const;
 };
 

@@ -166,6 +166,33 @@ TEST_CASE("a point that scatters stays where it is") {
   CHECK(spread.amplitude == near(1.0 / 60, 1e-15));
 }
 
+TEST_CASE("over three parallel edges, length and amplitude are those of the closed form") {
+  UnfoldedPath path;
+  path.count = 3;
+  for (const double x : {2.0, 5.0, 6.0}) path.bends[x < 3 ? 0 : x < 6 ? 1 : 2] = {{x, 0, 0.3 * x}, {0, 0, 1}};
+  const PathSpread across = path.between({0, 0, 4}, {13, 0, 4});  // parts of 2, 3, 1 and 7 m
+  CHECK(across.length_m == near(13, 1e-12));
+  CHECK(across.amplitude == near(1 / std::sqrt(2.0 * 3 * 1 * 7 * 13), 1e-12));
+  CHECK(path.between({0, 0, 4}, {13, 0, 9}).length_m == near(std::hypot(13, 5), 1e-12));
+}
+
+TEST_CASE("a point that scatters between two edges parts the path in two") {
+  const Bend before{{3, 1, 2}, glm::normalize(glm::dvec3(0.1, -0.2, 1))}, point{{8, -1, 3}, glm::dvec3(0)},
+      after{{12, 2, 1}, glm::normalize(glm::dvec3(0.3, 0.5, -1))};
+  const glm::dvec3 from(-2, 0, 1), to(17, 3, 2);
+  UnfoldedPath whole, first, second;
+  whole.count = 3, first.count = second.count = 1;
+  whole.bends = {before, point, after};
+  first.bends[0] = before;
+  second.bends[0] = after;
+  const auto way = [](const UnfoldedPath& path, const glm::dvec3& p, const glm::dvec3& q) {
+    return path.between(path.coordinates(p), path.coordinates(q));
+  };
+  const PathSpread a = way(first, from, point.point), b = way(second, point.point, to), all = way(whole, from, to);
+  CHECK(all.length_m == near(a.length_m + b.length_m, 1e-12));
+  CHECK(all.amplitude == near(a.amplitude * b.amplitude, 1e-10));
+}
+
 TEST_CASE("phases of turns are those of the library's sine and cosine") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1e5, 1e5);
