@@ -83,7 +83,7 @@ PathSpread over_bends(const UnfoldedPath& path, const glm::dvec3& from, const gl
   OverBends now(path, from, to, at);
   for (int step = 0; step < most_steps && now.determinant > 0; ++step) {
     const PerBend move = now.step(count);
-    double gain = 0;  // of this step by the quadratic form; rounding leaves half of it
+    double gain = 0;  // the step has this gain by the quadratic form; rounding leaves half of it
     for (size_t k = 0; k < count; ++k) gain -= now.slope[k] * move[k];
     if (gain < 1e-13 * now.length * 1e-3) break;
     const auto moved = [&](double share) {
