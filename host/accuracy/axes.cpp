@@ -106,7 +106,7 @@ void without_edge_rays(Axis& axis, bool all) {
 // Begins at a few hundred, which maps of many receivers can afford. There is no axis with trace.rays = "auto", which
 // does not use this number.
 std::optional<Axis> listener_axis(const Config& own) {
-  if (!own.trace.diffraction || !own.trace.rays || own.trace.from_edges()) return std::nullopt;
+  if (!own.trace.diffraction || !own.trace.rays || own.trace.from_edges() || own.trace.by_beams()) return std::nullopt;
   std::set<uint64_t> steps;
   for (const uint64_t rays : {300, 1000, 3000, 10000, 30000})
     if (rays <= *own.trace.rays) steps.insert(rays);
@@ -138,7 +138,7 @@ bool beams_are_cheap(const Config& config) {
   constexpr uint32_t few_reflections = 6;
   const TraceConfig& trace = config.trace;
   const bool reflections_alone = !trace.diffraction && !trace.transmission && !trace.scattering;
-  return reflections_alone && trace.max_depth <= few_reflections && !config::needs_rays(config);
+  return reflections_alone && trace.max_depth <= few_reflections && config::needs_rays(config, config.trace).empty();
 }
 
 std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool certify) {
@@ -155,6 +155,11 @@ std::vector<Axis> axes(const Config& own, bool drive, study::RayRange rays, bool
   for (const Mechanism& mechanism : mechanisms())
     all.push_back(
         {{mechanism.feature, "on", mechanism.on, mechanism.feature}, {{mechanism.feature, "off", mechanism.off}}});
+  // All settings of an axis find paths in one way, as those that rays are missing from would say nothing else.
+  for (size_t i = 1; own.trace.discovery == "auto" && i < all.size(); ++i) {
+    ask_for_rays(all[i].settings);
+    all[i].reference.keys.push_back("trace.discovery=rays");
+  }
   for (size_t i = 0; may_start_at_edges(own) && i < all.size(); ++i) without_edge_rays(all[i], i >= mechanisms_from);
   return all;
 }

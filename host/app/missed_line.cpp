@@ -34,7 +34,8 @@ uint64_t diffracted_paths(const Totals& totals) {
 std::string more_rays(const Run& run, const Totals& totals) {
   const TraceConfig& trace = run.config.trace;
   const std::string rays = trace.rays ? "number of trace.rays" : "trace.recall";
-  if (run.summary.edge_rays > 0) return rays + " or of trace.edge_rays";
+  if (run.summary.edge_rays > 0)
+    return trace.rays ? rays + " or of trace.edge_rays" : rays + " or number of trace.edge_rays";
   const bool receivers_launch = trace.diffraction && config::listener_count(run.config) > 0;
   if (!receivers_launch || 2 * diffracted_paths(totals) <= totals.counts.paths) return rays;
   return trace.rays ? "number of trace.diffraction_rays (at most trace.rays)"

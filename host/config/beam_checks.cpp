@@ -83,8 +83,14 @@ void check_floor(const Config& config, std::vector<Contradiction>& out) {
     if (is_on) refuse(key, fmt::format(fmt::runtime(nothing), waves, key));
 }
 
-bool needs_rays(const Config& config) {
-  return !refused_by_beams(config).empty() || edge_rays_of(config, config.trace) > 0;
+std::string needs_rays(const Config& config, const TraceConfig& trace) {
+  const std::vector<RayTaker> takers = refused_by_beams(config);
+  if (!takers.empty()) return takers.front().does;
+  const uint64_t edge_rays = edge_rays_of(config, trace);
+  if (edge_rays == 0) return "";
+  return trace.edge_rays
+             ? fmt::format("trace.edge_rays = {} launches rays from edges", edge_rays)
+             : fmt::format("more than {} receivers listen, so rays start at edges (trace.edge_rays)", many_listeners);
 }
 
 }  // namespace wavetracer::config

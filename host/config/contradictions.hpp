@@ -17,8 +17,9 @@ struct Contradiction {
 
 std::vector<Contradiction> contradictions(const Config& config);
 
-// Does something need rays, so that trace.discovery = "beams" is refused?
-bool needs_rays(const Config& config);
+// Says what needs rays, so that trace.discovery = "beams" is refused or "auto" takes none; empty: nothing does. trace:
+// [trace] of config, perhaps without what the scene does not need.
+std::string needs_rays(const Config& config, const TraceConfig& trace);
 
 // Defined in table_checks.cpp: checks of arrays and several carriers, of vehicles and the time of their drive, of air
 // and places, of materials, of edges beside tiles.

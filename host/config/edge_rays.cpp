@@ -52,8 +52,9 @@ void check_edge_rays(const Config& config, std::vector<Contradiction>& out) {
 }
 
 uint64_t edge_rays_of(const Config& config, const TraceConfig& trace) {
+  if (!trace.diffraction) return 0;
   if (trace.edge_rays) return *trace.edge_rays;
-  if (!trace.diffraction || trace.by_spheres() || trace.diffraction_rays) return 0;
+  if (trace.by_spheres() || trace.diffraction_rays) return 0;
   const bool many = listener_count(config) > many_listeners;
   return many && !trace.reflects_echoes() && obstacles(config, trace).empty() ? automatic_edge_rays : 0;
 }

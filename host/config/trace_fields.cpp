@@ -19,8 +19,8 @@ Table trace_table() {
                "lies in beams that are too thin to follow, and the run tells their solid angle. Beams use none of "
                "the keys about rays, such as trace.rays; with trace.reuse, frames keep what ends that stand see of "
                "surfaces that stand. With trace.transmission they follow waves through up to trace.max_transmissions surfaces, which takes "
-               "some times as long. auto: beams for one frame of at most 4,000 surfaces in which nothing moves, with "
-               "trace.max_depth of at most 6, without transmission, scattering and targets, and where nothing needs "
+               "some times as long. auto: beams for one frame of at most 4,000 surfaces in which nothing moves and no vehicle has a "
+               "body, with trace.max_depth of at most 6, without transmission, scattering and targets, and where nothing needs "
                "rays; else rays. There the complete list takes a few times as long as a frame of the default number "
                "of rays. summary.json says which was taken, and why (features.beams)."},
           {.name = "rays",
@@ -145,7 +145,8 @@ Table trace_table() {
                   "transmitter sees, for each way on which it sees it. They go where the edge sends the wave, and "
                   "receivers try what passes near them, so receivers launch no rays. That is faster and finds more "
                   "where there are many receivers, as in coverage maps. 0: receivers launch diffraction_rays each. "
-                  "auto: 3000 where nothing moves, more than 1000 receivers do not transmit, diffraction_rays is not "
+                  "auto: 3000 where nothing moves, no vehicle has a body, no frame reuses another, more than 1000 "
+                  "receivers do not transmit, diffraction_rays is not "
                   "given, and nothing is asked for that rays from edges cannot find; else 0."},
           {.name = "transmission",
            .slot = t(&TraceConfig::transmission),

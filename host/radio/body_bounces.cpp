@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "wavetracer/error.hpp"
@@ -21,9 +22,20 @@ struct Reflector {
   bool lit_above = false, lit_below = false;
 };
 
+// Throws ConfigError if there are too many pairs or chains of facets of a body.
+void check_number(size_t chains, const Scene& model, uint32_t bounces, const std::string& target_model) {
+  if (chains > most_bounces_of_body)
+    throw ConfigError(fmt::format(
+        "[[target_model]] \"{}\" with bounces = {} makes more than {} chains of facets of the body of {}: lower "
+        "bounces, raise piece_m, or use a body with fewer facets",
+        target_model, bounces, most_bounces_of_body, model.file.empty() ? "a vehicle" : model.file));
+}
+
 class Mirrors {
  public:
-  Mirrors(const Scene& model, const std::vector<TargetPiece>& pieces) : model_(model), all_(model.surfaces.size()) {
+  // check: throws where the number of pairs is too large.
+  Mirrors(const Scene& model, const std::vector<TargetPiece>& pieces, const std::function<void(size_t)>& check)
+      : model_(model), all_(model.surfaces.size()) {
     for (size_t i = 0; i < model.triangles.size(); ++i)
       for (const uint32_t corner : model.triangles[i])
         all_[model.triangle_surface[i]].corners.emplace_back(model.vertices[corner]);
@@ -32,9 +44,12 @@ class Mirrors {
       all_[piece.surface].lit_below = piece.lit_below;
     }
     before_.resize(all_.size());
-    for (uint32_t to = 0; to < all_.size(); ++to)
+    size_t pairs = 0;
+    for (uint32_t to = 0; to < all_.size(); ++to) {
       for (uint32_t from = 0; from < all_.size(); ++from)
         if (from != to && sees_part(from, to) && sees_part(to, from)) before_[to].push_back(from);
+      check(pairs += before_[to].size());
+    }
   }
 
   // The mirrors from which a wave may come to the surface.
@@ -67,19 +82,16 @@ std::vector<BodyBounce> bounces_of_body(const Scene& model, const std::vector<Ta
                                         const std::string& target_model) {
   std::vector<BodyBounce> out;
   if (bounces < 2) return out;
-  const Mirrors mirrors(model, pieces);
+  const auto check = [&](size_t chains) { check_number(chains, model, bounces, target_model); };
+  const Mirrors mirrors(model, pieces, check);
   for (uint32_t i = 0; i < pieces.size(); ++i) {
     for (const uint32_t last : mirrors.before(pieces[i].surface)) {
       if (!mirrors.lights(last, pieces[i].centre_m)) continue;
+      check(out.size() + 1 + (bounces < 3 ? 0 : mirrors.before(last).size()));
       out.push_back({i, 1, {last, last}});
       if (bounces < 3) continue;
       for (const uint32_t first : mirrors.before(last)) out.push_back({i, 2, {first, last}});
     }
-    if (out.size() > most_bounces_of_body)
-      throw ConfigError(fmt::format(
-          "[[target_model]] \"{}\" with bounces = {} makes more than {} chains of facets of the body of {}: lower "
-          "bounces, raise piece_m, or use a body with fewer facets",
-          target_model, bounces, most_bounces_of_body, model.file.empty() ? "a vehicle" : model.file));
   }
   return out;
 }

@@ -77,13 +77,15 @@ std::map<Interaction, std::vector<Reason>> needs(const Config& config, const Sce
 
 // Beams, if trace.discovery asks for them or leaves the choice. Reasons are about what is known before any ray is
 // launched, so each run of a configuration makes the same choice, on every device.
-Feature beams(const Config& config, const Scene& scene, const World& world, bool frames_follow) {
-  const TraceConfig& trace = config.trace;
+Feature beams(const Config& config, const Scene& scene, const World& world, bool frames_follow, bool diffracts) {
+  TraceConfig trace = config.trace;
   if (trace.by_beams()) return {true, {}};
+  trace.diffraction = diffracts;
+  const std::string rays = config::needs_rays(config, trace);
   const bool one_frame = world.clock.frame_count() == 1 && !frames_follow;
   return feature({{trace.discovery == "rays", "trace.discovery = \"rays\""},
-                  {config::needs_rays(config), "the configuration asks for what needs rays"},
-                  {!world.resting || !world.fleet.instances.empty(), "vehicles are followed by rays"},
+                  {!rays.empty(), rays},
+                  {!world.resting || !world.fleet.instances.empty(), "bodies of vehicles are followed by rays"},
                   {!one_frame, "frames follow each other, and reuse what rays have found"},
                   {trace.transmission, "beams through walls take longer (trace.transmission)"},
                   {trace.scattering, "trace.scattering = true"},
@@ -129,7 +131,7 @@ Features choose_features(const Config& config, const Scene& scene, const World& 
   const AirConfig& air = config.air;
   out["air"] = feature({{!air.gases && air.fog_g_m3 == 0 && air.rain_mm_h == 0,
                          "air.gases = false, air.fog_g_m3 = 0 and air.rain_mm_h = 0"}});
-  out["beams"] = beams(config, scene, world, frames_follow);
+  out["beams"] = beams(config, scene, world, frames_follow, out["diffraction"].on);
   return out;
 }
 

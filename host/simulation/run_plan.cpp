@@ -42,7 +42,8 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   Config config = with_all_ends(asked, world);
   Features features = choose_features(config, scene, world, frames_follow);
   TraceConfig trace = with_features(config.trace, features);
-  if (!trace.edge_rays) trace.edge_rays = world.resting ? config::edge_rays_of(config, trace) : 0;
+  const bool alone = world.resting && world.fleet.instances.empty() && !reuses(trace, world, frames_follow);
+  if (!trace.edge_rays) trace.edge_rays = alone ? config::edge_rays_of(config, trace) : 0;
   Origins origins =
       make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.from_both_ends());
   if (trace.from_edges()) {

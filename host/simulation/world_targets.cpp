@@ -62,6 +62,11 @@ class BodyChains {
     if (is_new)
       chains->second = bounces_of_body(fleet_.models[body.model], laws_.bodies[model][body.model].pieces,
                                        of.bounces.value_or(1), of.name);
+    if (constexpr size_t most = size_t{1} << 26; to.bounces.size() + chains->second.size() > most)
+      throw ConfigError(fmt::format(
+          "[[target_model]] \"{}\" with bounces = {}: the bodies of all targets have more than {} chains of "
+          "facets together: lower bounces, raise piece_m, or let fewer vehicles be such targets",
+          of.name, of.bounces.value_or(1), most));
     for (const BodyBounce& chain : chains->second)
       to.bounces.push_back({.point = to.all.back().first_point + chain.piece,
                             .count = chain.count,

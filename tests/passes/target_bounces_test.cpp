@@ -97,18 +97,18 @@ uint32_t side_of(const TargetState& piece, const dvec3& from) {
   return height > 0 ? (piece.lit_above ? 1 : 0) : (piece.lit_below ? 2 : 0);
 }
 
-using Row = std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>;  // ends and steps
+using BouncedRow = std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>;  // ends and steps
 
-using Rows = std::map<Row, std::vector<dvec3>>;
+using BouncedRows = std::map<BouncedRow, std::vector<dvec3>>;
 
-Rows rows_of(const SolvedList& list) {
+BouncedRows bounced_rows_of(const SolvedList& list) {
   const auto headers = list.headers.read(0, list.count);
   const auto steps = list.sequences.read(0, 4 * size_t{list.count});
   const auto xyz = list.vertices.read(0, 3 * steps.size());
-  Rows found;
+  BouncedRows found;
   for (size_t i = 0; i < headers.size(); ++i) {
     CHECK((headers[i].blocked == 0 && headers[i].node == WT_NONE && headers[i].quarters == WT_ALL_QUARTERS));
-    Row row{headers[i].transmitter, headers[i].receiver, {}};
+    BouncedRow row{headers[i].transmitter, headers[i].receiver, {}};
     std::vector<dvec3> points;
     for (size_t k = 4 * i; k < 4 * i + headers[i].depth; ++k) {
       std::get<2>(row).push_back(steps[k]);
@@ -120,9 +120,9 @@ Rows rows_of(const SolvedList& list) {
 }
 
 // The rows by bounced(); transmitter 2 rides with the body. weak: counts those below the floor.
-Rows wanted_rows(const Pieces& pieces, const std::vector<dvec3>& from, const std::vector<dvec3>& to,
-                 const std::vector<Link>& links, double floor, uint64_t& weak) {
-  Rows wanted;
+BouncedRows wanted_rows(const Pieces& pieces, const std::vector<dvec3>& from, const std::vector<dvec3>& to,
+                        const std::vector<Link>& links, double floor, uint64_t& weak) {
+  BouncedRows wanted;
   for (const Link& link : links)
     for (const wt_target_bounce& chain : pieces.bounces)
       for (const bool turned : {false, true}) {
@@ -144,7 +144,7 @@ Rows wanted_rows(const Pieces& pieces, const std::vector<dvec3>& from, const std
           std::ranges::reverse(mirrors);
           std::ranges::reverse(way->points);
         }
-        wanted.emplace(Row{link.tx, link.rx, mirrors}, way->points);
+        wanted.emplace(BouncedRow{link.tx, link.rx, mirrors}, way->points);
       }
   return wanted;
 }
@@ -169,9 +169,9 @@ TEST_CASE("target_bounces: the rows of all chains from both ends, with exact poi
     TargetBounces pass(context(), pieces.bounces, 4);
     pass(scene, ends, targets);  // it runs twice: nothing of the first run may remain
     const SolvedList& list = pass(scene, ends, targets);
-    const Rows found = rows_of(list);
+    const BouncedRows found = bounced_rows_of(list);
     uint64_t weak = 0;
-    const Rows wanted = wanted_rows(pieces, from, to, links, floor, weak);
+    const BouncedRows wanted = wanted_rows(pieces, from, to, links, floor, weak);
     CHECK(pass.weak() == weak);
     CHECK((floor > 0) == (weak > 0));
     REQUIRE(found.size() == wanted.size());

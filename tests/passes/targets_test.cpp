@@ -168,8 +168,10 @@ TEST_CASE("target_bodies: rows with a mirror, an edge or a tile on a body are ma
                                                 {WT_STEP_DIFFRACTION | 0},
                                                 {0, WT_STEP_SCATTERING | 0},
                                                 {WT_STEP_SCATTERING | 1},  // a cell
-                                                {WT_STEP_TRANSMISSION | 2}};
-  const std::vector<bool> wanted{false, false, false, true, true, false, true, true, false, false};
+                                                {WT_STEP_TRANSMISSION | 2},
+                                                {2, WT_STEP_TARGET | 1},  // a bounce within the body
+                                                {2, WT_STEP_TARGET | 0}};
+  const std::vector<bool> wanted{false, false, false, true, true, false, true, true, false, false, false, true};
   std::vector<wt_solved> headers(rows.size());
   std::vector<uint32_t> steps(2 * rows.size());
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -182,8 +184,14 @@ TEST_CASE("target_bodies: rows with a mirror, an edge or a tile on a body are ma
   list.headers = context().buffer(headers, "headers");
   list.sequences = context().buffer(steps, "steps");
   Counters counters(context());
+  WorldState world;  // of its points the second one is a piece of instance 1
+  world.targets.resize(3);
+  world.targets[1].instance = 1;
+  world.targets[1].surface = 2;
+  TargetRows points(context(), 3, 2);
+  points.place(world);
   TargetBodies bodies(context(), {0, 1});
-  bodies(scene, list, counters, StepTables{&wedges, &tiles, nullptr});
+  bodies(scene, list, counters, StepTables{&wedges, &tiles, nullptr}, points);
   const auto marked = list.headers.read(0, list.count);
   for (size_t i = 0; i < rows.size(); ++i) CHECK((marked[i].blocked != 0) == wanted[i]);
 }

@@ -9,9 +9,10 @@
 // Tiles of a surface that follow each other are near each other. So many of them are a block, with one box around it.
 #define WT_TILE_BLOCK 64u
 
-// The most power that an edge diffracts, over that of the wave on a mirror of the same length: the wave of an edge has
-// four terms, each of at most half of the amplitude.
-#define WT_MOST_OF_EDGE 4.0
+// The most power that an edge diffracts, over that of the wave on a mirror of the same length. The wave of an edge has
+// four terms. Each of the two of the wave itself is half of its jump, which is 2 at most, where a wall lets through its
+// opposite; each of the two of reflected waves is three halves at most (lib/bend_bound.clh).
+#define WT_MOST_OF_EDGE 25.0
 
 // tile_edges takes tiles in an order in which neighbours follow each other. So many of them have a ball around them,
 // and so many such balls have one again.
