@@ -20,18 +20,18 @@ BeamUnite::BeamUnite(gpu::Context& context)
       link_(context, definitions_of(lanes_)),
       unite_(context, definitions_of(lanes_)) {}
 
-uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint32_t count, const Trie& set) {
+// The heads of lists are as unite_ leaves them, so a call that fails between leaves none.
+uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint32_t count, const Trie& set) try {
+  const uint32_t none = WT_NONE, zero = 0;
   if (lists.apertures.size() < count)
     lists.apertures = context_.buffer<wt_aperture>(lists.next.size(), {"apertures", advice::beams});
   if (before_.size() < count)
     before_ = context_.buffer<uint32_t>(std::bit_ceil(count), {"lists of apertures", advice::beams});
   if (last_.size() != set.table.size()) {
     last_ = context_.buffer<uint32_t>(set.table.size(), {"lists of apertures", advice::beams});
-    const uint32_t none = WT_NONE;
     context_.fill(last_, &none, sizeof none, 0, last_.bytes(), Stage::beam_visible);
   }
-  const uint32_t none = 0;
-  context_.fill(lists.counters, &none, sizeof none, offsetof(wt_beam_counters, apertures), sizeof none,
+  context_.fill(lists.counters, &zero, sizeof zero, offsetof(wt_beam_counters, apertures), sizeof zero,
                 Stage::beam_visible);
   link_({count, context_.info().simple_local_size()}, Stage::beam_visible,
         calls::beam_unite::beam_link{.apertures = lists.next, .count = count, .last = last_, .before = before_});
@@ -47,6 +47,9 @@ uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint3
   now.apertures = 0;
   lists.counters.write(std::vector{now}, 0, Stage::beam_visible);
   return united;
+} catch (...) {
+  last_ = gpu::Buffer<uint32_t>{};
+  throw;
 }
 
 }  // namespace wavetracer

@@ -32,6 +32,7 @@ FrameLoop::FrameLoop(Setup& setup) : s_(setup), plan_(*setup.plan), clock_(plan_
 }
 
 void FrameLoop::forget() {
+  places_rest_ = links_rest_ = false;
   if (s_.beams) s_.beams->forget();
   forget_found();
 }
@@ -65,7 +66,7 @@ FrameResult FrameLoop::run(FrameTask task) {
   } catch (const gpu::BufferError&) {
     const bool keeps = s_.beams && s_.beams->kept_bytes() > 0;
     forget();
-    if (!keeps) throw;
+    if (!keeps || task.links().is_batch()) throw;  // smaller batches may fit beside them
   }
   const std::string warning = s_.beams->keep_nothing();  // its memory may serve the frame
   FrameResult out = run(std::move(task));

@@ -184,7 +184,7 @@ TEST_CASE("target_bodies: rows with a mirror, an edge or a tile on a body are ma
   list.headers = context().buffer(headers, "headers");
   list.sequences = context().buffer(steps, "steps");
   Counters counters(context());
-  WorldState world;  // of its points the second one is a piece of instance 1
+  WorldState world;  // its second point is a piece of instance 1
   world.targets.resize(3);
   world.targets[1].instance = 1;
   world.targets[1].surface = 2;
