@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compares links with the models: medians and spreads of each class of links, and by distance."""
+import datetime
+
 import numpy as np
 
 import p1411
@@ -9,6 +11,7 @@ import tr38901
 
 NLOS_FROM_M = 30.0  # the NLOS formulas of P.1411 begin here
 WEAK_DB = 150.0  # losses above this are hard to measure
+FLOOR_DB = -170.0  # of a single path over a tile
 ROUGH = ("brick", "concrete", "glass", "marble")  # walls and ground of generated cities
 
 
@@ -132,11 +135,16 @@ def causes():
     """
     few = {"seed": 1, "masts": 1, "terminals": 40}
     three = {**streets.TRACE, "max_depth": 3}
-    plain, short = streets.city_masts(1), streets.city_masts(**few, trace=three)
-    rough = {"trace": {**streets.TRACE, "scattering": True, "tile_m": 10.0},
-             "material": [{"name": name, "scattering": 0.3} for name in ROUGH]}
+    plain, few_plain, short = streets.city_masts(1), streets.city_masts(**few), streets.city_masts(**few, trace=three)
+    walls = {"material": [{"name": name, "scattering": 0.3} for name in ROUGH]}
+    once = {**streets.TRACE, "scattering": True, "tile_m": 10.0}
+    mirrored = {**once, "scattering_reflections": 1, "scattering_floor_db": FLOOR_DB}
     trials = (("six interactions instead of four", plain, streets.city_masts(1, trace={**streets.TRACE, "max_depth": 6})),
-              ("rough walls, S = 0.3 (scattered once)", plain, streets.city_masts(1, **rough)),
+              ("rough walls, S = 0.3 (scattered once)", plain, streets.city_masts(1, trace=once, **walls)),
+              ("the same, fewer links", few_plain, streets.city_masts(**few, trace=once, **walls)),
+              ("and reflected before and after", few_plain, streets.city_masts(**few, trace=mirrored, **walls)),
+              ("and with an edge beside the tile", few_plain,
+               streets.city_masts(**few, trace={**mirrored, "scattering_diffraction": True}, **walls)),
               ("two edges instead of one, of three interactions", short,
                streets.city_masts(**few, trace={**three, "max_diffractions": 2})))
     out = []
@@ -145,7 +153,7 @@ def causes():
             hidden = ~one["los"] & np.isfinite(one["loss_db_with"])
             change = other["loss_db_with"][hidden] - one["loss_db_with"][hidden]
             out.append({"what": what, "frequency_hz": hz, "links": int(hidden.sum()), "median_db": float(np.median(change)),
-                        "mean_db": float(np.mean(change))})
+                        "mean_db": float(np.mean(change)), "date": datetime.date.today().isoformat()})
     return out
 
 

@@ -20,7 +20,7 @@ namespace wavetracer::test {
 inline constexpr double light_m_s = 299792458.0, frequency_hz = 5.9e9, carrier_wave_m = light_m_s / frequency_hz;
 inline constexpr uint32_t most_steps = 3;
 enum FieldSurface : uint32_t { ground, conducting_wall, screen };
-inline constexpr uint32_t corner = 4;  // a wedge
+inline constexpr uint32_t corner_wedge = 4;  // a wedge
 
 // A ground of concrete without end below, a perfect conductor at y = 8, and a screen of concrete at x = 10, 3 m high,
 // whose upper edge is wedge 2. Ground and conductor meet in a corner, the last wedge.
@@ -95,7 +95,7 @@ inline std::vector<PathRow> path_of_each_kind() {
                     {{-22, 22.0 / 3, 0}, {-20.4, 8, 0.4}}),
           field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_TRANSMISSION | screen}, {{10, 0, 2}}),
           field_row({0, 0, 2}, {20, 0, 2}, {WT_STEP_DIFFRACTION | 2}, {{10, 0, 3}}),
-          field_row({-30, 4, 2}, {-6, 2, 4}, {WT_STEP_DIFFRACTION | corner}, {{corner_x, 8, 0}})};
+          field_row({-30, 4, 2}, {-6, 2, 4}, {WT_STEP_DIFFRACTION | corner_wedge}, {{corner_x, 8, 0}})};
 }
 
 }  // namespace wavetracer::test

@@ -165,7 +165,7 @@ TEST_CASE("fields: the ground reflects by Fresnel's coefficients, and a conducto
   CHECK(paths.gain_db[2] == within(20 * std::log10(off_wall) + 10 * std::log10(2.0), 1e-12));
   CHECK(paths.vertex_offset == std::vector<uint64_t>{0, 0, 1, 2, 4, 5, 6, 7});
   CHECK(paths.vertex_surface ==
-        std::vector<uint32_t>{ground, conducting_wall, ground, conducting_wall, screen, 2, corner});
+        std::vector<uint32_t>{ground, conducting_wall, ground, conducting_wall, screen, 2, corner_wedge});
   CHECK(paths.vertex_position_m[0] == world.rows[1].points[0] + world.scene.origin_m);
   CHECK(paths.vertex_interaction ==
         std::vector<uint8_t>{reflection, reflection, reflection, reflection, transmission, diffraction, diffraction});
