@@ -11,7 +11,7 @@ import tr38901
 
 NLOS_FROM_M = 30.0  # the NLOS formulas of P.1411 begin here
 WEAK_DB = 150.0  # losses above this are hard to measure
-FLOOR_DB = -170.0  # of a single path over a tile
+FLOOR_DB = -170.0  # below it a single path over a tile may be left out
 ROUGH = ("brick", "concrete", "glass", "marble")  # walls and ground of generated cities
 
 
@@ -141,9 +141,9 @@ def causes():
     mirrored = {**once, "scattering_reflections": 1, "scattering_floor_db": FLOOR_DB}
     trials = (("six interactions instead of four", plain, streets.city_masts(1, trace={**streets.TRACE, "max_depth": 6})),
               ("rough walls, S = 0.3 (scattered once)", plain, streets.city_masts(1, trace=once, **walls)),
-              ("the same, fewer links", few_plain, streets.city_masts(**few, trace=once, **walls)),
-              ("and reflected before and after", few_plain, streets.city_masts(**few, trace=mirrored, **walls)),
-              ("and with an edge beside the tile", few_plain,
+              ("rough walls, scattered once, fewer links", few_plain, streets.city_masts(**few, trace=once, **walls)),
+              ("rough walls, reflected before and after a tile, too", few_plain, streets.city_masts(**few, trace=mirrored, **walls)),
+              ("rough walls, also with an edge beside a tile", few_plain,
                streets.city_masts(**few, trace={**mirrored, "scattering_diffraction": True}, **walls)),
               ("two edges instead of one, of three interactions", short,
                streets.city_masts(**few, trace={**three, "max_diffractions": 2})))
