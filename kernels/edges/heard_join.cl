@@ -27,10 +27,6 @@ typedef struct {
   uint count;
 } heard_receivers;
 
-// The quarters of a path whose halves these quarters have found. The rays of edges know the prefixes of all quarters,
-// so both halves are found independently of each other, and the one that fewer quarters found decides.
-inline uint found_by_both(uint a, uint b) { return popcount(a) <= popcount(b) ? a : b; }
-
 // Lists a candidate, if its path may cross the edge. from: what the transmitter's prefix `a` sees.
 inline void join_pair(const heard_edge* heard, const global wt_wedge_prefix* a, const wt_edge_onlooker* from,
                       const wt_edge_onlooker* to, uint receiver, const global ushort* links,
@@ -38,8 +34,8 @@ inline void join_pair(const heard_edge* heard, const global wt_wedge_prefix* a, 
                       global wt_wedge_candidate* out, global wt_counters* counters, wt_wedge_join_arguments args) {
   if (!(links[(size_t)a->end * args.groups + receiver / 16] >> receiver % 16 & 1)) return;
   if (wt_may_cross(from, to, wedges + heard->wedge, surfaces, args.end_detour_m, a->pieces, args.pieces))
-    wt_emit_candidate(a->node, heard->node, heard->wedge, WT_NONE, receiver,
-                      found_by_both(a->quarters, heard->found_by), batch, out, args.capacity, counters);
+    wt_emit_candidate(a->node, heard->node, heard->wedge, WT_NONE, receiver, a->quarters & heard->found_by, batch, out,
+                      args.capacity, counters);
 }
 
 // Joins receivers with the transmitters' prefixes. Many receivers follow each other in the list for each prefix,

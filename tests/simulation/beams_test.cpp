@@ -157,8 +157,8 @@ TEST_CASE("discovery \"auto\" takes beams for one frame of a small scene at rest
   add_vehicles(drive, {{"a", "passenger", {-20.3, -3.1, 0}, {9.7, 0.4, 0}, 0, 1}}, 0.5);
   CHECK(reason(deep) == "trace.max_depth = 7 is more than 6");
   CHECK(reason(passing) == "beams through walls take longer (trace.transmission)");
-  CHECK(reason(with_rays) == "the configuration asks for what needs rays");
-  CHECK(reason(drive) == "vehicles are followed by rays");
+  CHECK(reason(with_rays) == "output.waypoints = 3 writes rays of every frame");
+  CHECK(reason(drive) == "bodies of vehicles are followed by rays");
   Scene scene = load_scene_file(file.path(), {});
   const World world = make_world(config, scene);
   CHECK(choose_features(config, scene, world, true).at("beams").reason ==
