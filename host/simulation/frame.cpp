@@ -65,7 +65,7 @@ FrameResult FrameLoop::run(FrameTask task) {
   } catch (const gpu::BufferError&) {
     const bool keeps = s_.beams && s_.beams->kept_bytes() > 0;
     forget();
-    places_rest_ = links_rest_ = false;  // not all of them may have been written
+    places_rest_ = links_rest_ = false;            // not all of them may have been written
     if (!keeps || task.links().is_batch()) throw;  // smaller batches may fit beside them
   }
   const std::string warning = s_.beams->keep_nothing();  // its memory may serve the frame
