@@ -6,8 +6,8 @@
 #include "wavetracer/device/bvh.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// Lists of more apertures stay as they are.
-#define WT_UNITED 64u
+// Lists of more apertures stay as they are: on GPUs all wait for the group that has the longest list.
+#define WT_UNITED 16u
 
 // A list of apertures of one sequence.
 typedef struct {
