@@ -185,10 +185,8 @@ TEST_CASE("a point that scatters between two edges parts the path in two") {
   whole.bends = {before, point, after};
   first.bends[0] = before;
   second.bends[0] = after;
-  const auto way = [](const UnfoldedPath& path, const glm::dvec3& p, const glm::dvec3& q) {
-    return path.between(path.coordinates(p), path.coordinates(q));
-  };
-  const PathSpread a = way(first, from, point.point), b = way(second, point.point, to), all = way(whole, from, to);
+  const PathSpread a = first.between(from, point.point), b = second.between(point.point, to),
+                   all = whole.between(from, to);
   CHECK(all.length_m == near(a.length_m + b.length_m, 1e-12));
   CHECK(all.amplitude == near(a.amplitude * b.amplitude, 1e-10));
 }
