@@ -23,6 +23,10 @@ BeamUnite::BeamUnite(gpu::Context& context)
 // The heads of lists are as unite_ leaves them, so a call that fails between leaves none.
 uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint32_t count, const Trie& set) try {
   const uint32_t none = WT_NONE, zero = 0;
+  const auto count_from_zero = [&] {
+    context_.fill(lists.counters, &zero, sizeof zero, offsetof(wt_beam_counters, apertures), sizeof zero,
+                  Stage::beam_visible);
+  };
   if (lists.apertures.size() < count)
     lists.apertures = context_.buffer<wt_aperture>(lists.next.size(), {"apertures", advice::beams});
   if (before_.size() < count)
@@ -31,8 +35,7 @@ uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint3
     last_ = context_.buffer<uint32_t>(set.table.size(), {"lists of apertures", advice::beams});
     context_.fill(last_, &none, sizeof none, 0, last_.bytes(), Stage::beam_visible);
   }
-  context_.fill(lists.counters, &zero, sizeof zero, offsetof(wt_beam_counters, apertures), sizeof zero,
-                Stage::beam_visible);
+  count_from_zero();
   link_({count, context_.info().simple_local_size()}, Stage::beam_visible,
         calls::beam_unite::beam_link{.apertures = lists.next, .count = count, .last = last_, .before = before_});
   unite_({size_t{count} * lanes_, lanes_}, Stage::beam_visible,
@@ -42,10 +45,8 @@ uint32_t BeamUnite::operator()(const DeviceScene& scene, BeamLists& lists, uint3
                                        .before = before_,
                                        .out = lists.apertures,
                                        .counters = lists.counters});
-  wt_beam_counters now = lists.counters.read_one(0, Stage::beam_visible);
-  const uint32_t united = now.apertures;
-  now.apertures = 0;
-  lists.counters.write(std::vector{now}, 0, Stage::beam_visible);
+  const uint32_t united = lists.counters.read_one(0, Stage::beam_visible).apertures;
+  count_from_zero();
   return united;
 } catch (...) {
   last_ = gpu::Buffer<uint32_t>{};

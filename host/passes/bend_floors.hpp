@@ -29,7 +29,7 @@ inline BentWaves bent_waves(double wavelength_m, bool passes) {
 inline BendFloors bend_floors(std::optional<double> floor_db, double wavelength_m, bool passes) {
   if (!floor_db) return {};
   constexpr double rounding = 1e-6;
-  const double at_1_m = wavelength_m / (4 * std::numbers::pi), edge = wavelength_m * (passes ? 4 : 1);
+  const double at_1_m = wavelength_m / (4 * std::numbers::pi), edge = bent_waves(wavelength_m, passes).wave_m;
   const double one = std::pow(10.0, *floor_db / 10) * (1 - rounding) / (at_1_m * at_1_m * edge);
   return {one, one / edge};
 }

@@ -80,7 +80,12 @@ ElementLink::ElementLink(const ElementModel& model, const FrameResult& frame, Li
 UnfoldedPath ElementLink::unfolded(size_t row) const {
   const Paths& paths = frame_.paths;
   UnfoldedPath out;
-  std::vector<std::pair<glm::dvec3, glm::dvec3>> after;  // normals and points of mirrors
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> after;  // normals and points of mirrors since the first bend
+  const auto image_in_these = [&] {
+    Isometry image;
+    for (size_t i = after.size(); i-- > 0;) image = mirrored(image, after[i].first, after[i].second);
+    return image;
+  };
   for (uint64_t k = paths.vertex_offset[row]; k < paths.vertex_offset[row + 1]; ++k) {
     const uint32_t instance = paths.vertex_instance[k];
     const bool moves = instance != no_instance;
@@ -97,12 +102,11 @@ UnfoldedPath ElementLink::unfolded(size_t row) const {
     } else if (kind == diffraction || kind == scattering || kind == target_point) {
       const glm::dvec3 along =
           kind == diffraction ? rotation * scene.wedges.at(paths.vertex_surface[k]).along : glm::dvec3(0);
-      Isometry image;  // in the mirrors since the first bend
-      for (size_t i = after.size(); i-- > 0;) image = mirrored(image, after[i].first, after[i].second);
+      const Isometry image = image_in_these();
       out.bends.at(static_cast<size_t>(out.count++)) = {image(point), image.turn * along};
     }  // a transmission goes straight on
   }
-  for (size_t i = after.size(); i-- > 0;) out.heard = mirrored(out.heard, after[i].first, after[i].second);
+  out.heard = image_in_these();
   return out;
 }
 

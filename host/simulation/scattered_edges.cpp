@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "base/environment.hpp"
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/error.hpp"
@@ -36,8 +33,7 @@ ScatteredEdges::ScatteredEdges(gpu::Context& context, const TileTable& tiles, ui
       all_(context, limits.row_depth),
       sort_(context),
       join_(context, with_one_edge(limits)) {
-  if (const std::string most = environment("WAVETRACER_MOST_POINTS"); !most.empty())
-    join_.set_most(static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L)));
+  if (const auto most = most_points_of_tests()) join_.set_most(*most);
 }
 
 bool ScatteredEdges::sort(const DeviceScene& scene, const TileBuffers& tiles, const RadioEnds& ends,

@@ -18,16 +18,21 @@
 
 namespace wavetracer {
 
+// The room of lists of prefixes and paths that a test asks for, so that it needs no scene of millions of paths.
+inline std::optional<uint32_t> most_points_of_tests() {
+  const std::string most = environment("WAVETRACER_MOST_POINTS");
+  if (most.empty()) return {};
+  return static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L));
+}
+
 struct ScatteredPaths {
   // reflections: the most before a tile and after it; beside_edge: see PointFloors.
   ScatteredPaths(gpu::Context& context, uint32_t reflections, const JoinedPoints& limits, bool beside_edge)
       : prefixes(context, limits.row_depth, reflections), join(context, limits), sort_(context) {
     if (limits.floor > 0) floors.emplace(context, limits.floor, limits.powers, beside_edge);
-    // With this, tests need no scene of millions of paths.
-    if (const std::string most = environment("WAVETRACER_MOST_POINTS"); !most.empty()) {
-      const auto least = static_cast<uint32_t>(std::max(std::atol(most.c_str()), 1L));
-      prefixes.set_most(least);
-      join.set_most(least);
+    if (const auto least = most_points_of_tests()) {
+      prefixes.set_most(*least);
+      join.set_most(*least);
     }
   }
 

@@ -167,7 +167,8 @@ inline void wt_pass_beside_point(const wt_field_world* world, const wt_ordered_r
   }
   wt_pass_surfaces(world, path, length_m, k, wave);
   const double first_m = wt_section_length(path, 0, path->from);
-  const int before = edges[0].at<point, after = edges[count - 1].at> point;
+  const int before = edges[0].at < point;
+  const int after = edges[count - 1].at > point;
   wave->spread = spread / ((before ? 1.0 : first_m) * (after ? 1.0 : length_m - first_m));
 }
 #endif
