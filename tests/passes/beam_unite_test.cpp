@@ -149,7 +149,6 @@ TEST_CASE("beam_unite: what would not be convex stays apart, with the same corne
 
 TEST_CASE("beam_unite: parts in any order give the same apertures, and no point of a part is lost") {
   Random random(3);
-  size_t fewer = 0;
   for (uint32_t seed = 1; seed <= as_many(20, 2); ++seed) {
     CAPTURE(seed);
     std::vector<wt_aperture> parts;
@@ -157,8 +156,7 @@ TEST_CASE("beam_unite: parts in any order give the same apertures, and no point 
       for (const Polygon& part : cut(rectangle(-1, 1, -1, 1), node == 60 ? 14 : node, seed + node))
         parts.push_back(part_of(part, node));
     const std::vector<wt_aperture> out = united(parts);
-    CHECK(out.size() <= parts.size());
-    fewer += out.size() + 5 < parts.size();
+    CHECK(out.size() < parts.size());  // three lines cut some part that is whole again without one of them
     for (const uint32_t node : {3u, 9u, 60u}) {
       double area = 0;
       for (const wt_aperture& a : out) area += a.node == node ? area_of(a) : 0;
@@ -178,5 +176,4 @@ TEST_CASE("beam_unite: parts in any order give the same apertures, and no point 
       CHECK(std::equal(out[i].corners, out[i].corners + 3 * out[i].count, again[i].corners));
     }
   }
-  CHECK(fewer > 0);
 }
