@@ -79,6 +79,7 @@ inline double bounces_bytes(N n) {
 }
 inline double interact_bytes(N n) { return word + n.hit_share() * (word + ray_m + 2 * word + queued + node); }
 inline double missed_rays(N n) { return n.cache_misses() * static_cast<double>(n.frame.cache.lookups); }
+inline double links_of_sums(N n) { return static_cast<double>(n.frame.world.links.size()); }
 inline double lookups(N n) { return static_cast<double>(n.frame.cache.lookups); }
 inline double traced(N n) { return static_cast<double>(n.frame.cache.traced); }
 inline double entries(N n) { return static_cast<double>(n.frame.cache.entries); }

@@ -204,6 +204,15 @@ std::string left_out_line(const Run& run, const Totals& totals) {
       grouped(gone.paths), grouped(totals.counts.paths), 100 * gone.power / gone.all);
 }
 
+// Says how much the paths over edges have that trace.diffraction_range_db leaves out; empty where there are none.
+std::string range_line(const Run& run, const Totals& totals) {
+  if (totals.left_out_at_edges <= 0) return "";
+  return fmt::format(
+      "left out   paths over edges that are surely {:g} dB below the strongest path of their link without edges "
+      "(trace.diffraction_range_db): they add at most {:.1g} dB to any link\n",
+      run.summary.diffraction_range_db, 10 * std::log10(1 + totals.left_out_at_edges));
+}
+
 // If the device had to be checked, that has compiled most kernels.
 std::string compile_line(const Run& run) {
   const StageSeconds& seconds = run.summary.setup_seconds;
@@ -243,9 +252,10 @@ std::string report(const Run& run, const Results& results, bool verbose) {
     out += fmt::format("vehicles   {} of {} models\n", grouped(run.instances.size()), run.models.size());
   out += feature_line(run);
   if (verbose) out += tracing_lines(run, totals);
-  out += path_line(totals) + weak_line(totals.counts) + left_out_line(run, totals) + missed_line(run, totals) +
-         certificate_line(totals) + late_line(run, totals) + link_lines(results.links, totals.frames > 1) +
-         grid_lines(results.links) + compile_line(run) + frame_line(run, totals);
+  out += path_line(totals) + weak_line(totals.counts) + left_out_line(run, totals) + range_line(run, totals) +
+         missed_line(run, totals) + certificate_line(totals) + late_line(run, totals) +
+         link_lines(results.links, totals.frames > 1) + grid_lines(results.links) + compile_line(run) +
+         frame_line(run, totals);
   for (const std::string& text : advice(run, totals)) out += "advice     " + text + "\n";
   return out + written_line(results.files);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 
+#include "config/diffraction_range.hpp"
 #include "config/edge_rays.hpp"
 #include "config/value_text.hpp"
 #include "wavetracer/interaction_kinds.hpp"
@@ -200,6 +201,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_reception(config, out);
   check_features(config, out);
   check_edge_rays(config, out);
+  check_diffraction_range(config, out);
   check_scattering(config.trace, out);
   check_link_budget(config.radio, out);
   check_waypoints(config, out);

@@ -115,6 +115,17 @@ Table trace_table() {
                   "is lost, and weaker ones may be kept. Paths over three edges and more, along a roof or a wall, and "
                   "over ends of edges are always kept. Many weak paths together have power, too: choose a floor 20 dB "
                   "below the weakest link that matters. Not given: none is left out."},
+          {.name = "diffraction_range_db",
+           .slot = t(&TraceConfig::diffraction_range_db),
+           .unit = "dB",
+           .range = {30, 400},
+           .none = "auto",
+           .doc = "Only with diffraction: a path over one edge or two may be left out if it is surely weaker by this "
+                  "than the strongest path of its link that has no edge. The program compares an upper bound of its "
+                  "gain, with the largest gains of both antennas, with the gain of that path, and it says how much the "
+                  "paths that it has left out can have together. Links that have paths over edges alone keep all, and "
+                  "paths that diffraction_floor_db always keeps are kept here too. 400 leaves out none. auto: 50 with "
+                  "output.paths = false, where only sums are written; else none is left out."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),
            .doc = "Edges that belong to one face only also diffract, as half planes: screens, "

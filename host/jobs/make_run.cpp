@@ -43,6 +43,7 @@ Run make_run(const Simulation& simulation, uint64_t frames_asked, const std::str
   summary.device = simulation.device();
   summary.order = simulation.order();
   summary.edge_rays = simulation.edge_rays();
+  summary.diffraction_range_db = simulation.diffraction_range_db();
   summary.features = simulation.features();
   summary.setup_seconds = simulation.setup_seconds();
   summary.command_line = command_line;

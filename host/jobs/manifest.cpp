@@ -127,6 +127,7 @@ Shard decode(const Json& json, ManifestOf what) {
     const Json& gone = json.at("left_out");
     t.left_out = {whole_at<uint64_t>(gone, "paths"), gone.at("power"), gone.at("all")};
   }
+  t.left_out_at_edges = json.value("left_out_at_edges", 0.0);
   if (json.contains("missed")) t.missed = decode_missed(json.at("missed"));
   if (json.contains("certificate")) t.certificate = decode_certificate(json.at("certificate"));
   if (json.contains("late")) {
@@ -175,6 +176,7 @@ std::string encode_manifest_line(const Shard& shard) {
   json["segments_per_depth"] = t.segments_per_depth;
   if (t.left_out.all > 0)
     json["left_out"] = {{"paths", t.left_out.paths}, {"power", t.left_out.power}, {"all", t.left_out.all}};
+  if (t.left_out_at_edges > 0) json["left_out_at_edges"] = t.left_out_at_edges;
   if (t.missed.frames + t.missed.unknown > 0) json["missed"] = encode_missed(t.missed);
   if (t.certificate.frames > 0) json["certificate"] = encode_certificate(t.certificate);
   if (t.late.discoveries > 0)

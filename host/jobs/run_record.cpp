@@ -35,6 +35,7 @@ std::string encode_run_record(const Run& run) {
                    {"local_size", s.order.local_size.value_or(0)},
                    {"reason", s.order.reason}};
   json["edge_rays"] = s.edge_rays;
+  json["diffraction_range_db"] = s.diffraction_range_db;
   json["features"] = Json::object();
   for (const auto& [name, feature] : s.features)
     json["features"][name] = {{"on", feature.on}, {"reason", feature.reason}};
@@ -97,6 +98,7 @@ RunRecord decode_run_record(std::string_view text, const std::string& name) try 
   out.config.order.method = OrderMethod::named(order.at("asked").get<std::string>());
   s.order = {order.at("method"), order.at("each_depth"), order.at("launch_shape"), {}, order.at("reason")};
   if (const auto local_size = whole_at<uint32_t>(order, "local_size"); local_size > 0) s.order.local_size = local_size;
+  s.diffraction_range_db = json.value("diffraction_range_db", 0.0);
   if (json.contains("edge_rays")) s.edge_rays = whole_at<uint64_t>(json, "edge_rays");
   for (const auto& [feature, value] : json.at("features").items())
     s.features[feature] = {value.at("on"), value.at("reason")};

@@ -200,6 +200,9 @@ std::string encode_summary_json(const Run& run, const Totals& totals, double wri
                     {"paths", totals.late.paths},
                     {"power_share", three_digits(totals.late.power_share())},
                     {"largest_power_share", three_digits(totals.late.largest_share)}};
+  if (totals.left_out_at_edges > 0)
+    json["left_out_at_edges"] = {{"range_db", summary.diffraction_range_db},
+                                 {"largest_power_share", three_digits(totals.left_out_at_edges)}};
   if (totals.left_out.all > 0)
     json["left_out"] = {{"paths", totals.left_out.paths},
                         {"power_share", totals.left_out.all > 0 ? totals.left_out.power / totals.left_out.all : 0.0}};

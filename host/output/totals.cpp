@@ -58,6 +58,7 @@ Totals totals_of(const FrameResult& frame) {
   totals.missed = frame.missed;
   totals.certificate = frame.certificate;
   totals.late = frame.late;
+  totals.left_out_at_edges = frame.left_out_at_edges;
   totals.segments_per_depth = frame.segments_per_depth;
   totals.cache = frame.cache;
   for (const auto& [stage, seconds] : frame.seconds) totals.seconds[stage] = {seconds};
@@ -93,6 +94,7 @@ void add(Totals& sum, const Totals& later) {
   add(sum.certificate, later.certificate);
   sum.late.add(later.late);
   add(sum.left_out, later.left_out);
+  sum.left_out_at_edges = std::max(sum.left_out_at_edges, later.left_out_at_edges);
   add(sum.segments_per_depth, later.segments_per_depth);
   add(sum.cache, later.cache);
   for (const auto& [stage, values] : later.seconds)

@@ -22,6 +22,7 @@ struct Totals {
   MissedCounts missed;
   Certificate certificate;
   LateCounts late;
+  double left_out_at_edges = 0;  // the largest of all frames, see FrameResult
   LeftOutPaths left_out;  // part of counts.paths, which counts paths that were found; all 0 if no path may be left out
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;  // counts are sums; values that describe the table are those of the last frame

@@ -11,6 +11,7 @@
 
 #include "kernel_calls/fields.hpp"
 #include "passes/distinct.hpp"
+#include "passes/field_buffers.hpp"
 #include "passes/tuning.hpp"
 #include "radio/field_tables.hpp"
 #include "radio/path_columns.hpp"
@@ -55,6 +56,10 @@ class Fields {
   void again(const FieldInputs& inputs, const RowChoice& choice);
   // Sets the ends, whose antennas may have been turned since the frame: again() takes them as they are now.
   void set_ends(const WorldState& world);
+  // The tables on the device; set_ends must have run.
+  FieldBuffers buffers() const {
+    return {materials_, materials_of_, antennas_, samples_, foliages_, ends_[0], ends_[1]};
+  }
   void set_materials(const std::vector<device::wt_material>& materials) {
     materials_.write(materials, 0, Stage::fields);
   }

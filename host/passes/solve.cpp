@@ -67,7 +67,10 @@ SolvedList& Solve::operator()(const DeviceScene& scene, const RadioEnds& ends, c
                                                         .triangle_slots = scene.triangle_slots,
                                                         .blocker_mask = Blockers::mask,
                                                         .wavelength_m = 0,
-                                                        .floors = {}}};
+                                                        .floors = {},
+                                                        .second = 0,
+                                                        .left_out_unit = 0,
+                                                        .receiver_count = 0}};
     if (remembers_) {
       call.leaves = scene.leg_leaves();
       call.blockers = blockers->places;

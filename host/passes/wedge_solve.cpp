@@ -4,6 +4,7 @@
 #include "passes/wedge_solve.hpp"
 
 #include <string>
+#include <utility>
 
 #include "passes/growing_list.hpp"
 #include "wavetracer/device/arguments.h"
@@ -40,7 +41,9 @@ WedgeSolve::WedgeSolve(gpu::Context& context, uint32_t max_depth, double wavelen
 
 SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& wedges, const RadioEnds& ends,
                                    const gpu::Buffer<uint64_t>& trie, const gpu::Buffer<wt_wedge_candidate>& candidates,
-                                   uint32_t candidate_count, Counters& counters) {
+                                   uint32_t candidate_count, Counters& counters, const LinkLimits* limits) {
+  // A list that was too short is made again, and parts are counted once.
+  const gpu::Buffer<uint32_t>* left_out = limits ? &limits->left_out : nullptr;
   const auto run = [&] {
     kernel_(work_.range(candidate_count), Stage::wedge_solve,
             calls::wedge_solve::wedge_solve{
@@ -52,6 +55,10 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                 .instances = scene.exact_instances,
                 .wedges = wedges.wedges,
                 .candidates = candidates,
+                .link_floors = limits ? &limits->floors : nullptr,
+                .left_out = std::exchange(left_out, nullptr),
+                .reflectances = limits ? &limits->reflectances : nullptr,
+                .materials_of = limits ? &limits->materials_of : nullptr,
                 .solved = solved_.headers,
                 .vertices = solved_.vertices,
                 .sequences = solved_.sequences,
@@ -62,7 +69,10 @@ SolvedList& WedgeSolve::operator()(const DeviceScene& scene, const WedgeList& we
                                            .triangle_slots = 0,
                                            .blocker_mask = 0,
                                            .wavelength_m = wavelength_m_,
-                                           .floors = {floors_.one, floors_.two}}});
+                                           .floors = {floors_.one, floors_.two},
+                                           .second = limits ? limits->second : 0,
+                                           .left_out_unit = limits ? limits->left_out_unit : 0,
+                                           .receiver_count = limits ? limits->receiver_count : 0}});
   };
   solved_.count = fill_list(
       counters, &wt_counters::wedge_solved, Stage::wedge_solve, [&] { return solved_.headers.size(); }, run,

@@ -14,6 +14,7 @@
 #include "passes/grazed_faces.hpp"
 #include "passes/growing_list.hpp"
 #include "passes/heard_join.hpp"
+#include "passes/link_limits.hpp"
 #include "passes/sequences.hpp"
 #include "passes/sort.hpp"
 #include "passes/wedge_candidates.hpp"
@@ -76,6 +77,7 @@ struct DiffractedPaths {
   WedgeSolve solve;
   std::optional<WedgeChains> chains;  // given with two edges and more
   std::optional<HeardEdges> heard;    // with trace.edge_rays
+  std::optional<LinkLimits> limits;   // those of the frame, with trace.diffraction_range_db
 
   // Does waiting for the device cost little? On CPUs it does, and there long passes run in blocks.
   bool waits() const { return waits_; }
@@ -98,7 +100,7 @@ Uncounted join_by_parts(DiffractedPaths& edges, const DeviceScene& scene, const 
       items, block, counters.foresees() ? 0xFFFFFFFFu : edges.candidates.most(), list,
       [&](uint32_t joined) {
         SolvedList& solved = edges.solve(scene, edges.wedges.list(), ends, set.table(), edges.candidates.list(), joined,
-                                         counters);  // wedge_solve
+                                         counters, edges.limits ? &*edges.limits : nullptr);  // wedge_solve
         see(solved);
         part = {joined, solved.count};
       },

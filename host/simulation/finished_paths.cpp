@@ -39,6 +39,8 @@ FinishedPaths::FinishedPaths(gpu::Context& context, const Scene& scene, const Co
     const FieldTables tables = make_field_tables(scene, at_carrier, world.fleet.models, world.fleet.instances);
     ports_ = tables.ports;
     fields_.emplace_back(context, tables, tracing_depth(config.trace).edges, scene.origin_m);
+    if (const auto range_db = config.trace.diffraction_range_db; config.trace.diffraction && range_db)
+      link_floors_.emplace(context, tables, *range_db, config.trace.transmission);
   }
 }
 
@@ -86,6 +88,18 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   if (count && groups_) groups_->number(count->rows);
   room.wait();
   if (count) fields_[0].fill_arriving(*count);
+}
+
+std::optional<LinkLimits> FinishedPaths::floor_links(const DeviceScene& scene, const RadioEnds& ends,
+                                                     const WorldState& world, const SolvedList& visible,
+                                                     Counters& counters) {
+  if (!link_floors_) return {};
+  fields_[0].set_ends(world);
+  const gpu::Buffer<double>* inside = vegetation_ ? &(*vegetation_)(ends, visible, counters) : nullptr;  // vegetation
+  (*link_floors_)(
+      {scene, fields_[0].buffers(), ends, distinct_.receiver_of(), distinct_.transmitter_of(), visible, inside},
+      counters);  // link_floors
+  return link_floors_->limits(fields_[0].buffers().materials_of);
 }
 
 // Is the number of rows read before the device has finished? Frames of few paths have no use for it.

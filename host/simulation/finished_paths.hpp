@@ -10,6 +10,7 @@
 
 #include "passes/distinct.hpp"
 #include "passes/fields.hpp"
+#include "passes/link_floors.hpp"
 #include "passes/link_sums.hpp"
 #include "passes/path_groups.hpp"
 #include "passes/scan.hpp"
@@ -38,6 +39,11 @@ class FinishedPaths {
   void start(uint32_t frame, const DeviceScene& scene, DiffractedPaths* edges, const TargetRows* targets,
              const RadioEnds& ends, const WorldState& world, const SolvedList& visible, const std::vector<Link>* own,
              Rows rows, Counters& counters);
+  // Returns the floors of links for paths over edges, if there are any. visible: the paths without edges.
+  std::optional<LinkLimits> floor_links(const DeviceScene& scene, const RadioEnds& ends, const WorldState& world,
+                                        const SolvedList& visible, Counters& counters);
+  // LinkFloors::most_left_out in the last frame; 0 without floors.
+  double most_left_out() { return link_floors_ ? link_floors_->most_left_out() : 0; }
   // Sets other materials for the next frames, at the first carrier: as many as FieldTables has, in its order.
   void set_materials(const std::vector<device::wt_material>& materials) { fields_[0].set_materials(materials); }
   // Turns the antennas of the ends as they are in this state, for again(); the places of ends are those of the frame.
@@ -72,7 +78,8 @@ class FinishedPaths {
   std::vector<double> carriers_hz_;
   std::optional<PathGroups> groups_;  // set with diffraction
   Ports ports_;
-  std::optional<LinkSums> sums_;  // made where they are first asked for
+  std::optional<LinkFloors> link_floors_;  // set with trace.diffraction_range_db
+  std::optional<LinkSums> sums_;           // made where they are first asked for
   gpu::HostMemory host_counters_;
   gpu::Marker counted_;              // the counters have been read, and the waves of groups
   std::optional<FieldInputs> last_;  // those of the last frame; empty if it has no rows

@@ -151,6 +151,7 @@ void FrameLoop::take_paths(const FrameTask& task, const DiscoveryCounts& found, 
   if (!told || s_.beams) out.paths.quarters.clear();  // they do not estimate misses
   if (summed_)
     out.summed = summed_paths(sums, out.frame, out.world.links, told && !s_.beams, std::exchange(figures_room_, {}));
+  if (std::exchange(floors_links_, false)) out.left_out_at_edges = s_.finish.most_left_out();
   if (found.rays > 0 || heard_) {
     out.missed = MissedCounts{.unknown = 1};
     if (told) out.missed = summed_ ? of_sums.missed : missed_counts(out.paths, 0, out.paths.size());
@@ -169,8 +170,9 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
     out.rays = searches ? discover(task, world, block) : DiscoveryCounts{};  // order_keys to refine (discovery.cpp)
     besides = plan_.trace.by_spheres()
                   ? receive_paths(ends, account)
-                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, search, *s_.frame_watch,
-                                account);  // sequences to visible
+                  : solve_paths(s_.exact_paths, s_.device_scene, ends, set, search, *s_.frame_watch, account, [&] {
+                      return floor_links(world, ends, task.only_compiles());
+                    });  // sequences to visible
     account.end_stage(Stage::paths);
     finish_paths(task.frame(), world, ends, block ? &block->own : nullptr,
                  summed_ ? Rows::summed : Rows::all_carriers);  // distinct to fields, link_sums
@@ -190,7 +192,8 @@ FrameLoop::Found FrameLoop::find_paths(const FrameTask& task, const WorldState& 
 Paths FrameLoop::known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account) {
   Sequences& set = s_.discovery->sequences();
   const auto passes = [&] {
-    solve_paths(s_.exact_paths, s_.device_scene, ends, set, Search::none, *s_.frame_watch, account);
+    solve_paths(s_.exact_paths, s_.device_scene, ends, set, Search::none, *s_.frame_watch, account,
+                [&] { return floor_links(world, ends, false); });
     account.end_stage(Stage::paths);
     finish_paths(frame, world, ends, nullptr, Rows::first_carrier);
   };
@@ -213,6 +216,13 @@ void FrameLoop::finish_paths(uint32_t frame, const WorldState& world, const Radi
                   s_.discovery->sequences().counters());
 }
 
+std::optional<LinkLimits> FrameLoop::floor_links(const WorldState& world, const RadioEnds& ends, bool compiles) {
+  floors_links_ = compiles || summed_ || plan_.asked.trace.diffraction_range_db;
+  if (!floors_links_) return {};
+  return s_.finish.floor_links(s_.device_scene, ends, world, s_.exact_paths.visible.list(),
+                               s_.discovery->sequences().counters());
+}
+
 // Sequences entered from now on are younger than all before, and those that are too old are dropped.
 void FrameLoop::next_frame(Sequences& set) {
   if (!plan_.reuse) warm_frames_ = 0;
@@ -224,26 +234,6 @@ void FrameLoop::next_frame(Sequences& set) {
 // A cold frame starts from nothing; others go on with the sequences that are still met.
 Counters::Zeroed FrameLoop::begin_sequences(Sequences& set, bool searches) {
   return searches && warm_frames_ == 0 ? set.clear() : set.counters().zero();
-}
-
-DiscoveryCounts FrameLoop::follow_beams(const FrameTask& task, const WorldState& world, const LinkBlock* block) {
-  std::vector<Launcher> ends = sending(world);
-  if (plan_.trace.from_both_ends()) std::ranges::copy(listening(world, plan_.origins), std::back_inserter(ends));
-  if (block) ends = launchers_of(*block, ends);
-  const Fleet& fleet = plan_.world.fleet;
-  if (!fleet.instances.empty()) s_.beams->set_world(fleet.instances, world.instances);
-  const uint32_t depth = tracing_depth(plan_.trace).sequences;
-  BeamTask beams{.standing = {},
-                 .moving = {},
-                 .max_depth = task.only_compiles() ? std::min(depth, 2u) : depth,
-                 .keep = plan_.keep_beams || (task.links().is_batch() && !plan_.trace.from_both_ends())};
-  for (const Launcher& end : ends) (standing_origins_[end.transmitter] ? beams.standing : beams.moving).push_back(end);
-  for (const EndState& end : world.receivers)
-    if (end.present) beams.receivers.push_back(end.position_m);
-  DiscoveryCounts out;
-  // beam_moving, beam_gather, beam_visible
-  out.beams = s_.beams->find(s_.device_scene, beams, s_.discovery->sequences());
-  return out;
 }
 
 void FrameLoop::set_ends(const FrameTask& task, const WorldState& world, const LinkBlock* block) {

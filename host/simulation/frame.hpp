@@ -57,6 +57,9 @@ class FrameLoop {
   Uncounted receive_paths(const RadioEnds& ends, FrameAccount& account);
   void finish_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, const std::vector<Link>* own,
                     Rows rows);
+  // The floors of links for paths over edges, from the other paths of the frame; none without
+  // trace.diffraction_range_db. Frames whose paths are wanted have none that the user did not ask for.
+  std::optional<LinkLimits> floor_links(const WorldState& world, const RadioEnds& ends, bool compiles);
   Paths known_paths(uint32_t frame, const WorldState& world, const RadioEnds& ends, FrameAccount& account);
 
   Setup& s_;
@@ -69,6 +72,7 @@ class FrameLoop {
   bool places_rest_ = false, links_rest_ = false;
   bool heard_ = false;  // the sequences of all batches were found with the first one
   bool summed_ = false;
+  bool floors_links_ = false;  // this frame leaves out paths over edges by floors of links
   std::vector<LinkFigures> figures_room_;
   std::optional<LaunchPlan> launch_;
   std::vector<bool> standing_origins_;  // with beams: the origins that never move

@@ -137,6 +137,7 @@ std::vector<CarrierFields> joined_carriers(const std::vector<FrameResult>& batch
 void add_counts(FrameResult& to, const FrameResult& from) {
   add(to.counts, from.counts);
   add_part(to.certificate, from.certificate);
+  to.left_out_at_edges = std::max(to.left_out_at_edges, from.left_out_at_edges);
   for (const auto& [stage, seconds] : from.seconds) to.seconds[stage] += seconds;
   for (const auto& [name, kernel] : from.kernels) {
     to.kernels[name].seconds += kernel.seconds;

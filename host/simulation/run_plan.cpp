@@ -2,6 +2,7 @@
 // Each value follows from those before it.
 #include "simulation/run_plan.hpp"
 
+#include "config/diffraction_range.hpp"
 #include "config/edge_rays.hpp"
 #include "radio/carriers.hpp"
 #include "radio/opacity.hpp"
@@ -44,6 +45,7 @@ RunPlan plan_run(const Config& asked, Scene scene, bool frames_follow) {
   TraceConfig trace = with_features(config.trace, features);
   const bool alone = world.resting && world.fleet.instances.empty() && !reuses(trace, world, frames_follow);
   if (!trace.edge_rays) trace.edge_rays = alone ? config::edge_rays_of(config, trace) : 0;
+  trace.diffraction_range_db = config::diffraction_range_of(config, trace);
   Origins origins =
       make_origins(world.twins.receiver_of_transmitter, world.twins.transmitter_of_receiver, trace.from_both_ends());
   if (trace.from_edges()) {

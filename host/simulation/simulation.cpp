@@ -150,6 +150,7 @@ std::vector<RadarAxes> Simulation::radar_axes() const {
 const DeviceSummary& Simulation::device() const { return state_->setup.device; }
 const OrderSummary& Simulation::order() const { return state_->setup.order_summary; }
 const Features& Simulation::features() const { return state_->plan().features; }
+double Simulation::diffraction_range_db() const { return state_->plan().trace.diffraction_range_db.value_or(0); }
 uint64_t Simulation::edge_rays() const {
   const TraceConfig& trace = state_->plan().trace;
   return trace.from_edges() ? *trace.edge_rays : 0;

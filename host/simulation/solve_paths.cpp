@@ -125,7 +125,8 @@ void solve_targets(ExactPaths& exact, const DeviceScene& scene, const RadioEnds&
 }  // namespace
 
 Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEnds& ends, Sequences& set, Search search,
-                      const FrameWatch& watch, FrameAccount& account) {
+                      const FrameWatch& watch, FrameAccount& account,
+                      const std::function<std::optional<LinkLimits>()>& floor_links) {
   Counters& counters = set.counters();
   uint64_t kinds_done = 0;
   Uncounted out;
@@ -159,6 +160,9 @@ Uncounted solve_paths(ExactPaths& exact, const DeviceScene& scene, const RadioEn
 
   if (exact.diffraction) {
     DiffractedPaths& edges = *exact.diffraction;
+    edges.limits.reset();
+    if (floor_links)
+      if (const auto limits = floor_links()) edges.limits.emplace(*limits);  // link_floors
     out = join_edges(exact, scene, ends, set, nodes, see, told);
     if (edges.chains) see((*edges.chains)(scene, edges.wedges.list(), ends, counters));  // wedge_chains
     tell();

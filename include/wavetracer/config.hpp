@@ -216,9 +216,11 @@ struct TraceConfig {
   bool target = true;                                    // if there are targets
   uint32_t max_diffractions = 1, max_transmissions = 2;  // per path
   std::optional<double> diffraction_floor_db = {};       // gain below which paths over edges are left out; else none is
-  bool free_edges = true;                                // edges of one face diffract as half planes
-  bool edge_ends = false;                                // a static edge's wave ends with the wave of its corner
-  std::optional<uint64_t> diffraction_rays = {};         // per receiver; not given: a tenth of rays, at least 100,000
+  // Range below the strongest path of a link without edges; not set ("auto"): config::diffraction_range_of.
+  std::optional<double> diffraction_range_db = {};
+  bool free_edges = true;                         // edges of one face diffract as half planes
+  bool edge_ends = false;                         // a static edge's wave ends with the wave of its corner
+  std::optional<uint64_t> diffraction_rays = {};  // per receiver; not given: a tenth of rays, at least 100,000
   // Per edge and prefix that sees it; 0: receivers launch rays; not set ("auto"): config::edge_rays_of.
   std::optional<uint64_t> edge_rays = {};
   double tile_m = 5;                               // largest side length of a tile of scattering

@@ -127,9 +127,12 @@ struct FrameResult {
   FrameCounts counts;
   MissedCounts missed;      // unknown = 1 with a ray cache or trace.reception = "sphere", and where a warning says so
   Certificate certificate;  // with trace.discovery = "beams", else of no frames
-  LateCounts late;          // set in a frame that launches rays after frames that did not, with trace.discover_every_s
-  StageSeconds seconds;     // device stages only in frames that were profiled (Simulation::profile_every)
-  KernelTimes kernels;      // for the device stages, in the same frames
+  // With trace.diffraction_range_db: the most power that the paths over edges that were left out of a link have
+  // together, over that of its strongest path without edges.
+  double left_out_at_edges = 0;
+  LateCounts late;       // set in a frame that launches rays after frames that did not, with trace.discover_every_s
+  StageSeconds seconds;  // device stages only in frames that were profiled (Simulation::profile_every)
+  KernelTimes kernels;   // for the device stages, in the same frames
   std::vector<uint64_t> segments_per_depth;
   CacheSummary cache;
   WaypointRows waypoints;        // waypoints of output.waypoints samples per transmitter

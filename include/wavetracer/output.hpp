@@ -27,6 +27,7 @@ struct RunSummary {
   std::string version = WAVETRACER_VERSION;
   DeviceSummary device;
   OrderSummary order;
+  double diffraction_range_db = 0;  // as trace.diffraction_range_db asks or "auto" chose; 0: no path is left out
   uint64_t edge_rays = 0;  // from each edge, as trace.edge_rays asks or "auto" chose; 0: receivers launched rays
   Features features;
   StageSeconds setup_seconds;  // stages outside the frames: load, build, compile, ...

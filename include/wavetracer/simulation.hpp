@@ -135,6 +135,9 @@ class Simulation {
   const Features& features() const;
   // The number of rays from each edge, as trace.edge_rays asks or "auto" chose; 0 without diffraction.
   uint64_t edge_rays() const;
+  // The range of frames whose links are summed, as trace.diffraction_range_db asks or "auto" chose; 0 where none is
+  // left out.
+  double diffraction_range_db() const;
   // Stages outside the frame: load, surfaces, build, compile, ...
   const StageSeconds& setup_seconds() const;
 

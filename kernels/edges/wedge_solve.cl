@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // wedge_solve: diffracted paths in double. It computes the points on the edges first, from the images of both ends,
 // then the reflections between each end and its edge. It keeps paths whose points are inside edges and surfaces, in the
-// free sector of each wedge. Legs are not tested here (occlusion does that). On CPUs a work-item takes a run of
-// candidates, so that their paths follow each other.
+// free sector of each wedge. Legs are not tested here (occlusion does that). Paths below floors are left out:
+// link_floors to materials_of have those of links (lib/weak_bends.clh), and are null without them. On CPUs a work-item
+// takes a run of candidates, so that their paths follow each other.
 #include "lib/fermat.clh"
 #include "lib/reflections.clh"
 #include "lib/weak_bends.clh"
@@ -66,7 +67,20 @@ inline int find_points_on_edges(const global wt_wedge* v, const global wt_wedge*
     return 0;
   on_edges[0] = p;
   on_edges[1] = q;
-  return !wt_is_weak(v, two ? w : 0, a, b, p, q, args);
+  return 1;
+}
+
+// Is a path over these points of the edges surely weaker than its floors? chain, a: the mirrors before them, and the
+// transmitter's image in those; back_chain, b: the same after them, from the receiver on.
+inline int is_weak(const global wt_exact_surface* surfaces, const global wt_wedge* v, const global wt_wedge* w,
+                   const uint* chain, uint depth, double3 a, const uint* back_chain, uint back, double3 b,
+                   const double3* on_edges, const wt_link_tables* links, wt_link_limit link,
+                   const wt_solve_arguments* args) {
+  double kept = 1.0;
+  if (link.floor > 0.0)
+    kept = wt_kept_by_mirrors(links, surfaces, chain, depth, a, on_edges[0]) *
+           wt_kept_by_mirrors(links, surfaces, back_chain, back, b, on_edges[w ? 1 : 0]);
+  return wt_is_weak(v, w, a, b, on_edges[0], on_edges[1], kept, link, args);
 }
 
 #if WT_TOGETHER > 1
@@ -76,11 +90,14 @@ inline int find_points_on_edges(const global wt_wedge* v, const global wt_wedge*
 kernel void wedge_solve(const global ulong* table, const global double4* origins, const global double4* receivers,
                         const global wt_exact_surface* surfaces, const global double* triangles,
                         const global wt_exact_instance* instances, const global wt_wedge* wedges,
-                        const global wt_wedge_candidate* candidates, global wt_solved* solved, global double* vertices,
+                        const global wt_wedge_candidate* candidates, const global float* link_floors,
+                        volatile global uint* left_out, const global float* reflectances,
+                        const global uint* materials_of, global wt_solved* solved, global double* vertices,
                         global uint* sequences, global wt_counters* counters, wt_solve_arguments args) {
+  const wt_link_tables links = {link_floors, left_out, reflectances, materials_of};
 #if WT_TOGETHER > 1
-  solve_run(table, origins, receivers, surfaces, triangles, instances, wedges, candidates, solved, vertices, sequences,
-            counters, &args);
+  solve_run(table, origins, receivers, surfaces, triangles, instances, wedges, candidates, &links, solved, vertices,
+            sequences, counters, &args);
 #else
   const uint i = get_global_id(0), count = min(args.candidate_count, counters->wedge_candidates);
   if (i >= count) return;
@@ -95,7 +112,10 @@ kernel void wedge_solve(const global ulong* table, const global double4* origins
   const uint diffractions = c.wedges[1] != WT_NONE ? 2 : 1;
   const global wt_wedge *v = wedges + c.wedges[0], *w = wedges + c.wedges[diffractions - 1];
   double3 on_edges[2];
-  if (!find_points_on_edges(v, diffractions > 1 ? w : 0, a, b, &args, on_edges)) return;
+  const wt_link_limit link = wt_limit_of(&links, transmitter, c.receiver, &args);
+  const global wt_wedge* second = diffractions > 1 ? w : 0;
+  if (!find_points_on_edges(v, second, a, b, &args, on_edges)) return;
+  if (is_weak(surfaces, v, second, chain, depth, a, back_chain, back, b, on_edges, &links, link, &args)) return;
   if (!solve_side(surfaces, triangles, instances, v, chain, depth, from, images, on_edges[0], points)) return;
   if (!solve_side(surfaces, triangles, instances, w, back_chain, back, to, back_images, on_edges[1], back_points))
     return;

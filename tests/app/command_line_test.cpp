@@ -79,8 +79,9 @@ TEST_CASE("help is about what was asked: a command on a page, the keys of config
   CHECK(contains(scene.out, "Usage: wavetracer scene"));
   CHECK(contains(scene.out, "\n  scene.file\n"));
   check(run_program({"help", "trace.ray"}), 2, "help: there is no key \"trace.ray\"; did you mean \"trace.rays\"?");
-  check(run_program({"help", "trace.diffr"}), 2,
-        "\"trace.diffr\"; these keys begin so: trace.diffraction, trace.diffraction_floor_db, trace.diffraction_rays");
+  check(
+      run_program({"help", "trace.diffr"}), 2,
+      "\"trace.diffr\"; these keys begin so: trace.diffraction, trace.diffraction_floor_db, trace.diffraction_range_db, trace.diffraction_rays");
   check(run_program({"help", "confg"}), 2, "help: there is nothing about \"confg\"; did you mean \"config\"?");
 }
 

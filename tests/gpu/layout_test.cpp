@@ -17,8 +17,9 @@ using namespace wavetracer::test;
 
 namespace {
 
-const std::vector<std::string> headers{"arguments.h", "bvh.h",         "cache.h",  "curves.h",  "field_records.h",
-                                       "moving.h",    "packed_rays.h", "points.h", "records.h", "waypoints.h"};
+const std::vector<std::string> headers{"arguments.h",       "bvh.h",           "cache.h",    "curves.h",
+                                       "field_arguments.h", "field_records.h", "moving.h",   "packed_rays.h",
+                                       "points.h",          "records.h",       "waypoints.h"};
 
 // Record name -> field names, as the headers declare them.
 std::map<std::string, std::vector<std::string>> declared_records() {

@@ -15,16 +15,19 @@
 
 namespace wavetracer::test {
 
+constexpr double bounds_wave_m = 0.05;  // wavelength: that of bounds where links have floors
+
 struct Question {
   uint32_t transmitter, receiver;
   std::vector<uint32_t> before, wedges, after;  // after: from the receiver on
 };
 
 // Found rows by question; transmitters of the trie are the transmitters, then the receivers. of_one_listener: the way
-// back of every receiver is that of receiver 0, as listeners share it.
+// back of every receiver is that of receiver 0, as listeners share it. limits: as for wedge_solve.
 inline std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm::dvec3>& transmitters,
                                        const std::vector<glm::dvec3>& receivers, const std::vector<Question>& questions,
-                                       uint32_t max_depth = 6, bool of_one_listener = false) {
+                                       uint32_t max_depth = 6, bool of_one_listener = false,
+                                       const LinkLimits* limits = nullptr) {
   const DeviceScene uploaded = make_device_scene(context(), scene, false, 100);
   std::vector<EndState> tx, rx;
   std::vector<uint32_t> listeners;
@@ -58,9 +61,9 @@ inline std::map<size_t, PathRow> solve(const Scene& scene, const std::vector<glm
                           q.receiver,
                           WT_ALL_QUARTERS});
   set.counters().restart(&wt_counters::wedge_candidates, static_cast<uint32_t>(candidates.size()), Stage::wedge_solve);
-  WedgeSolve pass(context(), max_depth, every_wave_m);
+  WedgeSolve pass(context(), max_depth, limits ? bounds_wave_m : every_wave_m);
   const SolvedList& list = pass(uploaded, wedges.list(), ends, set.table(), context().buffer(candidates, "candidates"),
-                                static_cast<uint32_t>(candidates.size()), set.counters());
+                                static_cast<uint32_t>(candidates.size()), set.counters(), limits);
   // Rows come in any order: a row answers the question with its ends and steps.
   std::map<std::tuple<uint32_t, uint32_t, std::vector<uint32_t>>, size_t> asked;
   for (size_t i = 0; i < questions.size(); ++i) {

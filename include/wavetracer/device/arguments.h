@@ -5,10 +5,9 @@
 #ifndef WAVETRACER_DEVICE_ARGUMENTS_H
 #define WAVETRACER_DEVICE_ARGUMENTS_H
 #include "wavetracer/device/cache.h"
-#include "wavetracer/device/field_records.h"
+#include "wavetracer/device/field_arguments.h"
 
 #ifndef __OPENCL_VERSION__
-using wavetracer::device::wt_air;
 using wavetracer::device::wt_cache_widths;
 #endif
 
@@ -90,8 +89,11 @@ typedef struct {
   wt_uint capacity;
   wt_uint triangle_slots;
   wt_uint blocker_mask;
-  float wavelength_m;  // the longest wavelength; infinite: no wave is too faint (lib/wedge.clh)
-  double floors[2];    // wedge_solve: the bounds of paths over one edge and two below which they are left out
+  float wavelength_m;      // the longest wavelength; infinite: no wave is too faint (lib/wedge.clh)
+  double floors[2];        // wedge_solve: the bounds of paths over one edge and two below which they are left out
+  double second;           // wedge_solve: the factor between the floors of a link for two edges and for one
+  float left_out_unit;     // wedge_solve: units of left_out that a path at the floor of its link has
+  wt_uint receiver_count;  // wedge_solve: links of a transmitter in the tables of links
 } wt_solve_arguments;
 
 typedef struct {
@@ -236,46 +238,6 @@ typedef struct {
   wt_uint twins;
   wt_uint length_bits;  // bits of a key that hold the length
 } wt_distinct_arguments;
-
-typedef struct {
-  double origin[3];  // the origin of recentred coordinates in those of the file
-  double wavelength_m;
-  wt_ulong seed;
-  wt_uint row_count;
-  wt_uint row_capacity;
-  wt_uint vertex_capacity;
-  wt_uint max_depth;
-  wt_uint transmissions;
-  wt_uint scatters;
-  wt_air air;
-  wt_uint foliage_count;  // kinds of vegetation
-  wt_uint reflections;    // the most reflections of a path
-  wt_uint rows_of_item;   // CPUs: the rows that a work-item takes
-  wt_uint for_sums;       // not 0: link_sums alone reads the rows, and CPUs leave out what it does not need
-} wt_fields_arguments;
-
-typedef struct {
-  double wavelength_m;
-  wt_uint row_count;
-  wt_uint row_capacity;
-  wt_uint max_depth;
-  wt_uint padding;
-} wt_path_groups_arguments;
-
-typedef struct {
-  double frequency_hz;
-  wt_uint link_count;
-  wt_uint row_capacity;
-  wt_uint values;   // fields of a row: 1, or 4 with antennas of two ports
-  wt_uint grouped;  // not 0: rows have waves (path_groups)
-} wt_link_sums_arguments;
-
-typedef struct {
-  wt_uint visible_count;
-  wt_uint visible_counter;  // its word in wt_counters, or WT_NONE
-  wt_uint max_depth;
-  wt_uint kinds;  // kinds of vegetation
-} wt_vegetation_arguments;
 
 // Numbers for cache_lookup and cache_share. touch: not 0 where the use of an entry is recorded.
 typedef struct {

@@ -207,38 +207,39 @@ inline int wt_pass_all(const wt_field_world* world, const wt_ordered_rows* order
 }
 #endif
 
-// The field of row `row` of the ordered rows. Neighbouring rows meet their surfaces together and then their edges.
-inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
-  const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
-  const WT_GLOBAL wt_field_end* tx = world->transmitters + path.transmitter;
-  const WT_GLOBAL wt_field_end* rx = world->receivers + path.receiver;
+// The field of a path, with a delay of 0. solved: its number in the list of solved ones. ordered, row: the rows of its
+// link decide on which side of a boundary an edge's wave is; a path without edges needs none.
+inline wt_path_field wt_field_of_path(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row,
+                                      const wt_path* path, wt_uint solved) {
+  const WT_GLOBAL wt_field_end* tx = world->transmitters + path->transmitter;
+  const WT_GLOBAL wt_field_end* rx = world->receivers + path->receiver;
   wt_path_field out;
-  out.delay_s = ordered->delays[row];
+  out.delay_s = 0.0;
   out.near_edge = 0;
 
   wt_wave wave;
-  wave.leg = wt_first_leg(&path);
+  wave.leg = wt_first_leg(path);
   const wt_double3 departure = wave.leg.direction;
   const wt_basis departure_basis = wt_spherical_basis(departure);
   wave.transfer = wt_transfer_from(departure_basis);
-  const double length_m = wt_path_length(&path);
+  const double length_m = wt_path_length(path);
   wave.spread = 1.0 / length_m;
   wave.since_m = 0.0;
 #if WT_SCATTERS > 1 || WT_TARGETS > 1
-  wave.section_m = wt_section_length(&path, 0, path.from);
+  wave.section_m = wt_section_length(path, 0, path->from);
 #else
   wave.section_m = length_m;
 #endif
-  wave.solved = ordered->rows[row] >> 1;
+  wave.solved = solved;
   wave.speed = wt_dot3(wt_vector(tx->velocity_m_s), departure);
 #if WT_DIFFRACTS
-  out.near_edge = wt_pass_all(world, ordered, row, &path, length_m, &wave);
+  out.near_edge = wt_pass_all(world, ordered, row, path, length_m, &wave);
 #else
-  wt_pass_surfaces(world, &path, length_m, 0, &wave);
+  wt_pass_surfaces(world, path, length_m, 0, &wave);
 #endif
 #if WT_LOSSES
   wt_rain_on(&world->air, &wave.leg, &wave.transfer);
-  const double loss_np = wt_path_loss_np(world, ordered->rows[row] >> 1, length_m);
+  const double loss_np = wt_path_loss_np(world, solved, length_m);
   if (loss_np > 0.0) wave.spread *= wt_exp(-loss_np);
 #endif
   const wt_double3 arrival = -wave.leg.direction;
@@ -255,6 +256,14 @@ inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_r
   const wt_port_fields heard =
       wt_antenna_fields(world->antennas + rx->antenna, world->samples, rx->rotation, arrival, arrival_basis);
   wt_port_coefficients(&m, &sent, &heard, world->wavelength_m / (4.0 * WT_PI), &out);
+  return out;
+}
+
+// The field of row `row` of the ordered rows. Neighbouring rows meet their surfaces together and then their edges.
+inline wt_path_field wt_field_of(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint row) {
+  const wt_path path = wt_path_of(ordered->list, ordered->rows[row]);
+  wt_path_field out = wt_field_of_path(world, ordered, row, &path, ordered->rows[row] >> 1);
+  out.delay_s = ordered->delays[row];
   return out;
 }
 
