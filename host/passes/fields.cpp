@@ -148,7 +148,7 @@ calls::fields::fields Fields::call_of(const FieldInputs& inputs) const {
 void Fields::operator()(const FieldInputs& inputs, const WorldState& world, RowCounts most, bool for_sums) {
   if (inputs.ends.moved || !ends_[0]) set_ends(world);
   make_room(context_, rows_, most.rows, "path rows");
-  make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
+  if (!for_sums) make_room(context_, vertices_, size_t{most.vertices} + WT_MAX_DEPTH, "path vertex rows");
   const uint32_t places = inputs.rows.places;
   arguments_.row_count = places;
   arguments_.row_capacity = static_cast<uint32_t>(rows_.size());

@@ -76,9 +76,8 @@ class Fields {
   Paths columns(RowCounts count);
   // Takes paths that are needed no more: the next columns use their memory.
   void give_room(Paths paths) { room_ = std::move(paths); }
-  // The records on the device, in the order of the rows that were computed last.
+  // The records of the rows that were computed last, on the device, in their order.
   const gpu::Buffer<device::wt_path_row>& rows() const { return rows_; }
-  const gpu::Buffer<device::wt_vertex_row>& vertices() const { return vertices_; }
   // The number of the paths that columns() or carrier() gave last that are closer to an edge than the theory of
   // diffraction holds.
   uint32_t near_edges() const { return near_edges_; }

@@ -55,7 +55,6 @@ void LinkSums::operator()(const SummedRows& of, std::span<const Link> links, Cou
   kernel_({links.size() * lanes_, group_}, Stage::link_sums,
           calls::link_sums::link_sums{.links = links_,
                                       .rows = of.rows,
-                                      .vertices = of.vertices,
                                       .waves = of.waves,
                                       .shared = of.shared,
                                       .entries = of_waves(entries_),

@@ -19,7 +19,6 @@ namespace wavetracer {
 // without diffraction.
 struct SummedRows {
   const gpu::Buffer<device::wt_path_row>& rows;
-  const gpu::Buffer<device::wt_vertex_row>& vertices;
   const gpu::Buffer<device::wt_path_wave>* waves;
   const gpu::Buffer<device::wt_path_waves>* shared;
   uint32_t most;

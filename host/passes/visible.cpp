@@ -8,6 +8,11 @@
 #include "passes/growing_list.hpp"
 
 namespace wavetracer {
+namespace {
+
+constexpr size_t most_doubled = 1 << 22;  // paths
+
+}  // namespace
 
 Visible::Visible(gpu::Context& context, uint32_t max_depth)
     : context_(context), kernel_(context), local_(context.info().simple_local_size()) {
@@ -37,7 +42,8 @@ void Visible::operator()(const SolvedList& solved, Counters& counters) {
       [&](size_t rows) {
         SolvedList larger;
         larger.max_depth = visible_.max_depth;
-        larger.reserve(context_, rows);
+        // Lists of few parts grow fast, because each growth copies them.
+        larger.reserve(context_, std::max(rows, std::min(2 * visible_.headers.size(), most_doubled)));
         larger.copy_from(context_, visible_);
         visible_ = std::move(larger);
       },

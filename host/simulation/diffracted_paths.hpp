@@ -32,6 +32,9 @@ namespace wavetracer {
 // Pairs of edges may take longer than a frame of a drive. So they are made from this many prefixes at a time, and a
 // frame can be cancelled in between and report its progress.
 constexpr uint32_t prefix_block = 4096, most_at_once = 1 << 15;
+// On CPUs listeners' nodes are joined in so many parts, each of so many nodes at least: the lists of a part stay in the
+// processor's caches, and only that of the first part is too short and made again.
+constexpr uint32_t heard_parts = 64, heard_block = 1024;
 
 // The passes of edges whose rays listeners hear.
 struct HeardEdges {
@@ -137,7 +140,7 @@ Uncounted join_heard(DiffractedPaths& edges, const DeviceScene& scene, const Rad
                      uint32_t nodes, const See& see, const Told& told) {
   HeardEdges& heard = *edges.heard;
   return join_by_parts(
-      edges, scene, ends, set, nodes, nodes,
+      edges, scene, ends, set, nodes, edges.waits() ? std::max(nodes / heard_parts, heard_block) : nodes,
       [&](uint32_t first, uint32_t end) {
         return heard.join(scene, edges.prefixes.list(), heard.in_sight,
                           {set.table(), set.quarters(), set.nodes(), first, end}, edges.wedges.list(), ends,

@@ -74,9 +74,9 @@ void FinishedPaths::start(uint32_t frame, const DeviceScene& scene, DiffractedPa
   }
   if (rows == Rows::summed) {
     if (!sums_) sums_.emplace(context_, carriers_hz_[0], ports_, groups_.has_value());
-    (*sums_)({fields_[0].rows(), fields_[0].vertices(), groups_ ? &groups_->waves() : nullptr,
-              groups_ ? &groups_->shared() : nullptr, most.rows},
-             own ? *own : world.links, counters);  // link_sums
+    (*sums_)(
+        {fields_[0].rows(), groups_ ? &groups_->waves() : nullptr, groups_ ? &groups_->shared() : nullptr, most.rows},
+        own ? *own : world.links, counters);  // link_sums
     return;
   }
   for (size_t i = 1; carriers && i < fields_.size(); ++i) fields_[i].begin_read_carrier(expected);

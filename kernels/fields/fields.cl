@@ -33,7 +33,7 @@ inline uint wt_first_vertex(const wt_row_places* to, uint place) {
 // Is there a row at this place, and room for it?
 inline int wt_has_place(const wt_ordered_rows* ordered, const wt_row_places* to, uint place) {
   return place < to->row_count && ordered->rows[place] != WT_NO_ROW && to->before[place] < to->row_capacity &&
-         wt_first_vertex(to, place) + WT_MAX_DEPTH <= to->vertex_capacity;
+         (to->for_sums || wt_first_vertex(to, place) + WT_MAX_DEPTH <= to->vertex_capacity);
 }
 
 #if WT_TOGETHER > 1
@@ -57,7 +57,7 @@ inline void write_place(const wt_field_world* world, const wt_ordered_rows* orde
   }
 #endif
   wt_write_row(world, ordered, place, to->quarters[place], to->origin, wt_first_vertex(to, place),
-               to->rows + to->before[place], to->vertices);
+               to->rows + to->before[place], to->for_sums ? 0 : to->vertices);
 }
 #endif
 

@@ -16,11 +16,7 @@ inline double power_of_row(const global wt_path_row* row) {
 }
 
 // The number of the path's kind: 0 line of sight, then those of interaction_kinds.hpp, of which the last one counts.
-inline uint kind_of(const global wt_vertex_row* vertices, uint first, uint end) {
-  uint met = 0;
-  for (uint k = first; k < end; ++k) met |= vertices[k].interaction;
-  return met & 16u ? 5 : met & 2u ? 4 : met & 8u ? 3 : met & 4u ? 2 : met & 1u;
-}
+inline uint kind_of(uint met) { return met & 16u ? 5 : met & 2u ? 4 : met & 8u ? 3 : met & 4u ? 2 : met & 1u; }
 
 // Counts a path by the quarters of the launch that found it (wavetracer/missed.hpp).
 inline void count_found(wt_link_sum* sum, uint quarters, double power) {
@@ -58,12 +54,12 @@ inline void add_row(link_part* part, const link_rows* of, uint at, double2* fiel
   const global wt_path_row* row = of->rows + at;
   wt_link_sum* sum = &part->sum;
   const double power = power_of_row(row);
-  const uint last = at + 1 < of->count ? row[1].first_vertex : of->vertex_count;
+  const uint met = row->quarters >> WT_ROW_MET_SHIFT;
   sum->power += power;
   sum->mean_delay_s += power * row->delay_s;
   sum->rms_doppler_hz += power * row->doppler_hz;
-  ++sum->kinds[kind_of(of->vertices, row->first_vertex, last)];
-  if (row->first_vertex == last)
+  ++sum->kinds[kind_of(met)];
+  if (met == 0)
     sum->direct += power;
   else
     count_found(sum, row->quarters, power);
@@ -125,14 +121,13 @@ inline void finish(LINK_SPACE link_part* all, const link_rows* of, uint values) 
 
 // WT_LANES work-items take a link. waves, shared and what follows up to `sums`: null where all paths are waves of their
 // own (args.grouped is 0), else as link_waves has them.
-kernel void link_sums(const global uint2* links, const global wt_path_row* rows, const global wt_vertex_row* vertices,
-                      const global wt_path_wave* waves, const global wt_path_waves* shared, global ulong* entries,
-                      global double2* fields, global ulong* keys, global double2* sums, global wt_link_sum* out,
+kernel void link_sums(const global uint2* links, const global wt_path_row* rows, const global wt_path_wave* waves,
+                      const global wt_path_waves* shared, global ulong* entries, global double2* fields,
+                      global ulong* keys, global double2* sums, global wt_link_sum* out,
                       const global wt_counters* counters, wt_link_sums_arguments args) {
   const uint i = get_global_id(0) / WT_LANES, lane = wt_lane();
   if (i >= args.link_count) return;
-  const link_rows of =
-      rows_of_link(rows, vertices, min(counters->rows, args.row_capacity), counters->row_vertices, links[i]);
+  const link_rows of = rows_of_link(rows, min(counters->rows, args.row_capacity), links[i]);
   const link_waves grouped = {waves, shared, entries, fields, keys, sums, args.values};
   const uint parts = min(PARTS, of.end - of.first);
   LINK_SPACE link_part part[PARTS], all[1];

@@ -32,12 +32,13 @@ struct Rows {
 };
 
 // Adds the vertices of a path; the first path of a link has none.
-void add_vertices(Rows& rows, uint32_t depth, Random& random) {
+void add_vertices(Rows& rows, device::wt_path_row& row, uint32_t depth, Random& random) {
   constexpr uint32_t codes[] = {reflection, scattering, transmission, diffraction};
   for (uint32_t k = 0; k < depth; ++k) {
     device::wt_vertex_row vertex{};
     vertex.interaction = codes[random.below(4)];
     rows.vertices.push_back(vertex);
+    row.quarters |= vertex.interaction << WT_ROW_MET_SHIFT;
   }
 }
 
@@ -81,7 +82,7 @@ Rows random_rows(const std::vector<Link>& links, Ports ports, uint32_t most, Ran
       for (uint32_t r = 0; r < ports.rx; ++r)
         for (uint32_t t = 0; t < ports.tx; ++t)
           for (uint32_t part = 0; part < 2; ++part) row.a[2 * (2 * r + t) + part] = size * random.between(-1, 1);
-      add_vertices(out, i == 0 && random() < 0.5 ? 0 : 1 + random.below(4), random);
+      add_vertices(out, row, i == 0 && random() < 0.5 ? 0 : 1 + random.below(4), random);
       add_waves(out, row, random);
       out.rows.push_back(row);
     }
@@ -98,15 +99,13 @@ std::vector<device::wt_link_sum> on_device(const Rows& of, const std::vector<Lin
     return context().buffer(filled, name);
   };
   const auto rows = buffer(of.rows, "rows");
-  const auto vertices = buffer(of.vertices, "vertices");
   const auto waves = buffer(of.waves, "waves");
   const auto shared = buffer(of.shared, "waves of several");
   Counters counters(context());
   counters.zero();
   counters.restart(&wt_counters::rows, count, Stage::fields);
-  counters.restart(&wt_counters::row_vertices, static_cast<uint32_t>(of.vertices.size()), Stage::fields);
   LinkSums pass(context(), carrier_hz, ports, grouped, lanes);
-  pass({rows, vertices, grouped ? &waves : nullptr, grouped ? &shared : nullptr, count}, links, counters);
+  pass({rows, grouped ? &waves : nullptr, grouped ? &shared : nullptr, count}, links, counters);
   const auto sums = pass.read();
   return {sums.begin(), sums.end()};
 }

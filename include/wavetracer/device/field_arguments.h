@@ -22,7 +22,7 @@ typedef struct {
   wt_uint foliage_count;  // kinds of vegetation
   wt_uint reflections;    // the most reflections of a path
   wt_uint rows_of_item;   // CPUs: the rows that a work-item takes
-  wt_uint for_sums;       // not 0: link_sums alone reads the rows, and CPUs leave out what it does not need
+  wt_uint for_sums;       // not 0: link_sums alone reads the rows, so there are no vertices
 } wt_fields_arguments;
 
 // Numbers for link_floors. scale: the floor of a link over the power of its strongest path without edges.

@@ -120,9 +120,11 @@ typedef struct {
   wt_uint padding;
 } wt_field_end;
 
-// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp). One bit beside those of the
-// quarters says that the path is closer to an edge than the theory of diffraction holds (path_edges.h).
+// A path of a frame as the host reads it, with the columns of Paths (wavetracer/paths.hpp). Bits beside those of the
+// quarters say that the path is closer to an edge than the theory of diffraction holds (path_edges.h), and which kinds
+// of interactions it has: the codes of its vertices together, 0 in sight.
 #define WT_ROW_NEAR_EDGE 256u
+#define WT_ROW_MET_SHIFT 16u
 typedef struct {
   double delay_s, gain_db, doppler_hz;
   double aod_theta, aod_phi, aoa_theta, aoa_phi;  // radians

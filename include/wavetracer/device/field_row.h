@@ -25,7 +25,14 @@ inline void wt_write_vertices(const wt_field_world* world, const wt_path* path, 
   }
 }
 
-// The row at `place`, and its vertices.
+// The codes of all interactions of a path together, in the bits of wt_path_row.quarters.
+inline wt_uint wt_met_kinds(const wt_path* path) {
+  wt_uint met = 0;
+  for (wt_uint k = 0; k < path->depth; ++k) met |= wt_interaction(wt_step(path, k));
+  return met << WT_ROW_MET_SHIFT;
+}
+
+// The row at `place`, and its vertices, unless `vertices` is null.
 inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ordered, wt_uint place, wt_uint quarters,
                          wt_double3 origin, wt_uint first_vertex, WT_GLOBAL wt_path_row* row,
                          WT_GLOBAL wt_vertex_row* vertices) {
@@ -34,7 +41,7 @@ inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ord
   row->tx = path.transmitter;
   row->rx = path.receiver;
   row->first_vertex = first_vertex;
-  row->quarters = quarters | (field.near_edge ? WT_ROW_NEAR_EDGE : 0u);
+  row->quarters = quarters | (field.near_edge ? WT_ROW_NEAR_EDGE : 0u) | wt_met_kinds(&path);
   row->delay_s = field.delay_s;
   row->gain_db = field.gain_db;
   row->doppler_hz = field.doppler_hz;
@@ -46,7 +53,7 @@ inline void wt_write_row(const wt_field_world* world, const wt_ordered_rows* ord
     row->a[2 * i] = field.a[i].x;
     row->a[2 * i + 1] = field.a[i].y;
   }
-  wt_write_vertices(world, &path, origin, first_vertex, vertices);
+  if (vertices) wt_write_vertices(world, &path, origin, first_vertex, vertices);
 }
 
 #ifndef __OPENCL_VERSION__
