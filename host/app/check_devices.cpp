@@ -11,17 +11,6 @@
 namespace wavetracer::app {
 namespace {
 
-std::vector<CheckedFeatures> features_of_runs() {
-  CacheConfig cache;
-  cache.kind = "concurrent";
-  return {{},
-          {.instances = true, .reuse = true},
-          {.diffractions = 3},
-          {.instances = true, .transmission = true, .scattering = true, .diffractions = 1, .reuse = true},
-          {.instances = true, .beams = true},
-          {.instances = true, .cache = cache}};
-}
-
 bool check_features(gpu::Context& context, const CheckedFeatures& features) {
   const std::vector<CheckResult> results = check_device(context, features);
   keep_proof(context, features, results);
@@ -46,7 +35,7 @@ bool check_one(const gpu::DeviceInfo& info, bool asked_for) {
   bool all = true;
   try {
     gpu::Context context(std::to_string(info.index));
-    for (const CheckedFeatures& features : features_of_runs()) all &= check_features(context, features);
+    for (const CheckedFeatures& features : all_checked_features()) all &= check_features(context, features);
   } catch (const DeviceError& error) {
     std::cout << "  cannot be used: " << error.what() << "\n";
     return false;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -14,7 +15,9 @@
 #include "base/digits.hpp"
 #include "base/hash.hpp"
 #include "radio/fields.hpp"
+#include "radio/links.hpp"
 #include "simulation/visible_paths.hpp"
+#include "simulation/world_targets.hpp"
 
 namespace wavetracer {
 namespace {
@@ -47,6 +50,12 @@ std::set<std::tuple<uint32_t, uint32_t, FieldBits>> rows_with_bits(const Paths& 
   std::set<std::tuple<uint32_t, uint32_t, FieldBits>> out;
   for (size_t row = 0; row < paths.size(); ++row) out.emplace(paths.tx[row], paths.rx[row], bits_of(paths, row));
   return out;
+}
+
+// Sums of the device and of the host follow other orders.
+bool same_sum(double a, double b) {
+  return std::isfinite(b) ? std::abs(a - b) <= 1e-6 * std::max(1.0, std::abs(b))
+                          : (std::isnan(b) ? std::isnan(a) : a == b);
 }
 
 }  // namespace
@@ -97,7 +106,9 @@ CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& feature
 CheckResult check_fields(Setup& setup, const FrameResult& frame) {
   const FieldModel host(setup.plan->scene, setup.plan->computed(), setup.plan->world.fleet.models,
                         setup.plan->world.fleet.instances);
-  const auto expected = rows_with_bits(host.compute(frame.frame, read_visible(setup), frame.world));
+  Paths computed = host.compute(frame.frame, read_visible(setup), frame.world);
+  name_targets(computed, setup.plan->world.targets);
+  const auto expected = rows_with_bits(computed);
   const auto found = rows_with_bits(frame.paths);
   const auto wrong =
       static_cast<size_t>(std::ranges::count_if(found, [&](const auto& row) { return !expected.contains(row); }));
@@ -118,6 +129,33 @@ CheckResult check_cached(const FrameResult& first, const FrameResult& again) {
             fmt::format("a frame whose rays the cache answers has other paths: {} instead of {}, or others",
                         again.paths.size(), first.paths.size())};
   return {"ray cache", false, fmt::format("none of {} look-ups was answered", grouped(again.cache.lookups))};
+}
+
+CheckResult check_reused(const FrameResult& first, const FrameResult& again) {
+  if (known_of(first.paths) == known_of(again.paths))
+    return {"reuse", true, "the next frame has the same paths from the sequences of the first"};
+  return {"reuse", false,
+          fmt::format("a frame that reuses the sequences of another one has other paths: {} instead of {}, or others",
+                      again.paths.size(), first.paths.size())};
+}
+
+CheckResult check_sums_of_links(const FrameResult& frame, const FrameResult& summed, double frequency_hz) {
+  const std::vector<LinkFigures> right = link_figures(frame.paths, frame.frame, frame.world.links, frequency_hz);
+  const std::vector<LinkFigures> found = summed.summed ? summed.summed->links : std::vector<LinkFigures>{};
+  size_t wrong = 0;
+  for (size_t i = 0; i < std::min(right.size(), found.size()); ++i) {
+    const LinkFigures &a = right[i], &b = found[i];
+    const bool counts = a.tx == b.tx && a.rx == b.rx && a.paths == b.paths && a.los == b.los;
+    wrong += !(counts && same_sum(a.path_gain_db, b.path_gain_db) && same_sum(a.sum_of_powers_db, b.sum_of_powers_db) &&
+               same_sum(1e9 * a.mean_delay_s, 1e9 * b.mean_delay_s) &&
+               same_sum(1e9 * a.rms_delay_spread_s, 1e9 * b.rms_delay_spread_s) &&
+               same_sum(a.doppler_spread_hz, b.doppler_spread_hz));
+  }
+  if (right.size() == found.size() && wrong == 0 && !right.empty())
+    return {"links", true, fmt::format("the sums of {} links are those of their paths", right.size())};
+  return {"links", false,
+          fmt::format("of {} links {} have other sums than their paths, and {} have none", right.size(), wrong,
+                      right.size() - std::min(right.size(), found.size()))};
 }
 
 }  // namespace wavetracer

@@ -21,5 +21,9 @@ CheckResult check_paths(const FrameResult& frame, const CheckedFeatures& feature
 CheckResult check_fields(Setup& setup, const FrameResult& frame);
 // again: the same frame after `first`; its cache must answer some rays, and must not change the paths.
 CheckResult check_cached(const FrameResult& first, const FrameResult& again);
+// again: the same frame after `first`, which reuses what that one has found; it must have the same paths.
+CheckResult check_reused(const FrameResult& first, const FrameResult& again);
+// summed: the same frame with sums of links that the device made; they must be those of the paths.
+CheckResult check_sums_of_links(const FrameResult& frame, const FrameResult& summed, double frequency_hz);
 
 }  // namespace wavetracer

@@ -3,6 +3,7 @@
 #include "simulation/check_world.hpp"
 
 #include "scene/build_scene.hpp"
+#include "scene/volumes.hpp"
 
 namespace wavetracer {
 namespace {
@@ -69,6 +70,73 @@ void add_vehicles(Config& config) {
   config.time.step_s = 0.5;
 }
 
+// A point, and a lorry that stands: waves of tx0 bounce between the roof of its cab and its box. They are not turned,
+// so no angle has a sine.
+void add_targets(Config& config) {
+  TargetModelConfig point, body;
+  point.name = "check point";
+  point.rcs_dbsm = {12};
+  point.points_m = {{0, 0, 1.25}};
+  body.name = "check body";
+  body.kind = "body";
+  body.piece_m = 1.5;
+  body.bounces = 2;
+  config.target_models = {point, body};
+  VehicleTypeConfig& row = config.vehicle_types.emplace_back();
+  row.name = "truck";
+  row.model = "truck";
+  row.length_m = 7.25;
+  row.width_m = 2.5;
+  row.height_m = 3.25;
+  row.material = "check metal";
+  config.targets = {
+      {.name = "point", .model = "check point", .position_m = {9.625, -11.375, 0}, .velocity_m_s = {1.5, -2, 0}},
+      {.name = "body", .model = "check body", .position_m = {-28.375, -4.125, 0}, .vehicle_type = "truck"}};
+}
+
+void add_vegetation(Config& config) {
+  MaterialConfig& leaves = config.materials.emplace_back();
+  leaves.name = "check leaves";
+  leaves.vegetation = "mixed";
+  leaves.attenuation_db_m = 0.5;
+  leaves.max_attenuation_db = 30;
+  leaves.scattering = 0.5;
+  config.vegetation = {
+      {.shape = "box", .centre_m = {9.5, -13.25, 4.125}, .size_m = {5.5, 6.25, 7.75}, .material = "check leaves"},
+      {.shape = "spheroid", .centre_m = {-3.25, 2.5, 5.5}, .size_m = {6.25, 4.5, 5.25}, .material = "check leaves"}};
+}
+
+// The keys of ways that have a frame of their own. Floors leave out some of their paths, so that they are checked, too.
+void add_ways(Config& config, CheckedWays ways) {
+  TraceConfig& trace = config.trace;
+  trace.max_depth = 2;
+  switch (ways) {
+    case CheckedWays::none:
+      break;
+    case CheckedWays::tile_edges:
+      trace.scattering_diffraction = true;
+      [[fallthrough]];
+    case CheckedWays::tiles:
+      trace.scattering_reflections = 1;
+      trace.scattering_floor_db = -130;
+      break;
+    case CheckedWays::target_edges:
+      trace.target_diffraction = true;
+      [[fallthrough]];
+    case CheckedWays::targets:
+      trace.target_reflections = 1;
+      trace.target_floor_db = -130;
+      add_targets(config);
+      break;
+    case CheckedWays::heard_edges:
+      trace.edge_rays = 3000;
+      break;
+    case CheckedWays::vegetation:
+      add_vegetation(config);
+      break;
+  }
+}
+
 }  // namespace
 
 Config check_config(const CheckedFeatures& features) {
@@ -94,7 +162,12 @@ Config check_config(const CheckedFeatures& features) {
   trace.scattering = features.scattering;
   trace.tile_m = 8;
   trace.reuse = features.reuse;
+  if (features.ways != CheckedWays::none) add_ways(config, features.ways);
   if (features.beams) trace.discovery = "beams";
+  if (features.ordered) {
+    config.order.method = "hilbert3d-histogram";
+    config.order.each_depth = true;
+  }
   config.cache = features.cache;
   config.cache.key = "exact";
   config.cache.buffer_size = 1u << 19;  // in a small one rays may take all places from each other
@@ -111,6 +184,7 @@ Scene check_scene(const Config& config) {
   add_mesh(raw, "screen", {{{{-9, -8.5, 0}, {-1, -8.5, 0}, {-1, -8.5, 3.5}, {-9, -8.5, 3.5}}}}, 1);
   // It faces the house, so that waves go back and forth between the two.
   add_mesh(raw, "wall", {{{{-4.5, 7, 0}, {-4.5, 19, 0}, {-4.5, 19, 6}, {-4.5, 7, 6}}}}, 2);
+  add_volumes(raw, config.vegetation);
   ResolvedMaterials resolved = resolve_materials(raw, config.scene, config.materials, config.radio.frequency_hz);
   return build_scene(raw, std::move(resolved), config.trace.diffraction ? EdgeSearch::of_scene : EdgeSearch::none);
 }

@@ -16,7 +16,8 @@ namespace {
 
 class DeviceCheck {
  public:
-  DeviceCheck(gpu::Context& context, const CheckedFeatures& features) : context_(context), features_(features) {}
+  DeviceCheck(gpu::Context& context, const CheckedFeatures& features, std::set<std::string>* kernels)
+      : context_(context), features_(features), kernels_(kernels) {}
 
   std::vector<CheckResult> operator()() {
     try {
@@ -48,6 +49,7 @@ class DeviceCheck {
     const WorldState state = check_state(setup_->plan->world);
     if (setup_->placement) setup_->placement->place(setup_->device_scene, state.instances);
     add(check_traversal(*setup_, state));
+    note_kernels();
   }
 
   void check_a_frame() {
@@ -57,18 +59,38 @@ class DeviceCheck {
     add(check_sequences(*setup_, first));
     add(check_paths(first, features_));
     add(check_fields(*setup_, first));
-    if (!setup_->cache) return;
-    stage_ = "ray cache";
-    add(check_cached(first, run(frames)));
+    if (setup_->cache) {
+      stage_ = "ray cache";
+      add(check_cached(first, run(frames)));
+    }
+    if (setup_->plan->reuse) {
+      stage_ = "reuse";
+      add(check_reused(first, run(frames)));
+    }
+    if (features_.sums) {
+      stage_ = "links";
+      frames.sum_links(true);
+      add(check_sums_of_links(first, run(frames), setup_->plan->asked.radio.frequency_hz));
+    }
+  }
+
+  // Each frame forgets which kernels ran before it.
+  void note_kernels() {
+    if (!kernels_) return;
+    context_.profile();
+    for (const auto& [name, time] : context_.kernel_times()) kernels_->insert(name);
   }
 
   FrameResult run(FrameLoop& frames) {
-    return frames.run(FrameTask::of_drive(
+    FrameResult out = frames.run(FrameTask::of_drive(
         {.frame = 0, .pose = [&] { return check_state(setup_->plan->world); }, .names = FrameNames::none()}));
+    note_kernels();
+    return out;
   }
 
   gpu::Context& context_;
   const CheckedFeatures& features_;
+  std::set<std::string>* kernels_;  // may be null
   std::optional<Setup> setup_;
   std::string stage_;
   Stopwatch watch_;
@@ -77,8 +99,9 @@ class DeviceCheck {
 
 }  // namespace
 
-std::vector<CheckResult> check_device(gpu::Context& context, const CheckedFeatures& features) {
-  std::vector<CheckResult> out = DeviceCheck(context, features)();
+std::vector<CheckResult> check_device(gpu::Context& context, const CheckedFeatures& features,
+                                      std::set<std::string>* kernels) {
+  std::vector<CheckResult> out = DeviceCheck(context, features, kernels)();
   context.set_profiling(true);
   context.reset_profile();
   return out;

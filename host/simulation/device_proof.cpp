@@ -30,15 +30,25 @@ bool all_passed(std::span<const CheckResult> results) { return std::ranges::all_
 
 }  // namespace
 
-CheckedFeatures features_to_check(const Setup& setup) {
-  CheckedFeatures out{
+std::vector<CheckedFeatures> features_to_check(const Setup& setup) {
+  CheckedFeatures common{
       .instances = !setup.plan->world.fleet.instances.empty(),
       .transmission = setup.plan->trace.transmission,
       .scattering = setup.plan->trace.scattering,
       .diffractions = setup.plan->trace.diffraction ? std::min(setup.plan->trace.max_diffractions, 3u) : 0,
       .reuse = setup.plan->reuse,
-      .beams = setup.plan->trace.by_beams()};
-  if (setup.cache && !setup.cache->as_printed()) out.cache = setup.plan->asked.cache;
+      .beams = setup.plan->trace.by_beams(),
+      .ordered = setup.order.plan.key.has_value(),
+      .sums = !setup.plan->asked.output.paths};
+  if (setup.cache && !setup.cache->as_printed()) common.cache = setup.plan->asked.cache;
+  std::vector<CheckedFeatures> out{common};
+  const auto add = [&](CheckedWays ways) { out.push_back(CheckedFeatures::of(ways)); };
+  const ExactPaths& exact = setup.exact_paths;
+  if (exact.scattered) add(exact.scattered_edges ? CheckedWays::tile_edges : CheckedWays::tiles);
+  if (exact.targets)
+    add(exact.target_chains && exact.target_chains->takes_edges() ? CheckedWays::target_edges : CheckedWays::targets);
+  if (exact.from_edges) add(CheckedWays::heard_edges);
+  if (!setup.plan->scene.volumes.empty()) add(CheckedWays::vegetation);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gpu/gpu.hpp"
 #include "simulation/check_result.hpp"
@@ -12,9 +13,9 @@ namespace wavetracer {
 
 struct Setup;
 
-// The features that are checked for a run of this setup. The thesis' tables of a ray cache are left out: they keep the
-// faults of the printed code, which are not a device's.
-CheckedFeatures features_to_check(const Setup& setup);
+// The sets of features that are checked for a run of this setup, one after the other. The thesis' tables of a ray cache
+// are left out: they keep the faults of the printed code, which are not a device's.
+std::vector<CheckedFeatures> features_to_check(const Setup& setup);
 
 // Checks the device for these features, unless it has passed before with the same driver, platform, kernels and version
 // of the program. That result is stored beside the compiled kernels; without room for it, each call checks. Throws

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frames that every device computes alike, bit for bit: the number of their paths, and hashes of them. There is one
-// row for each set of features, by CheckedFeatures::frame(). The test `device_check` prints the right rows.
+// row for each set of features, and then for each of CheckedWays, by CheckedFeatures::frame(). The test `device_check`
+// prints the right rows.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,7 +16,7 @@ struct KnownFrame {
 };
 
 // clang-format off
-inline constexpr std::array<KnownFrame, 32> known_frames{{
+inline constexpr std::array<KnownFrame, 38> known_frames{{
     {18, 0x04b8e8fb3b35bb2b, 0x25f3beca00a5851d},
     {126, 0x249cfb51575c99c3, 0xff968b3d5804cdb9},
     {352, 0x56ebaa69dadef4db, 0xcfa6804b0c9cd768},
@@ -48,6 +49,12 @@ inline constexpr std::array<KnownFrame, 32> known_frames{{
     {238, 0x9287a2166ed4789e, 0x3ce5eb1b4fde614b},
     {632, 0x04d45835785a38e8, 0xc44b2491c4911efb},
     {633, 0x7d1a87e3bd776d09, 0x5ba9e90908e77a90},
+    {309, 0xb958b66237aaed1c, 0xfa1d3f7f70984b3a},
+    {537, 0x12726c10a3310996, 0x71b1c13577c7d090},
+    {700, 0xcd8444b4decac91f, 0xc7821746e38ea1ba},
+    {3646, 0x5b16bf4c67ef2cce, 0x97b09da0dbc5b306},
+    {126, 0x249cfb51575c99c3, 0xff968b3d5804cdb9},
+    {113, 0x00ae0649d369ef0d, 0xceb3a1dca04a6d50},
 }};
 // clang-format on
 

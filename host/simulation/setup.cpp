@@ -169,7 +169,7 @@ Setup make_setup(const Config& asked, const std::string& device_text, bool frame
   Setup out = set_up(
       std::move(context), device, asked, [&] { return load_scene(asked); }, frames_follow, check);
   out.stages.end("compile");
-  prove_device(device, features_to_check(out));
+  for (const CheckedFeatures& features : features_to_check(out)) prove_device(device, features);
   out.stages.end("device check");
   return out;
 }

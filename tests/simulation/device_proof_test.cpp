@@ -117,6 +117,29 @@ TEST_CASE("beams that lose small pieces fail the check of paths, and no other") 
   fails_first("paths", beams);
 }
 
+TEST_CASE("ways beside tiles and within bodies that a kernel loses fail the check of paths") {
+  const CheckedFeatures tiles = CheckedFeatures::of(CheckedWays::tile_edges);
+  const CheckedFeatures bodies = CheckedFeatures::of(CheckedWays::targets);
+  CHECK(failed_checks(tiles).all == "");
+  CHECK(failed_checks(bodies).all == "");
+  {
+    const BrokenLine broken("kernels/edges/tile_edges.cl", "points[j].depth <= args->max_depth",
+                            "points[j].depth < args->max_depth");
+    fails_first("paths", tiles);
+  }
+  const BrokenLine broken("kernels/paths/target_bounces.cl",
+                          "return wt_seen_side(point, surfaces, way->points[bounce->count - 1]);", "return 0;");
+  fails_first("paths", bodies);
+}
+
+TEST_CASE("sums of links that count wrong fail their check, and no other") {
+  const CheckedFeatures sums{.sums = true};
+  CHECK(failed_checks(sums).all == "");
+  const BrokenLine broken("kernels/fields/link_sums.cl", "sum->mean_delay_s += power * row->delay_s;",
+                          "sum->mean_delay_s += power * row->delay_s * 1.001;");
+  CHECK(!contains(fails_first("links", sums), "paths:"));
+}
+
 TEST_CASE("a simulation on a broken device is refused, every time") {
   const BrokenSlab broken;
   const CopyInUse in_use;
