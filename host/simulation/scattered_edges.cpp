@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/digits.hpp"
 #include "passes/advice.hpp"
 #include "passes/growing_list.hpp"
 #include "wavetracer/error.hpp"
@@ -21,6 +22,18 @@ JoinedPoints with_one_edge(JoinedPoints limits) {
 }
 
 }  // namespace
+
+std::string warning_of_pairs(uint64_t ends, uint64_t edges, uint64_t tiles, bool has_floor) {
+  if (has_floor || static_cast<double>(ends) * static_cast<double>(edges) * static_cast<double>(tiles) <=
+                       static_cast<double>(most_pairs_of_edges))
+    return "";
+  return fmt::format(
+      "trace.scattering_diffraction without trace.scattering_floor_db tries every way from an end to an edge with every "
+      "tile: {} ends that launch rays, {} edges and {} tiles may be more than {} pairs, and a frame with more of them is "
+      "refused while it is computed: give trace.scattering_floor_db, so that most are left out together, or raise "
+      "trace.tile_m",
+      grouped(ends), grouped(edges), grouped(tiles), grouped(most_pairs_of_edges));
+}
 
 ScatteredEdges::ScatteredEdges(gpu::Context& context, const TileTable& tiles, uint32_t interactions,
                                JoinedPoints limits, const BentWaves& waves)
@@ -64,10 +77,10 @@ JoinedCounts ScatteredEdges::operator()(const DeviceScene& scene, const TileBuff
   const uint32_t prefixes = edges.prefixes.count;
   if (floor_ == 0 && uint64_t{prefixes} * tiles.count > most_pairs_of_edges)
     throw RuntimeError(fmt::format(
-        "trace.scattering_diffraction would try {} ways to edges with {} tiles each, which takes very long: give "
+        "trace.scattering_diffraction would try {} ways to edges with {} tiles each, more than {} pairs: give "
         "trace.scattering_floor_db, so that most are left out together, raise trace.tile_m, or set "
         "trace.scattering_diffraction to false",
-        prefixes, tiles.count));
+        grouped(prefixes), grouped(tiles.count), grouped(most_pairs_of_edges)));
   pass_.place(scene, tiles, ends, points.list());  // tile_edges
   RadioEnds between;
   between.transmitters = ends.transmitters;

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "passes/bend_floors.hpp"
 #include "passes/point_join.hpp"
@@ -17,6 +18,10 @@
 #include "simulation/seen_edges.hpp"
 
 namespace wavetracer {
+
+// Warns before a frame where the prefixes of edges may be too many for the tiles, if each of `ends` sees each edge
+// once; empty where they are not, or where there is a floor. How many there are is known in the frame alone.
+std::string warning_of_pairs(uint64_t ends, uint64_t edges, uint64_t tiles, bool has_floor);
 
 class ScatteredEdges {
  public:

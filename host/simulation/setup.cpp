@@ -99,6 +99,16 @@ std::unique_ptr<const PathLifetimes> make_lifetimes(const RunPlan& plan) {
 // Is the ground many surfaces? A street of a few patches is not, the coarsest of terrains is.
 bool is_hilly(const Scene& scene) { return ground_surfaces(scene) > 100; }
 
+// Adds a warning of too many ways over edges to tiles, which the frame counts and may refuse.
+std::vector<std::string> with_pairs(std::vector<std::string> warnings, const Origins& origins, const TraceConfig& trace,
+                                    const ExactPaths& exact) {
+  if (!exact.scattered_edges) return warnings;
+  std::string told = warning_of_pairs(origins.count(), exact.diffraction->wedges.diffracting(),
+                                      exact.scatter->tiles().count, trace.scattering_floor_db.has_value());
+  if (!told.empty()) warnings.push_back(std::move(told));
+  return warnings;
+}
+
 // own: null where the caller lends the context.
 Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Config& asked,
              const std::function<Scene()>& load, bool frames_follow, const PlanCheck& check) {
@@ -142,7 +152,7 @@ Setup set_up(std::unique_ptr<gpu::Context> own, gpu::Context& context, const Con
           .device = summary_of(context.info()),
           .plan = std::move(plan),
           .around = std::move(around),
-          .place_warnings = std::move(warnings),
+          .place_warnings = with_pairs(std::move(warnings), origins, trace, exact),
           .device_scene = std::move(device_scene),
           .placement = std::move(placement),
           .launch_sides = std::move(launch_sides),
