@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/first_configs.hpp"
 #include "app/named_files.hpp"
+#include "config/contradictions.hpp"
 #include "imports/road_network.hpp"
 #include "radio/codebook.hpp"
 #include "radio/field_tables.hpp"
@@ -47,7 +48,8 @@ std::vector<std::string> world_warnings(const Config& config) {
   known_streets(config);
   std::vector<std::string> out = scene.report.warnings;
   drop_used(out, world.fleet.models);
-  for (const auto& more : {world.warnings, place_warnings(config, Surroundings(scene), world)})
+  for (const auto& more :
+       {config::idle_settings(config), world.warnings, place_warnings(config, Surroundings(scene), world)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

@@ -203,6 +203,7 @@ std::vector<Contradiction> contradictions(const Config& config) {
   check_edge_rays(config, out);
   check_diffraction_range(config, out);
   check_scattering(config.trace, out);
+  check_companions(config, out);
   check_link_budget(config.radio, out);
   check_waypoints(config, out);
   check_cache(config, out);

@@ -17,6 +17,10 @@ struct Contradiction {
 
 std::vector<Contradiction> contradictions(const Config& config);
 
+// Names the settings of [trace] that have no effect, because the feature that they belong to is off: one line each.
+// They are no contradictions, so that a feature can be switched off and on by its one key.
+std::vector<std::string> idle_settings(const Config& config);
+
 // Says what needs rays, so that trace.discovery = "beams" is refused or "auto" takes none; empty: nothing does. trace:
 // [trace] of config, perhaps without what the scene does not need.
 std::string needs_rays(const Config& config, const TraceConfig& trace);
@@ -37,6 +41,10 @@ void check_floor(const Config& config, std::vector<Contradiction>& out);
 
 // Defined in target_checks.cpp.
 void check_targets(const Config& config, std::vector<Contradiction>& out);
+bool has_targets(const Config& config);  // also if trace.target is off
+
+// Defined in trace_checks.cpp: keys of [trace] that ask for something which another key has not switched on.
+void check_companions(const Config& config, std::vector<Contradiction>& out);
 
 // Defined in radar_checks.cpp.
 void check_radars(const Config& config, std::vector<Contradiction>& out);

@@ -125,19 +125,8 @@ void check_parts(const Config& config, const std::vector<std::string>& models, s
   }
 }
 
-bool has_targets(const Config& config) {
-  return !config.targets.empty() ||
-         std::ranges::any_of(config.target_models, [](const TargetModelConfig& model) { return !model.on.empty(); });
-}
-
-void check_companions(const Config& config, std::vector<Contradiction>& out) {
+void check_neighbours(const Config& config, std::vector<Contradiction>& out) {
   const TraceConfig& trace = config.trace;
-  if (trace.target_floor_db && !has_targets(config))
-    out.push_back(
-        {{"trace.target_floor_db"},
-         fmt::format("trace.target_floor_db = {} leaves out paths over targets, and there are none: remove it, "
-                     "or add a [[target]], or a [[target_model]] with on",
-                     *trace.target_floor_db)});
   if (!trace.target || !has_targets(config)) return;
   const auto refuse = [&](std::vector<std::string> keys, const std::string& what) {
     keys.push_back(config.targets.empty() ? "target_model.0" : "target.0");
@@ -166,6 +155,11 @@ void check_companions(const Config& config, std::vector<Contradiction>& out) {
 }
 
 }  // namespace
+
+bool has_targets(const Config& config) {
+  return !config.targets.empty() ||
+         std::ranges::any_of(config.target_models, [](const TargetModelConfig& model) { return !model.on.empty(); });
+}
 
 void check_targets(const Config& config, std::vector<Contradiction>& out) {
   std::vector<std::string> names;
@@ -210,7 +204,7 @@ void check_targets(const Config& config, std::vector<Contradiction>& out) {
                                  toml_string(model), toml_string(config.targets[i].name))});
   }
   check_parts(config, names, out);
-  check_companions(config, out);
+  check_neighbours(config, out);
 }
 
 }  // namespace wavetracer::config

@@ -9,7 +9,10 @@ Table trace_table() {
   const auto t = [](auto member) { return at(&Config::trace, member); };
   return {
       .name = "trace",
-      .doc = "The search of rays for the surfaces that paths may touch.",
+      .doc =
+          "The search of rays for the surfaces that paths may touch. A key that asks for paths or leaves some out is "
+          "refused where another key has switched its kind of path off, as trace.scattering_floor_db without "
+          "trace.scattering_reflections; other keys without effect are warnings of the run.",
       .fields = {
           {.name = "discovery",
            .slot = t(&TraceConfig::discovery),

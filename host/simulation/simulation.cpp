@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "config/contradictions.hpp"
 #include "gradient/frame_gradient.hpp"
 #include "simulation/batched_frames.hpp"
 #include "simulation/missing_paths.hpp"
@@ -110,6 +111,7 @@ std::vector<std::string> Simulation::warnings() const {
     if (const auto text = unmeasured_warning(plan.trace.discover_every_s, plan.world.clock.step_s(), frame_count(),
                                              plan.asked.output.shard_frames))
       out.push_back(*text);
+  for (std::string& idle : config::idle_settings(plan.asked)) out.push_back(std::move(idle));
   for (const std::vector<std::string>* more : {&plan.world.warnings, &s.place_warnings})
     out.insert(out.end(), more->begin(), more->end());
   for (const std::string& note : s.context.notes()) out.push_back(note);

@@ -111,6 +111,6 @@ TEST_CASE("bodies as targets: keys that they do not have, pieces, and places wit
   check_contains(error_of(scene + "trace.max_depth = 1\n" + ends + model(bounces + "2")),
                  "has bounces = 2, but paths have at most trace.max_depth = 1 interactions");
   const std::string floor = "trace.target_floor_db = -150\n";
-  check_contains(error_of(scene + floor + ends), "trace.target_floor_db = -150 leaves out paths over targets");
+  check_contains(error_of(scene + floor + ends), "trace.target_floor_db = -150 has no effect without a [[target]]");
   CHECK(error_of(scene + floor + ends + model("kind = \"agv\"") + at("car")) == "no error");
 }
