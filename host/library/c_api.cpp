@@ -211,6 +211,7 @@ wavetracer_frame* wavetracer_run_frame(wavetracer_simulation* self, uint32_t fra
     out->a = packed(out->result.paths);
     out->links = link_columns(out->result, simulation.config().radio.frequency_hz);
     out->carriers = carrier_columns(out->result);
+    out->radars = radar_columns(out->result, simulation.radar_axes());
     out->transmitter_position_m = file_positions(out->result.world.transmitters, simulation.scene().origin_m);
     out->receiver_position_m = file_positions(out->result.world.receivers, simulation.scene().origin_m);
     return out.release();

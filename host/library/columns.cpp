@@ -47,6 +47,16 @@ wavetracer_column of_links(const wavetracer_frame& frame) {
   return view(frame.links.*Member);
 }
 
+template <auto Member>
+wavetracer_column of_radars(const wavetracer_frame& frame) {
+  return view(frame.radars.*Member);
+}
+
+template <auto Member>
+wavetracer_column of_detections(const wavetracer_frame& frame) {
+  return view(frame.radars.detections.*Member);
+}
+
 struct Row {
   const char* name;
   wavetracer_column (*read)(const wavetracer_frame&);
@@ -95,6 +105,19 @@ constexpr Row rows[] = {
     {"beam_tx_beam", of_beams<&BeamRows::tx_beam>},
     {"beam_rx_beam", of_beams<&BeamRows::rx_beam>},
     {"beam_gain_db", of_beams<&BeamRows::gain_db>},
+    {"radar", of_radars<&RadarColumns::radar>},
+    {"radar_tx", of_radars<&RadarColumns::tx>},
+    {"radar_rx", of_radars<&RadarColumns::rx>},
+    {"radar_left_out", of_radars<&RadarColumns::left_out>},
+    {"detection_offset", of_radars<&RadarColumns::detection_offset>},
+    {"detection_range_m", of_detections<&RadarDetections::range_m>},
+    {"detection_delay_s", of_detections<&RadarDetections::delay_s>},
+    {"detection_speed_m_s", of_detections<&RadarDetections::speed_m_s>},
+    {"detection_doppler_hz", of_detections<&RadarDetections::doppler_hz>},
+    {"detection_power_dbm", of_detections<&RadarDetections::power_dbm>},
+    {"detection_threshold_dbm", of_detections<&RadarDetections::threshold_dbm>},
+    {"detection_azimuth_rad", of_detections<&RadarDetections::azimuth_rad>},
+    {"detection_elevation_rad", of_detections<&RadarDetections::elevation_rad>},
     {"transmitter_position_m", [](const wavetracer_frame& frame) { return view(frame.transmitter_position_m); }},
     {"receiver_position_m", [](const wavetracer_frame& frame) { return view(frame.receiver_position_m); }},
 };

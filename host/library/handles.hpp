@@ -56,6 +56,18 @@ struct CarrierColumns {
   std::vector<double> gain_db, doppler_hz;
 };
 
+// Detections of radars: a row for each link of each radar, and the detections of all rows one after the other.
+struct RadarColumns {
+  std::vector<uint32_t> radar, tx, rx, left_out;
+  std::vector<uint64_t> detection_offset;
+  RadarDetections detections;
+  std::vector<uint32_t> place;  // number of the row among those of its radar
+  std::vector<RadarAxes> axes;  // one for each radar
+};
+
+// Defined in radar_api.cpp.
+RadarColumns radar_columns(const FrameResult& frame, std::vector<RadarAxes> axes);
+
 }  // namespace wavetracer::c_api
 
 struct wavetracer_frame {
@@ -66,6 +78,7 @@ struct wavetracer_frame {
   std::vector<glm::dvec3> transmitter_position_m, receiver_position_m;  // file coordinates
   wavetracer::c_api::LinkColumns links;
   wavetracer::c_api::CarrierColumns carriers;
+  wavetracer::c_api::RadarColumns radars;
 };
 
 namespace wavetracer::c_api {

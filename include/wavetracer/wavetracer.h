@@ -201,11 +201,34 @@ typedef struct wavetracer_column {
    With array.codebook one row per link and pair of beams, of links of which an end has a codebook, else none:
      beam_tx, beam_rx, beam_tx_beam, beam_rx_beam            uint32     ends, and their beams
      beam_gain_db                                            float64    of the power through both beams, in groups
+   One row per link of each [[radar]] that is in the frame, sorted by radar, tx, rx; none without [[radar]]:
+     radar, radar_tx, radar_rx                               uint32     the radar, and the ends
+     radar_left_out                                          uint32     paths that are too long for its waveform
+     detection_offset                                        uint64     one row more than there are rows of radars
+   Rows detection_offset[i] to detection_offset[i + 1] - 1 of these are what row i of the radars detects, by falling
+   power; docs/radar.md says how they are found:
+     detection_range_m, detection_delay_s,                   float64    half the length of the path, and its delay
+     detection_speed_m_s, detection_doppler_hz,                         the speed at which a target comes nearer
+     detection_power_dbm, detection_threshold_dbm,
+     detection_azimuth_rad, detection_elevation_rad                     in the axes of the receiver; NaN: not known
    One row an end; NaN while it is absent:
      transmitter_position_m, receiver_position_m             float64 x 3, file coordinates
    Returns 1; 0 with an error of code USAGE where there is no such column. */
 int wavetracer_frame_column(const wavetracer_frame* self, const char* name, wavetracer_column* column,
                             wavetracer_error** error);
+
+/* Number and names of the radars ([[radar]]); 0 and null as above. */
+size_t wavetracer_radar_count(const wavetracer_simulation* self);
+const char* wavetracer_radar_name(const wavetracer_simulation* self, size_t index);
+/* The cube of row `row` of the radars of a frame, complex128 in roots of watts: one row per receiving antenna,
+   transmitting antenna and Doppler shift, one value per delay. shape: set to the numbers of receiving and transmitting
+   antennas, Doppler shifts and delays; antenna number = port * elements + element. A radar with cube = false has no
+   rows, and its shape is set all the same. Returns 1, or 0 with an error of code USAGE. */
+int wavetracer_frame_radar_cube(const wavetracer_frame* self, size_t row, size_t shape[4], wavetracer_column* cube,
+                                wavetracer_error** error);
+/* An axis of the same cube, float64: "delay_s", "range_m", "doppler_hz" or "speed_m_s". Returns as above. */
+int wavetracer_frame_radar_axis(const wavetracer_frame* self, size_t row, const char* name, wavetracer_column* axis,
+                                wavetracer_error** error);
 
 /* Number of elements of an end's array ([[array]]); 1 for an end without one, 0 if self is null or the index is too
    large. */

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._cube import Cube
+from ._radar_row import Radar, radar_of_answer
 from .errors import ConfigError
 from .links import Links
 
@@ -105,26 +105,6 @@ def _radar_of(radar: dict[str, Any]) -> dict[str, Any]:
     return out
 
 
-class Radar:
-    """A link of a radar and its echoes. `name` is that of its [[radar]], `tx` and `rx` are the names of its ends, `left_out`
-    says how many paths were too long for its waveform. detections: a dict of columns, by falling power, as
-    Cube.detections() has them, and `azimuth_rad` and `elevation_rad`, NaN where the array cannot tell them. cube: with
-    radar="cubes" a wavetracer.radar.Cube, else None."""
-
-    def __init__(self, radar: dict[str, Any]):
-        self.name, self.tx, self.rx = str(radar["radar"]), str(radar["tx"]), str(radar["rx"])
-        self.left_out = int(radar["left_out"][0])
-        self.detections: dict[str, Array] = dict(radar["detections"])
-        self.cube: Cube | None = None
-        if "cube" in radar:
-            shape = (*(int(count) for count in radar["antennas"]), len(radar["doppler_hz"]), len(radar["delay_s"]))
-            values = np.ascontiguousarray(radar["cube"]).view(np.complex128).reshape(shape)
-            self.cube = Cube(values, radar["delay_s"], radar["doppler_hz"], float(radar["frequency_hz"][0]), self.left_out)
-
-    def __repr__(self) -> str:
-        return f"<wavetracer.live.Radar {self.name}, {self.tx} to {self.rx}: {len(self.detections['range_m'])} detections>"
-
-
 class Channels:
     """The channels of one instant. `links`, `paths` and `vertices` are dicts of columns.
 
@@ -157,7 +137,7 @@ class Channels:
         if self.vertices:
             self.vertices["position_m"] = self.vertices["position_m"].reshape(-1, 3)
 
-        self.radars: list[Radar] = [Radar(radar) for radar in columns.get("radars", [])]
+        self.radars: list[Radar] = [radar_of_answer(radar) for radar in columns.get("radars", [])]
 
     def __len__(self) -> int:
         """The number of links."""

@@ -12,13 +12,18 @@ from numpy.typing import NDArray
 
 from ._arguments import Unique, encoded, shown
 from ._columns import read_only
+from ._cube import Cube
 from ._library import Column, Counts, Handle, call, library
+from ._radar_row import Radar
 from .errors import ArgumentError, ConfigError
 from .gradients import Raw
 from .links import Ends, Links
 from .paths import Paths
 
 Array = NDArray[Any]
+
+_DETECTION_COLUMNS = ("range_m", "delay_s", "speed_m_s", "doppler_hz", "power_dbm", "threshold_dbm", "azimuth_rad",
+                      "elevation_rad")
 
 # Delays and amplitudes of rows of a frame between all pairs of elements; see Simulation._between_elements.
 Elements = Callable[[int, Array, tuple[int, int]], tuple[Array, Array]]
@@ -46,9 +51,21 @@ class _Columns(Unique):
         values = read_only(column, self)  # the view keeps these columns, and they keep the frame
         return values.reshape(column.rows, self.rx_ports, self.tx_ports) if name == "a" else values
 
+    def cube(self, row: int) -> tuple[tuple[int, int, int, int], Array]:
+        """The shape of the cube of a row of radars, and its values, none with cube = false."""
+        column, shape = Column(), (ctypes.c_size_t * 4)()
+        call(library.wavetracer_frame_radar_cube, self.handle, row, shape, ctypes.byref(column))
+        return (shape[0], shape[1], shape[2], shape[3]), read_only(column, self)
+
+    def axis(self, row: int, name: str) -> Array:
+        """An axis of the same cube."""
+        column = Column()
+        call(library.wavetracer_frame_radar_axis, self.handle, row, name.encode(), ctypes.byref(column))
+        return read_only(column, self)
+
 
 class Frame(Unique):
-    """The results of one frame: `paths`, `links`, `counts`, `missed`, `warnings`. frame["delay_s"] is any column of
+    """The results of one frame: `paths`, `links`, `radars`, `counts`, `missed`, `warnings`. frame["delay_s"] is any column of
     wavetracer.h. A frame may outlive its simulation. It cannot be pickled or copied; its paths, links and columns can.
     """
 
@@ -56,8 +73,10 @@ class Frame(Unique):
                 "Simulation.write() and open the folder")
     __iter__ = None  # it has columns by name, and no order
 
-    def __init__(self, handle: int, ends: Ends, elements: Elements | None, gradient: Gradient):
+    def __init__(self, handle: int, ends: Ends, elements: Elements | None, gradient: Gradient,
+                 radar_names: tuple[str, ...] = ()):
         self._columns = _Columns(handle)
+        self._radar_names = radar_names
         self._ends, self._elements, self._gradient = ends, elements, gradient
         self.number: int = library.wavetracer_frame_number(handle)
         self.time_s: float = library.wavetracer_frame_time_s(handle)
@@ -91,6 +110,23 @@ class Frame(Unique):
         values = {"tx": pairs[:, 0], "rx": pairs[:, 1], "paths": self["link_paths"], "los": self["link_los"] != 0}
         values |= {name: self["link_" + name] for name in Links.columns[4:]}
         return Links(values, self._ends)
+
+    @property
+    def radars(self) -> list[Radar]:
+        """The echoes that each [[radar]] receives: a Radar for each of its links in the frame. `detections` is a dict of columns, by
+        falling power; `cube` is a wavetracer.radar.Cube, or None with cube = false. Empty without [[radar]]."""
+        out = []
+        offset = self["detection_offset"]
+        for row, radar in enumerate(self["radar"]):
+            part = slice(int(offset[row]), int(offset[row + 1]))
+            shape, values = self._columns.cube(row)
+            left_out = int(self["radar_left_out"][row])
+            cube = Cube(values.reshape(shape), self._columns.axis(row, "delay_s"), self._columns.axis(row, "doppler_hz"),
+                        self._ends.frequency_hz, left_out) if len(values) else None
+            out.append(Radar(self._radar_names[radar], self._ends.transmitters[self["radar_tx"][row]],
+                             self._ends.receivers[self["radar_rx"][row]], left_out,
+                             {name: self["detection_" + name][part] for name in _DETECTION_COLUMNS}, cube))
+        return out
 
     @property
     def transmitter_position_m(self) -> Array:

@@ -93,6 +93,8 @@ class Simulation(Unique):
                                      for i in range(library.wavetracer_receiver_count(handle))]
         self.carriers_hz: list[float] = [library.wavetracer_carrier_hz(handle, i)
                                          for i in range(library.wavetracer_carrier_count(handle))]
+        self.radars: list[str] = [text(library.wavetracer_radar_name(handle, i))
+                                  for i in range(library.wavetracer_radar_count(handle))]
         self.frequency_hz = self.carriers_hz[0]
         self.device: str = text(library.wavetracer_device_name(handle))
         self.config: str = text(library.wavetracer_config_text(handle))
@@ -148,7 +150,7 @@ class Simulation(Unique):
             library.wavetracer_observe(handle, observer, None)
             try:
                 return Frame(call(library.wavetracer_run_frame, handle, number), self._ends,
-                             self._between_elements if self._arrays else None, self._gradient)
+                             self._between_elements if self._arrays else None, self._gradient, tuple(self.radars))
             except FrameStopped:
                 if failed:
                     raise failed[0] from None
