@@ -6,23 +6,18 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <utility>
 
 #include "passes/advice.hpp"
 #include "passes/tuning.hpp"
 #include "wavetracer/device/arguments.h"
+#include "wavetracer/device/curves.h"
 
 namespace wavetracer {
 namespace {
 
 constexpr uint32_t axis_bits = 20;  // bits of an axis of the curve
-
-// Every third bit, from 0 on, is one of the value's.
-uint64_t spread_bits(uint64_t value) {
-  uint64_t out = 0;
-  for (uint32_t bit = 0; bit < axis_bits; ++bit) out |= (value >> bit & 1) << (3 * bit);
-  return out;
-}
 
 void fill_last_ball(std::vector<uint32_t>& order) {
   while (order.size() % WT_TILE_BALL != 0) order.push_back(WT_NONE);
@@ -41,9 +36,8 @@ std::vector<uint32_t> order_of_tiles(const TileTable& tiles) {
   std::vector<std::pair<uint64_t, uint32_t>> keys;
   for (uint32_t i = 0; i < scene.size(); ++i) {
     const glm::dvec3 at = (scene[i].centre_m - low) / extent * static_cast<double>((1u << axis_bits) - 1);
-    keys.emplace_back(spread_bits(static_cast<uint64_t>(at.x)) | spread_bits(static_cast<uint64_t>(at.y)) << 1 |
-                          spread_bits(static_cast<uint64_t>(at.z)) << 2,
-                      i);
+    const glm::uvec3 cell(at);
+    keys.emplace_back(device::wt_morton3_encode(cell.x, cell.y, cell.z), i);
   }
   std::ranges::sort(keys);
   std::vector<uint32_t> out;
