@@ -66,20 +66,22 @@ Csv table_of(const EventList& list, const Simulation& simulation) {
   return out;
 }
 
-std::vector<double> times_of(const Simulation& simulation, const std::string& frames) {
-  const FrameRange range = parse_frames(frames, simulation.frame_count());
+// The frames of the option, of a drive of so many.
+FrameRange events_range(const std::string& frames, uint64_t frame_count) {
+  const FrameRange range = parse_frames(frames, frame_count);
   if (range.count() < 2)
     throw ConfigError("events happen between frames, and there is only one: give trajectories, and --frames A:B");
-  std::vector<double> out;
-  for (uint32_t frame = range.first; frame <= range.last; ++frame) out.push_back(simulation.time_s(frame));
-  return out;
+  return range;
 }
 
 void events(const EventOptions& options) {
+  check_frames(options.frames);
   const Config config = events_config(options);
-  Simulation simulation(config, options.device);
+  FrameRange range;
+  Simulation simulation(config, options.device, [&](uint64_t frames) { range = events_range(options.frames, frames); });
   simulation.profile_every(profiled_frames);
-  const std::vector<double> times = times_of(simulation, options.frames);
+  std::vector<double> times;
+  for (uint32_t frame = range.first; frame <= range.last; ++frame) times.push_back(simulation.time_s(frame));
   for (const std::string& warning : simulation.warnings()) std::cerr << "warning: " << warning << "\n";
   const EventList list = find_events(drive_of(simulation), times, options.choice);
   const Csv table = table_of(list, simulation);

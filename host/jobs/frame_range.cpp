@@ -32,6 +32,12 @@ std::optional<TypedRange> typed_range(const std::string& text) {
   return known && (out.first || out.last) ? std::optional(out) : std::nullopt;
 }
 
+void check_order(const std::string& text, const TypedRange& typed) {
+  if (typed.first && typed.last && *typed.first > *typed.last)
+    throw ConfigError(fmt::format("--frames {}: the first frame comes after the last; did you mean {}:{}?", text,
+                                  *typed.last, *typed.first));
+}
+
 std::string no_range(const std::string& text) {
   return fmt::format("--frames {}: give the first and the last frame as A:B, A:, :B or A", text);
 }
@@ -39,7 +45,10 @@ std::string no_range(const std::string& text) {
 }  // namespace
 
 void check_frames(const std::string& text) {
-  if (!text.empty() && !typed_range(text)) throw ConfigError(no_range(text));
+  if (text.empty()) return;
+  const std::optional<TypedRange> typed = typed_range(text);
+  if (!typed) throw ConfigError(no_range(text));
+  check_order(text, *typed);
 }
 
 FrameRange parse_frames(const std::string& text, uint64_t frame_count) {
@@ -51,9 +60,7 @@ FrameRange parse_frames(const std::string& text, uint64_t frame_count) {
   if (!typed) throw ConfigError(no_range(text) + "; " + there);
   const uint32_t first = typed->first.value_or(0), last = typed->last.value_or(end);
   if (first > end || last > end) throw ConfigError(fmt::format("--frames {}: {}", text, there));
-  if (first > last)
-    throw ConfigError(
-        fmt::format("--frames {}: the first frame comes after the last; did you mean {}:{}?", text, last, first));
+  check_order(text, {first, last});
   return {first, last};
 }
 

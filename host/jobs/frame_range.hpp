@@ -12,7 +12,7 @@ struct FrameRange {
   uint64_t count() const { return uint64_t{last} - first + 1; }
 };
 
-// Throws ConfigError for a text that is no range, whatever frames there are.
+// Throws ConfigError for a text that is no range, or ends before it begins, whatever frames there are.
 void check_frames(const std::string& text);
 
 // text: "A:B", "A:", ":B", "A", or empty for all of the frame_count frames. Throws ConfigError.

@@ -2,6 +2,7 @@
 // `wavetracer events`: refusals before anything is computed, and the table of a drive. The cases that compute are
 // skipped with a message if there is no OpenCL device.
 #include <doctest/doctest.h>
+#include <cstdlib>
 #include <sstream>
 #include <vector>
 #include "program.hpp"
@@ -48,6 +49,27 @@ TEST_CASE("events are refused without beams, without times, and where lifetimes 
   const Outcome one = run_program({"events", "-c", file, "-o", folder.path("events.csv"), "--frames", "2"});
   CHECK(one.code == 2);
   CHECK(contains(one.err, "there is only one: give trajectories, and --frames A:B"));
+}
+
+TEST_CASE("frames that the drive has not are refused before kernels are compiled, by run and events") {
+  if (!device_present()) return;
+  const Folder folder;
+  const std::string file = folder.file("a.toml", world), none = folder.path("none");
+  fs::create_directory(none);
+  REQUIRE(setenv("WAVETRACER_KERNEL_DIR", none.c_str(), 1) == 0);  // whoever compiles one fails in another way
+  const auto refused = [&](const std::string& command, const std::string& frames, const std::string& why) {
+    CAPTURE(command);
+    const Outcome out = run_program({command, "-c", file, "-o", folder.path("out"), "--frames", frames});
+    CHECK(out.code == 2);
+    CHECK(contains(out.err, why));
+  };
+  for (const char* command : {"run", "events"}) {
+    refused(command, "0:99", "--frames 0:99: this run has 7 frames, 0 to 6");
+    refused(command, "5:1", "did you mean 1:5?");
+  }
+  refused("events", "2", "there is only one: give trajectories");
+  CHECK(contains(run_program({"events", "-c", file, "-o", folder.path("out")}).err, "is in no folder of"));
+  REQUIRE(unsetenv("WAVETRACER_KERNEL_DIR") == 0);
 }
 
 TEST_CASE("events of a drive: a table by time, with the names of ends and the paths in words") {

@@ -35,3 +35,9 @@ TEST_CASE("mistakes say how many frames there are") {
     check(text, 60, "give the first and the last frame as A:B, A:, :B or A; this run has 60 frames");
   check("0:1", 1, "frame 0 only");
 }
+
+TEST_CASE("what is wrong for any number of frames is refused without it") {
+  for (const char* text : {"", "3", "2:", ":7", "3:3", "3:9"}) CHECK_NOTHROW(check_frames(text));
+  CHECK_THROWS_WITH_AS(check_frames("9:3"), doctest::Contains("did you mean 3:9?"), ConfigError);
+  CHECK_THROWS_WITH_AS(check_frames("a:3"), doctest::Contains("give the first and the last frame"), ConfigError);
+}
