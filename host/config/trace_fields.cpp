@@ -127,7 +127,7 @@ Table trace_table() {
                   "than the strongest path of its link that has no edge. The program compares an upper bound of its "
                   "gain, with the largest gains of both antennas, with the gain of that path, and it says how much the "
                   "paths that it has left out can have together. Links that have paths over edges alone keep all, and "
-                  "paths that diffraction_floor_db always keeps are kept here too. 400 leaves out none. auto: 50 with "
+                  "paths that diffraction_floor_db always keeps are kept here too. 400 leaves out none. auto: 45 with "
                   "output.paths = false, where only sums are written; else none is left out."},
           {.name = "free_edges",
            .slot = t(&TraceConfig::free_edges),

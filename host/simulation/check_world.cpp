@@ -164,6 +164,7 @@ Config check_config(const CheckedFeatures& features) {
   trace.reuse = features.reuse;
   if (features.ways != CheckedWays::none) add_ways(config, features.ways);
   if (features.beams) trace.discovery = "beams";
+  config.output.paths = !features.sums;  // so weak paths over edges are left out of sums
   if (features.ordered) {
     config.order.method = "hilbert3d-histogram";
     config.order.each_depth = true;
