@@ -43,8 +43,17 @@ inline void hide(global wt_solved* solved, const global uint* sequences, uint i,
 // the next. Legs from this number on share the last entry.
 #define PACKET_LEGS 8u
 
-// All legs of the 16 paths from `first` on. Where blockers remember what hid paths, each leg is tested alone, since the
-// tree of packets has other places.
+// The most legs of the paths from `first` on.
+inline uint most_legs(const global wt_solved* solved, uint first, uint end, uint open) {
+  uint legs = 0;
+  for (uint i = first; i < end; ++i)
+    if (solved[i].depth + 1 > open) legs = max(legs, solved[i].depth + 1 - open);
+  return legs;
+}
+
+// All legs of the 16 paths from `first` on, those at the receivers first: they hide most of the hidden paths, and the
+// other legs of these need no test. Where blockers remember what hid paths, each leg is tested alone, since the tree of
+// packets has other places.
 inline void test_paths(const global WT_NODE* nodes, const global WT_LEAF* triangles, const global float4* moving,
                        const global double4* transmitters, const global double4* receivers,
                        const global wt_exact_surface* surfaces, const global double* corners, global wt_solved* solved,
@@ -55,23 +64,30 @@ inline void test_paths(const global WT_NODE* nodes, const global WT_LEAF* triang
   const uint end = min(first + WT_SHARING, count);
   wt_leg_source source = {tables, transmitters, receivers, solved, vertices, sequences, first, args.max_depth, 0};
   wt_leg_block block;
+  int begun[WT_SHARING];  // not 0: the end of the leg is set, because it is the begin of the one before
   wt_clear_block(&block);
-  for (uint leg = 0, some = 1, packed = 0; some; ++leg) {
-    some = packed = 0;
+  for (uint lane = 0; lane < WT_SHARING; ++lane) begun[lane] = 0;
+  for (uint leg = most_legs(solved, first, end, args.open); leg-- > 0;) {
+    int packed = 0;
     source.number = leg;
-    const uint begin_side = wt_begin_side(leg);
+    const uint side = wt_begin_side(leg);
     for (uint i = first, lane = 0; lane < WT_SHARING; ++i, ++lane) {
       block.verdicts[lane] = WT_LEG_LEFT_OUT;
-      if (i >= end || leg + args.open > solved[i].depth || (leg > 0 && solved[i].blocked)) continue;
-      some = 1;
+      if (i >= end || leg + args.open > solved[i].depth) continue;
+      const int asked = leg == 0 && i + 1 < end && wt_shares_first_leg(solved, sequences, args.max_depth, i + 1);
+      if (solved[i].blocked && !asked) {
+        begun[lane] = 0;
+        continue;
+      }
       const size_t row = (size_t)i * args.max_depth;
-      const int from_mirror = leg == 0 || block.mirrors[lane];
-      if (leg == 0)
-        wt_set_stop(&block, begin_side, lane, surfaces, solved + i, 0, vertices + 3 * row, sequences + row,
-                    transmitters, receivers);
-      block.mirrors[lane] = wt_set_stop(&block, 1 - begin_side, lane, surfaces, solved + i, leg + 1, vertices + 3 * row,
+      if (!begun[lane])
+        block.mirrors[lane] = wt_set_stop(&block, 1 - side, lane, surfaces, solved + i, leg + 1, vertices + 3 * row,
+                                          sequences + row, transmitters, receivers);
+      const int to_mirror = block.mirrors[lane];
+      block.mirrors[lane] = wt_set_stop(&block, side, lane, surfaces, solved + i, leg, vertices + 3 * row,
                                         sequences + row, transmitters, receivers);
-      block.plain[lane] = from_mirror && block.mirrors[lane];
+      block.plain[lane] = to_mirror && block.mirrors[lane];
+      begun[lane] = 1;
       if (leg == 0 && wt_shares_first_leg(solved, sequences, args.max_depth, i)) continue;
       block.verdicts[lane] = blockers ? WT_LEG_UNSURE : WT_LEG_FREE;
       packed |= block.verdicts[lane] == WT_LEG_FREE;

@@ -18,8 +18,9 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from ._live_columns import Channels, Radar, columns_of, read_cbor
+from ._live_columns import Channels, columns_of, read_cbor
 from ._live_socket import Line, LiveError, Lost
+from ._radar_row import Radar
 from .errors import ConfigError, Error, InputError
 
 __all__ = ["Channels", "Error", "LiveClient", "LiveError", "Radar", "add_arguments", "connect", "read_token"]
